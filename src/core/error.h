@@ -1,0 +1,32 @@
+// The two kinds of failure that a user can meet; the third, a broken contract, is in check.h.
+// A library layer throws one of these and never prints or exits: `app/` turns them into text and an exit code.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace tumble {
+
+/// A place in a text file, for error messages. Lines and columns count from 1; 0 means unknown.
+struct SourceLocation {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+
+/// The input or the usage is wrong: exit code 2, and nothing has been written.
+/// what() reads "FILE:LINE:COLUMN: error: message" where the place is known, else "error: message".
+class InputError : public std::runtime_error {
+public:
+    explicit InputError(const std::string& message);
+    InputError(const SourceLocation& where, const std::string& message);
+};
+
+/// The run failed: the environment (a full disk, no ffmpeg) or the numbers (a body that went NaN).
+/// Exit code 1; frames that were finished before stay. what() reads "error: message".
+class RunError : public std::runtime_error {
+public:
+    explicit RunError(const std::string& message);
+};
+
+}  // namespace tumble

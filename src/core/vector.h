@@ -1,0 +1,37 @@
+// The vectors, matrices and quaternions of everything but drawing: Eigen's, in double precision.
+// World frame unless a name says otherwise; SI units; y is up by convention of the scene files.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <limits>
+
+namespace tumble {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+using Quat = Eigen::Quaterniond;   // w first in its constructor and in our files
+
+/// An axis-aligned box. Empty (min > max) until something is added.
+struct Bounds {
+    Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+    bool empty() const { return (min.array() > max.array()).any(); }
+    Vec3 center() const { return 0.5 * (min + max); }
+    Vec3 extent() const { return max - min; }
+    void add(const Vec3& p) { min = min.cwiseMin(p); max = max.cwiseMax(p); }
+    void add(const Bounds& b) { min = min.cwiseMin(b.min); max = max.cwiseMax(b.max); }
+    bool overlaps(const Bounds& b) const {
+        return (min.array() <= b.max.array()).all() && (b.min.array() <= max.array()).all();
+    }
+    Bounds grown(double margin) const {
+        Bounds b = *this;
+        b.min.array() -= margin;
+        b.max.array() += margin;
+        return b;
+    }
+};
+
+}  // namespace tumble

@@ -1,0 +1,160 @@
+// A scene as plain values: what the file says, checked, with every default filled in and every mesh loaded.
+// Made by load_scene() and immutable from there on. The simulation reads its bodies, the renderer its looks.
+// SI units, world frame unless said otherwise, y up; colours sRGB.
+#pragma once
+
+#include "core/color.h"
+#include "core/triangle_mesh.h"
+#include "core/vector.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+enum class IntegratorKind { explicit_euler, symplectic_euler };
+enum class ImpactMode { stepped };
+/// How the state holds a rotation (notes sections 1 and 3.1).
+enum class RotationForm { quaternion, matrix };
+
+struct SimulationSettings {
+    double duration = 5.0;          // s
+    int steps_per_frame = 16;       // the fixed step is h = 1 / (fps * steps_per_frame)
+    Vec3 gravity{0.0, -9.81, 0.0};  // m/s^2
+    IntegratorKind integrator = IntegratorKind::symplectic_euler;
+    ImpactMode impacts = ImpactMode::stepped;
+    RotationForm rotation = RotationForm::quaternion;
+    bool sleep = true;              // bodies at rest leave the loop until touched
+    std::uint64_t seed = 1;
+};
+
+struct OutputSettings {
+    int width = 1280, height = 720;   // pixels
+    double fps = 60.0;                // frames per second
+    int samples = 4;                  // samples per pixel
+};
+
+struct CameraDescription {
+    Vec3 eye, target, up{0.0, 1.0, 0.0};
+    double vertical_fov = 40.0;   // degrees
+};
+
+struct LightDescription {
+    Vec3 direction{-0.4, -1.0, -0.3};   // the way the light travels; need not be of unit length
+    bool shadows = true;
+};
+
+/// A uniform wind and the air it moves: F = 1/2 density drag A |w - v| (w - v) at the centre of mass, where A is the
+/// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). No wind table: no air.
+struct WindDescription {
+    Vec3 velocity = Vec3::Zero();   // m/s
+    double density = 1.2;           // kg/m^3
+    double drag = 1.0;              // drag coefficient
+};
+
+/// A force at a point of a body over a time span [start, end) in s (notes eq. 6).
+struct ForceDescription {
+    std::size_t body = 0;             // index into bodies
+    Vec3 point = Vec3::Zero();        // body frame, from the body's origin
+    Vec3 force = Vec3::Zero();        // N
+    bool body_frame = false;          // the force turns with the body; else it is a world vector
+    double start = 0.0;
+    double end = 0.0;                 // infinity: for ever
+};
+
+enum class BodyType { dynamic, fixed, kinematic };
+
+/// What a mesh file holds, in the file's own frame times the body's scale. Shared by the bodies that use it.
+struct MeshAsset {
+    std::string file;                 // as resolved
+    TriangleMesh surface;             // welded: for masses, hulls and contact
+    struct Vertex {
+        float position[3];
+        float normal[3];              // unit; made where the file has none
+    };
+    std::vector<Vertex> vertices;     // for drawing
+    std::vector<std::uint32_t> indices;
+};
+
+struct PlaneShape {
+    Vec3 normal{0.0, 1.0, 0.0};   // unit, body frame
+    double offset = 0.0;          // m: points p with normal . p = offset; solid below
+};
+struct BoxShape {
+    Vec3 size;                    // full edge lengths, m
+};
+struct SphereShape {
+    double radius;                // m
+};
+struct MeshShape {
+    std::shared_ptr<const MeshAsset> asset;
+};
+using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape>;
+
+enum class Pattern { plain, grid, checker };
+
+/// How a body looks.
+struct Surface {
+    Color color{200, 200, 200};
+    double roughness = 0.6;       // 0 mirror .. 1 chalk
+    double metallic = 0.0;        // 0 or 1, or between
+    Pattern pattern = Pattern::plain;   // planes default to grid
+    bool visible = true;
+};
+
+/// A pose of a kinematic body's origin at a time.
+struct Keyframe {
+    double time = 0.0;            // s, increasing
+    Vec3 position = Vec3::Zero();
+    Quat rotation = Quat::Identity();
+};
+enum class Interpolation { smooth, linear };
+
+struct BodyDescription {
+    std::string name;             // given, or the index in the expanded list
+    BodyType type = BodyType::dynamic;
+    Shape shape;
+    Surface surface;
+    double density = 1000.0;      // kg/m^3, of the volume; not used when mass is given
+    std::optional<double> mass;   // kg
+    double restitution = 0.5;     // 0..1; a pair uses the larger
+    double friction = 0.0;        // >= 0; a pair uses sqrt(a b)
+    Vec3 position = Vec3::Zero(); // of the body's origin
+    Quat rotation = Quat::Identity();
+    Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
+    Vec3 angular_velocity = Vec3::Zero(); // rad/s
+    std::vector<Keyframe> keyframes;      // kinematic bodies only; empty: it stands still
+    Interpolation interpolation = Interpolation::smooth;
+};
+
+/// A thin cord that is only drawn: from a fixed point to a point of a body.
+struct CordDescription {
+    std::size_t body = 0;
+    Vec3 point = Vec3::Zero();    // body frame, from the body's origin
+    Vec3 anchor = Vec3::Zero();   // world frame
+    double radius = 0.01;         // m
+    Color color{60, 60, 60};
+};
+
+struct SceneDescription {
+    std::string file;             // where it came from, for messages
+    std::string title;
+    SimulationSettings simulation;
+    OutputSettings output;
+    CameraDescription camera;     // the file's, or one that shows everything
+    LightDescription light;
+    std::optional<WindDescription> wind;
+    std::vector<ForceDescription> forces;
+    std::vector<BodyDescription> bodies;   // grids and scatters already expanded
+    std::vector<CordDescription> cords;
+
+    double step() const { return 1.0 / (output.fps * simulation.steps_per_frame); }   // s
+    /// Frame n shows n / fps; the last one is at or before the duration (rounding forgiven: 4.35 s at 100 fps has 436).
+    std::int64_t frame_count() const;
+};
+
+}  // namespace tumble

@@ -1,0 +1,27 @@
+// From a scene file to a checked description: parse, check, resolve.
+#pragma once
+
+#include "scene/description.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace tumble {
+
+/// What the command line may say in place of the file. Each is checked like the file's own value;
+/// an error names the option ("--fps: ...").
+struct SceneOverrides {
+    std::optional<double> duration, fps, step;
+    std::optional<int> steps_per_frame, width, height, samples;
+    std::optional<std::string> integrator, impacts;
+};
+
+/// Throws InputError with file, line and column for anything the format forbids: nothing is guessed.
+SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+
+/// The same from text, for tests; relative mesh paths are resolved against the folder of `file`.
+SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
+                             const SceneOverrides& overrides = {});
+
+}  // namespace tumble
