@@ -1,0 +1,79 @@
+#include "output/temporary_file.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int error) {
+    throw RunError(fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)));
+}
+
+/// A link is written through: the name it points to is the one to replace.
+fs::path resolved(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_symlink(path, ignored)) return path;
+    const fs::path target = fs::weakly_canonical(path, ignored);
+    return ignored ? path : target;
+}
+
+bool is_special(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status) || fs::is_block_file(status);
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(const fs::path& final_path) : final_path_(resolved(final_path)) {
+    std::error_code ignored;
+    if (fs::is_directory(final_path_, ignored)) fail(final_path_, EISDIR);
+    in_place_ = is_special(final_path_);
+    // The process number keeps two runs that write to one name apart.
+    path_ = in_place_ ? final_path_
+                      : final_path_.parent_path() / fmt::format(".{}.part-{}{}", final_path_.stem().string(), getpid(),
+                                                                final_path_.extension().string());
+    const int how = in_place_ ? O_WRONLY : O_WRONLY | O_CREAT | O_TRUNC;
+    file_ = ::open(path_.c_str(), how | O_CLOEXEC, 0666);
+    if (file_ < 0) fail(final_path_, errno);
+}
+
+TemporaryFile::~TemporaryFile() {
+    if (file_ >= 0) ::close(file_);
+    if (!done_ && !in_place_) ::unlink(path_.c_str());
+}
+
+void TemporaryFile::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(file_, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail(final_path_, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+}
+
+void TemporaryFile::close_file() {
+    const int file = file_;
+    file_ = -1;
+    // Network file systems report a full disk only here.
+    if (::close(file) != 0 && errno != EINTR) fail(final_path_, errno);
+}
+
+void TemporaryFile::commit() {
+    close_file();
+    if (!in_place_ && ::rename(path_.c_str(), final_path_.c_str()) != 0) fail(final_path_, errno);
+    done_ = true;
+}
+
+}  // namespace tumble

@@ -1,0 +1,123 @@
+#include "output/video_format.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+constexpr std::int64_t largest_part = 1'000'000;   // ffmpeg reads rates with parts up to 1,001,000
+constexpr double slowest = 0.001;                  // frames/s: players give up on longer frames, GIF at 655 s
+constexpr double fastest = 1e6;                    // frames/s: the scene format's own limit
+constexpr double fastest_matroska = 1000.0;        // its time stamps are whole milliseconds
+constexpr double fastest_gif = 50.0;               // its delays are whole 1/100 s, and players take 1 for 10
+
+void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+/// ffmpeg takes "name:rest" for a protocol and a leading "-" for an option; this form is always a file.
+std::string file_argument(const fs::path& path) { return "file:" + path.string(); }
+
+Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
+
+Arguments codec(VideoKind kind) {
+    switch (kind) {
+        // The bytes depend on the number of threads: it is fixed. CRF 18 cannot be told from the frames by eye.
+        case VideoKind::h264:
+            return {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-threads", "4", "-pix_fmt", "yuv420p"};
+        // "good" quality took six times as long for two thirds of the bytes.
+        case VideoKind::vp9:
+            return {"-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "8",       "-crf",     "30",
+                    "-b:v", "0",          "-row-mt",   "1",        "-threads",  "4",       "-pix_fmt", "yuv420p"};
+        case VideoKind::gif: return {"-c:v", "libx264rgb", "-preset", "ultrafast", "-qp", "0", "-threads", "4"};
+    }
+    return {};
+}
+
+/// The continued fraction of x, cut off before a part grows beyond `limit`.
+FrameRate best_fraction(double x, std::int64_t limit) {
+    std::int64_t n0 = 0, d0 = 1, n1 = 1, d1 = 0;
+    double rest = x;
+    for (int i = 0; i < 64; ++i) {
+        const double whole = std::floor(rest);
+        if (whole > double(limit)) break;
+        const auto a = static_cast<std::int64_t>(whole);
+        const std::int64_t n2 = a * n1 + n0, d2 = a * d1 + d0;
+        if (n2 > limit || d2 > limit) break;
+        n0 = n1; d0 = d1;
+        n1 = n2; d1 = d2;
+        // Beyond double's own rounding the digits mean nothing: 29.97 is 2997/100, not what lies 1e-15 beside it.
+        if (std::fabs(double(n1) / double(d1) - x) <= 1e-12 * x) break;
+        rest = 1.0 / (rest - whole);
+    }
+    return {n1, d1};
+}
+
+}  // namespace
+
+std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, denominator); }
+
+FrameRate to_frame_rate(double fps) {
+    // Below 1 the first term would be 0; its reciprocal has the same digits.
+    if (fps >= 1.0) return best_fraction(fps, largest_part);
+    const FrameRate upside_down = best_fraction(1.0 / fps, largest_part);
+    return {upside_down.denominator, upside_down.numerator};
+}
+
+VideoFormat video_format(const fs::path& clip, double fps) {
+    std::string ending = clip.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const SourceLocation at{clip.string(), 0, 0};
+
+    VideoFormat format;
+    double limit = fastest;
+    if (ending == ".mp4" || ending == ".mov") format.kind = VideoKind::h264;
+    else if (ending == ".mkv") limit = fastest_matroska;
+    else if (ending == ".webm") { format.kind = VideoKind::vp9; limit = fastest_matroska; }
+    else if (ending == ".gif") { format.kind = VideoKind::gif; format.even_size = false; }
+    else throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
+                                          "(the ending was '{}')", ending));
+    if (!(fps >= slowest && fps <= limit))
+        throw InputError(at, fmt::format("a {} clip holds {} to {} frames a second ({} were asked for{})", ending,
+                                         slowest, limit, fps,
+                                         limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
+
+    if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));
+    format.rate = to_frame_rate(fps / format.frame_step);
+    return format;
+}
+
+Arguments encoding_arguments(const VideoFormat& format, int width, int height, const fs::path& output) {
+    Arguments arguments = common();
+    append(arguments, {"-f", "rawvideo", "-pix_fmt", "rgb0", "-video_size", fmt::format("{}x{}", width, height),
+                       "-framerate", format.rate.text(), "-i", "pipe:0", "-an"});
+    if (format.kind != VideoKind::gif)
+        // ffmpeg's own choice would be BT.601 without a tag, which players show in other colours.
+        append(arguments, {"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
+                           "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+    append(arguments, codec(format.kind));
+    // No dates and versions in the file: the same frames give the same bytes.
+    append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
+    const std::string ending = output.extension().string();
+    if (ending == ".mp4" || ending == ".mov") append(arguments, {"-movflags", "+faststart"});   // plays while it loads
+    arguments.push_back(file_argument(output));
+    return arguments;
+}
+
+Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
+    Arguments arguments = common();
+    append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
+                       // An ordered pattern does not crawl from frame to frame, and what stands still compresses.
+                       "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+                       "-map_metadata", "-1", "-fflags", "+bitexact", file_argument(output)});
+    return arguments;
+}
+
+}  // namespace tumble

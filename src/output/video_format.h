@@ -1,0 +1,45 @@
+// What a clip's ending asks for: the container, the codec and its settings, as arguments of the ffmpeg program.
+//
+// .mp4 .mov .mkv   H.264 (x264 veryfast), 4:2:0, BT.709: plays everywhere
+// .webm            VP9 (real-time settings), 4:2:0, BT.709
+// .gif             256 colours chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A frame rate as containers keep it.
+struct FrameRate {
+    std::int64_t numerator = 60;     // frames
+    std::int64_t denominator = 1;    // s
+    std::string text() const;        // "30000/1001"
+    friend bool operator==(const FrameRate&, const FrameRate&) = default;
+};
+
+/// The closest fraction with both parts at most a million (the most ffmpeg takes): 29.97 is 2997/100.
+FrameRate to_frame_rate(double fps);
+
+enum class VideoKind { h264, vp9, gif };
+
+struct VideoFormat {
+    VideoKind kind = VideoKind::h264;
+    FrameRate rate;          // of the clip
+    int frame_step = 1;      // only every so manieth frame enters the clip, where the format cannot hold them all
+    bool even_size = true;   // chroma is kept for squares of 2 x 2 pixels: odd sizes grow by a repeated edge
+};
+
+/// Throws InputError where the ending is unknown, or the format cannot keep so many or so few frames a second.
+VideoFormat video_format(const std::filesystem::path& clip, double fps);
+
+/// Arguments that make ffmpeg read raw frames (R, G, B and an unused byte) from its standard input into `output`.
+/// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
+/// when all frames are, and reading them twice keeps memory flat.
+std::vector<std::string> encoding_arguments(const VideoFormat& format, int width, int height,
+                                            const std::filesystem::path& output);
+std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
+
+}  // namespace tumble
