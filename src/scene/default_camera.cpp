@@ -1,0 +1,165 @@
+#include "scene/default_camera.h"
+
+#include "core/elementary.h"
+#include "scene/shape_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+// Looks: chosen by eye on the demo scenes.
+constexpr double azimuth = 28.0;       // degrees to the right of the front
+constexpr double elevation = 17.0;     // degrees above the horizon: ground fills the lower two thirds
+constexpr double used_part = 0.86;     // of the picture's half width and height; the rest is a margin
+constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all that moves is ground
+
+constexpr double degrees = pi / 180.0;
+
+struct Axes {
+    Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the picture)
+};
+
+Axes view_axes(const Vec3& up) {
+    const Vec3 front = std::fabs(up.z()) < 0.9 ? Vec3(0.0, 0.0, 1.0) : Vec3(0.0, -1.0, 0.0);
+    const Vec3 level_front = (front - up * up.dot(front)).normalized();
+    const Vec3 level_right = up.cross(level_front);
+    const SinCos a = sincos(azimuth * degrees), e = sincos(elevation * degrees);
+    Axes axes;
+    axes.forward = -(e.cos * (a.cos * level_front + a.sin * level_right) + e.sin * up);
+    axes.right = axes.forward.cross(up).normalized();
+    axes.up = axes.right.cross(axes.forward);
+    return axes;
+}
+
+/// The corners of the shape's bounds, placed in the world.
+void add_corners(const Bounds& local, const Vec3& position, const Quat& rotation, std::vector<Vec3>& points) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? local.max.x() : local.min.x(), corner & 2 ? local.max.y() : local.min.y(),
+                     corner & 4 ? local.max.z() : local.min.z());
+        points.push_back(position + rotation * p);
+    }
+}
+
+Bounds bounds_of(const std::vector<Vec3>& points) {
+    Bounds bounds;
+    for (const Vec3& p : points) bounds.add(p);
+    return bounds;
+}
+
+/// A fixed plane that bodies can land on.
+struct Ground {
+    Vec3 normal;     // unit, world frame
+    double offset;   // m, along the normal
+};
+
+std::vector<Ground> grounds_below(const SceneDescription& scene, const Vec3& down) {
+    std::vector<Ground> grounds;
+    for (const BodyDescription& body : scene.bodies) {
+        const auto* plane = std::get_if<PlaneShape>(&body.shape);
+        if (!plane) continue;
+        const Vec3 normal = body.rotation * plane->normal;
+        if (-normal.dot(down) < 0.5) continue;   // steeper than 60 degrees: a wall
+        grounds.push_back({normal, plane->offset + normal.dot(body.position)});
+    }
+    return grounds;
+}
+
+/// The way along `down` to the nearest ground beneath the point; 0 without one.
+double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const Vec3& down) {
+    double drop = 0.0;
+    for (const Ground& ground : grounds) {
+        const double distance = (ground.normal.dot(point) - ground.offset) / -ground.normal.dot(down);
+        if (distance > 0.0 && (drop == 0.0 || distance < drop)) drop = distance;
+    }
+    return drop;
+}
+
+/// Local bounds, those of a mesh found once for all bodies that share it.
+class BoundsOfShapes {
+public:
+    Bounds operator()(const Shape& shape) {
+        const auto* mesh = std::get_if<MeshShape>(&shape);
+        if (!mesh) return local_bounds(shape);
+        const auto [entry, is_new] = known_.try_emplace(mesh->asset.get());
+        if (is_new) entry->second = local_bounds(shape);
+        return entry->second;
+    }
+
+private:
+    std::map<const MeshAsset*, Bounds> known_;
+};
+
+std::vector<Vec3> moving_points(const SceneDescription& scene) {
+    const Vec3& gravity = scene.simulation.gravity;
+    const Vec3 down = gravity.norm() > 0.0 ? gravity.normalized() : Vec3(0.0, -1.0, 0.0);
+    const std::vector<Ground> grounds = grounds_below(scene, down);
+    BoundsOfShapes bounds_of_shape;
+    std::vector<Vec3> points;
+    for (const BodyDescription& body : scene.bodies) {
+        if (body.type == BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        const Bounds local = bounds_of_shape(body.shape);
+        add_corners(local, body.position, body.rotation, points);
+        for (const Keyframe& key : body.keyframes) add_corners(local, key.position, key.rotation, points);
+        if (body.type != BodyType::dynamic) continue;
+        const Vec3 middle = body.position + body.rotation * local.center();
+        if (const double drop = drop_height(grounds, middle, down); drop > 0.0) points.push_back(middle + down * drop);
+    }
+    return points;
+}
+
+std::vector<Vec3> points_of_note(const SceneDescription& scene) {
+    std::vector<Vec3> points = moving_points(scene);
+    const Bounds moving = bounds_of(points);
+    const double reach = points.empty() ? 0.0 : moving.extent().norm();
+    BoundsOfShapes bounds_of_shape;
+    for (const BodyDescription& body : scene.bodies) {
+        if (body.type != BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        std::vector<Vec3> corners;
+        add_corners(bounds_of_shape(body.shape), body.position, body.rotation, corners);
+        const Bounds bounds = bounds_of(corners);
+        if (moving.empty() || bounds.extent().norm() < ground_factor * reach) {
+            points.insert(points.end(), corners.begin(), corners.end());
+        } else if (const Bounds near = moving.grown(0.25 * reach); bounds.overlaps(near)) {
+            const Bounds part{bounds.min.cwiseMax(near.min), bounds.max.cwiseMin(near.max)};
+            add_corners(part, Vec3::Zero(), Quat::Identity(), points);
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens) {
+    CameraDescription camera = lens;
+    const Axes axes = view_axes(lens.up.normalized());
+    std::vector<Vec3> points = points_of_note(scene);
+    if (points.empty()) points = {Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)};   // a stage of usual size, at the origin
+
+    const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
+    const double tangent_y = used_part * half.sin / half.cos;
+    const double tangent_x = tangent_y * scene.output.width / scene.output.height;
+
+    // A point p is in view from the eye e when |(p - e).right| <= tangent_x (p - e).forward, and so for up: four half
+    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and centre it.
+    double right = -1e300, left = -1e300, top = -1e300, bottom = -1e300;
+    double nearest = 1e300, farthest = -1e300;
+    for (const Vec3& p : points) {
+        const double x = p.dot(axes.right), y = p.dot(axes.up), z = p.dot(axes.forward);
+        right = std::max(right, x - tangent_x * z);
+        left = std::max(left, -x - tangent_x * z);
+        top = std::max(top, y - tangent_y * z);
+        bottom = std::max(bottom, -y - tangent_y * z);
+        nearest = std::min(nearest, z);
+        farthest = std::max(farthest, z);
+    }
+    const double depth = std::min(-(right + left) / (2.0 * tangent_x), -(top + bottom) / (2.0 * tangent_y));
+    camera.eye = axes.right * (0.5 * (right - left)) + axes.up * (0.5 * (top - bottom)) + axes.forward * depth;
+    camera.target = camera.eye + axes.forward * (0.5 * (nearest + farthest) - depth);
+    return camera;
+}
+
+}  // namespace tumble

@@ -1,0 +1,13 @@
+// A camera for scenes that name none: from the front, a little to the right and above, as near as the bodies allow.
+#pragma once
+
+#include "scene/description.h"
+
+namespace tumble {
+
+/// Keeps `lens.up` and `lens.vertical_fov` and chooses eye and target so that everything of note is in the picture:
+/// all bodies but planes, moving ones at their start, at their keyframes and where they would drop to. Of a ground
+/// made of a body (fixed, and many times larger than all that moves) only the part near the moving bodies counts.
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens);
+
+}  // namespace tumble

@@ -1,0 +1,72 @@
+#include "scene/load.h"
+
+#include "scene/attachments.h"
+#include "scene/bodies.h"
+#include "scene/limits.h"
+#include "scene/materials.h"
+#include "scene/run_settings.h"
+#include "scene/toml_reader.h"
+#include "scene/view_settings.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace tumble {
+namespace {
+
+void check_format(const TomlTable& root) {
+    constexpr std::int64_t readable = 1;
+    const auto format = root.find("format");
+    if (!format) throw InputError(root.origin().where, "a scene starts with \"format = 1\" (not given)");
+    const std::int64_t number = format->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
+    if (number != readable) format->fail(fmt::format("must be {}, the only one there is", readable));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    const SourceLocation whole{file.string(), 0, 0};
+    const auto fail = [&](const std::string& problem) { throw InputError(whole, "the scene " + problem); };
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) fail("is a folder, not a file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    std::string text;
+    char block[1 << 16];
+    while (stream.read(block, sizeof block), stream.gcount() > 0) {
+        text.append(block, static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > static_cast<std::size_t>(limits::scene_bytes)) {
+            fail(fmt::format("is larger than {} MiB", limits::scene_bytes >> 20));
+        }
+    }
+    if (stream.bad()) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    return text;
+}
+
+}  // namespace
+
+SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file, const SceneOverrides& overrides) {
+    const toml::table document = parse_toml(text, file.string());
+    const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
+    check_format(root);
+    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body", "force", "cord"});
+
+    SceneDescription scene;
+    scene.file = file.string();
+    root.read("title", scene.title);
+    read_run_settings(root, overrides, scene.simulation, scene.output);
+    scene.light = read_light(root);
+    scene.wind = read_wind(root);
+    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed);
+    read_forces(root, scene);
+    read_cords(root, scene);
+    scene.camera = read_camera(root, scene);
+    return scene;
+}
+
+SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides) {
+    return parse_scene(read_text(file), file, overrides);
+}
+
+}  // namespace tumble

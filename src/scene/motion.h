@@ -1,0 +1,16 @@
+// Where a body is and how it starts to move; the keyframes of a kinematic one.
+#pragma once
+
+#include "scene/description.h"
+#include "scene/toml_reader.h"
+
+namespace tumble {
+
+/// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
+/// With keyframes, its pose is that of the first.
+void read_motion(const TomlTable& table, BodyDescription& body);
+
+/// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is made 1), or `{ axis = [...], angle = degrees }`.
+Quat read_rotation(const TomlValue& value);
+
+}  // namespace tumble

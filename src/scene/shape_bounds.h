@@ -1,0 +1,19 @@
+// The extent of shapes in their own frame; planes are endless and have none.
+#pragma once
+
+#include "scene/description.h"
+
+namespace tumble {
+
+struct BoundingSphere {
+    Vec3 center = Vec3::Zero();   // body frame
+    double radius = 0.0;          // m
+};
+
+/// The smallest axis-aligned box around the shape; empty for a plane.
+Bounds local_bounds(const Shape& shape);
+
+/// A sphere around the shape, exact for boxes and spheres; about the centre of its bounds for meshes. Not for planes.
+BoundingSphere bounding_sphere(const Shape& shape);
+
+}  // namespace tumble
