@@ -1,0 +1,65 @@
+// A rigid body in motion (notes section 1): what it is, its state X = (x, R or q, P, L), and what follows from the state.
+// World frame unless said otherwise; the body frame has its origin at the centre of mass.
+#pragma once
+
+#include "core/vector.h"
+#include "scene/description.h"
+#include "sim/collision/collider.h"
+#include "sim/keyframe_track.h"
+
+#include <memory>
+#include <string>
+
+namespace tumble {
+
+struct Body {
+    // What it is.
+    std::string name;
+    BodyType type = BodyType::dynamic;
+    Collider collider;
+    double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
+    Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
+    Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
+    double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
+    double restitution = 0.0, friction = 0.0;
+    double drag_area = 0.0;                  // m^2, mean projected area
+    std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
+
+    // State (notes eq. 1). Both forms of the rotation are kept; the world's settings say which one is integrated and
+    // which follows from it.
+    Vec3 position = Vec3::Zero();            // x, of the centre of mass
+    Quat orientation = Quat::Identity();     // q
+    Mat3 rotation = Mat3::Identity();        // R
+    Vec3 momentum = Vec3::Zero();            // P, kg m/s
+    Vec3 angular_momentum = Vec3::Zero();    // L, kg m^2/s
+
+    // Derived (notes eqs. 2 to 4).
+    Vec3 velocity = Vec3::Zero();            // m/s
+    Vec3 angular_velocity = Vec3::Zero();    // rad/s
+    Mat3 inverse_inertia = Mat3::Zero();     // world frame
+    // Position correction of this step: moves the pose and leaves the momenta alone.
+    Vec3 push_velocity = Vec3::Zero();
+    Vec3 push_angular_velocity = Vec3::Zero();
+
+    bool asleep = false;
+
+    bool dynamic() const { return type == BodyType::dynamic; }
+    bool moves() const { return dynamic() || track != nullptr; }
+    Pose pose() const { return {position, rotation}; }
+    Vec3 origin() const { return position - rotation * center_of_mass; }
+
+    /// Velocity of the body's point at r = p - x (notes section 4).
+    Vec3 point_velocity(const Vec3& r) const { return velocity + angular_velocity.cross(r); }
+
+    /// Eqs. 2 to 4: velocities and the world inertia from the state. Only for dynamic bodies.
+    void derive();
+};
+
+/// v = P / M, I^-1(t) = R I^-1 R^T, omega = I^-1(t) L.
+inline void Body::derive() {
+    velocity = momentum * inverse_mass;
+    inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
+    angular_velocity = inverse_inertia * angular_momentum;
+}
+
+}  // namespace tumble

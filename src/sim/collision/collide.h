@@ -1,0 +1,49 @@
+// The narrow phase: exact manifolds between two posed shapes. Every pair of shapes is here, whichever comes first.
+#pragma once
+
+#include "sim/collision/clip.h"
+#include "sim/collision/collider.h"
+#include "sim/collision/manifold.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// Working space, kept from pair to pair so that nothing is allocated in the loop.
+struct CollisionScratch {
+    std::vector<ContactPoint> points;
+    std::vector<ClipVertex> polygon, spare;
+    std::vector<Vec3> reference, incident;
+    std::vector<std::uint32_t> labels, vertices, edges_a, edges_b;
+    struct SurfaceHit {
+        double distance;
+        std::uint32_t triangle;
+        int feature;             // 0 face, 1 to 3 edge, 4 to 6 vertex
+        Vec3 point;
+    };
+    std::vector<SurfaceHit> hits;
+    std::vector<std::uint32_t> used_vertices, used_edges;
+};
+
+/// Appends the manifolds of the pair: points nearer than `margin` (m). Normals point away from `a`; body indices are
+/// left to the caller. Two half-spaces, two surfaces, and a half-space with a surface never touch: they cannot move.
+void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
+             CollisionScratch& scratch, std::vector<Manifold>& out);
+
+// The pairs behind it, each with its first shape as A.
+void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out);
+void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+                                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                   std::vector<Manifold>& out);
+void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out);
+void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                       CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
+                          double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+                                double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
+
+}  // namespace tumble

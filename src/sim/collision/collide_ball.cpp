@@ -1,0 +1,123 @@
+// Spheres against half-spaces, spheres and polyhedra; half-spaces against polyhedra.
+#include "sim/collision/collide.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+void add_point(const Vec3& normal, const Vec3& position, double separation, std::vector<Manifold>& out) {
+    Manifold m;
+    m.normal = normal;
+    m.count = 1;
+    m.points[0] = {position, separation, 0};
+    out.push_back(m);
+}
+
+// The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
+Vec3 nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, const Vec3& p) {
+    const Vec3 foot = p - (face.normal.dot(p) - face.offset) * face.normal;
+    bool inside = true;
+    double best = std::numeric_limits<double>::infinity();
+    Vec3 nearest = foot;
+    const std::size_t n = face.vertices.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 &a = shape.vertices[face.vertices[i]], &b = shape.vertices[face.vertices[(i + 1) % n]];
+        const Vec3 edge = b - a;
+        if (edge.cross(face.normal).dot(foot - a) <= 0.0) continue;
+        inside = false;
+        const double t = std::clamp(edge.dot(foot - a) / edge.squaredNorm(), 0.0, 1.0);
+        const Vec3 candidate = a + t * edge;
+        const double d = (candidate - p).squaredNorm();
+        if (d < best) {
+            best = d;
+            nearest = candidate;
+        }
+    }
+    return inside ? foot : nearest;
+}
+
+}  // namespace
+
+void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out) {
+    const Vec3 normal = pose_a.rotation * a.normal;
+    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
+    const double separation = height - b.radius;
+    if (separation > margin) return;
+    add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+}
+
+void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                   std::vector<Manifold>& out) {
+    const Vec3 d = pose_b.position - pose_a.position;
+    const double reach = a.radius + b.radius + margin;
+    if (d.squaredNorm() > reach * reach) return;
+    const double distance = d.norm();
+    const Vec3 normal = distance > 0.0 ? Vec3(d / distance) : Vec3::UnitY();   // same centre: any way is as good
+    const double separation = distance - a.radius - b.radius;
+    add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
+}
+
+void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out) {
+    const Vec3 center = pose_a.to_body(pose_b.position);
+    const double reach = b.radius + margin;
+    // The face it is most outside of: a bound of the distance, and the way out when the centre is inside.
+    double most = -std::numeric_limits<double>::infinity();
+    const Polyhedron::Face* face = nullptr;
+    for (const Polyhedron::Face& f : a.faces) {
+        const double d = f.normal.dot(center) - f.offset;
+        if (d > reach) return;
+        if (d > most) {
+            most = d;
+            face = &f;
+        }
+    }
+    if (most <= 0.0) {
+        const Vec3 normal = pose_a.rotation * face->normal;
+        const double separation = most - b.radius;
+        add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+        return;
+    }
+    // Only faces seen from the centre can hold the nearest point.
+    double best = std::numeric_limits<double>::infinity();
+    Vec3 nearest = Vec3::Zero();
+    for (const Polyhedron::Face& f : a.faces) {
+        const double d = f.normal.dot(center) - f.offset;
+        if (d <= 0.0 || d * d >= best) continue;
+        const Vec3 p = nearest_on_face(a, f, center);
+        const double square = (center - p).squaredNorm();
+        if (square < best) {
+            best = square;
+            nearest = p;
+        }
+    }
+    const double distance = std::sqrt(best);
+    if (distance > reach) return;
+    const Vec3 normal = pose_a.rotation * ((center - nearest) / distance);
+    const double separation = distance - b.radius;
+    add_point(normal, pose_a.to_world(nearest) + 0.5 * separation * normal, separation, out);
+}
+
+void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+                                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const Vec3 normal = pose_a.rotation * a.normal;
+    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
+    if (height > b.radius + margin) return;
+    const Vec3 local = pose_b.rotation.transpose() * normal;
+    scratch.points.clear();
+    for (std::uint32_t i = 0; i < b.vertices.size(); ++i) {
+        const double separation = height + local.dot(b.vertices[i]);
+        if (separation > margin) continue;
+        scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
+    }
+    if (scratch.points.empty()) return;
+    Manifold m;
+    m.normal = normal;
+    keep_best_points(scratch.points, m);
+    out.push_back(m);
+}
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+#include "sim/collision/collider.h"
+
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+
+// The box about a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
+Bounds turned(const Bounds& local, const Pose& pose) {
+    const Vec3 center = pose.to_world(local.center());
+    const Vec3 half = pose.rotation.cwiseAbs() * (0.5 * local.extent());
+    return {center - half, center + half};
+}
+
+}  // namespace
+
+Bounds world_bounds(const Collider& collider, const Pose& pose) {
+    return std::visit(
+        Overloaded{[&](const HalfSpace&) { return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)}; },
+                   [&](const Ball& ball) { return Bounds{pose.position, pose.position}.grown(ball.radius); },
+                   [&](const std::shared_ptr<const Polyhedron>& p) { return turned(p->bounds, pose); },
+                   [&](const std::shared_ptr<const TriangleSurface>& s) { return turned(s->tree.bounds(), pose); }},
+        collider);
+}
+
+double bounding_radius(const Collider& collider) {
+    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
+                                 [](const Ball& ball) { return ball.radius; },
+                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
+                                 [](const std::shared_ptr<const TriangleSurface>& s) { return s->radius; }},
+                      collider);
+}
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+// What of a body collides: a half-space, a sphere, a convex polyhedron, or a triangle surface as it is.
+// Frame: the body's, with its centre of mass at the origin.
+#pragma once
+
+#include "core/vector.h"
+#include "sim/collision/polyhedron.h"
+#include "sim/collision/triangle_surface.h"
+
+#include <memory>
+#include <variant>
+
+namespace tumble {
+
+/// Where a body is: p_world = position + rotation * p_body (notes eq. 5).
+struct Pose {
+    Vec3 position = Vec3::Zero();
+    Mat3 rotation = Mat3::Identity();
+
+    Vec3 to_world(const Vec3& p) const { return position + rotation * p; }
+    Vec3 to_body(const Vec3& p) const { return rotation.transpose() * (p - position); }
+};
+
+struct HalfSpace {
+    Vec3 normal;      // unit; solid below
+    double offset;    // m
+};
+struct Ball {
+    double radius;    // m
+};
+
+/// Shared where bodies share a mesh: a hull is built once.
+using Collider = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const TriangleSurface>>;
+
+/// World bounds of a posed collider; a half-space's are infinite.
+Bounds world_bounds(const Collider& collider, const Pose& pose);
+
+/// Distance of the farthest point from the centre of mass, m; infinity for a half-space.
+double bounding_radius(const Collider& collider);
+
+}  // namespace tumble

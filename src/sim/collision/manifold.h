@@ -1,0 +1,33 @@
+// Where two bodies touch, or may touch before the step is over.
+#pragma once
+
+#include "core/vector.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+struct ContactPoint {
+    Vec3 position = Vec3::Zero();   // world, halfway between the two surfaces
+    double separation = 0.0;        // m along the normal; negative: overlap
+    std::uint64_t feature = 0;      // the features that meet (vertex and face, edge and edge); the same from step to step
+};
+
+/// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
+struct Manifold {
+    static constexpr int capacity = 4;   // spans any flat contact area; more points only repeat each other
+
+    std::uint32_t a = 0, b = 0;   // bodies
+    std::uint32_t part = 0;       // the triangle of a triangle surface, else 0
+    Vec3 normal = Vec3::Zero();
+    int count = 0;
+    std::array<ContactPoint, capacity> points;
+};
+
+/// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and the three that
+/// span the largest area with it.
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold);
+
+}  // namespace tumble

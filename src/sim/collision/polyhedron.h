@@ -1,0 +1,48 @@
+// A convex polyhedron: the collision shape of boxes and of meshes (as their hulls).
+// Frame: the body's, with its centre of mass at the origin. Faces are true polygons (coplanar triangles are one face),
+// so that two boxes meet in a four-cornered manifold and every feature has a stable index.
+#pragma once
+
+#include "core/vector.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+struct Polyhedron {
+    struct Face {
+        Vec3 normal = Vec3::Zero();            // unit, outward
+        double offset = 0.0;                   // normal . p = offset on the face, m
+        std::vector<std::uint32_t> vertices;   // counter-clockwise seen from outside
+    };
+    struct Edge {
+        std::uint32_t tail = 0, head = 0;      // vertices
+        std::uint32_t left = 0, right = 0;     // faces: `left` has the edge from tail to head
+    };
+
+    std::vector<Vec3> vertices;
+    std::vector<Face> faces;
+    std::vector<Edge> edges;
+    Bounds bounds;                             // of the vertices
+    double radius = 0.0;                       // m, largest distance of a vertex from the centre of mass
+    bool is_box = false;                       // faces 2k and 2k+1 look along +k and -k: axis searches can be short
+    Vec3 half_extent = Vec3::Zero();           // of a box
+
+    /// The vertex farthest along a direction (body frame); the lowest index on ties.
+    std::uint32_t support(const Vec3& direction) const;
+    /// The face that looks most along a direction.
+    std::uint32_t face_towards(const Vec3& direction) const;
+    double surface_area() const;
+
+    /// Derives planes, edges, bounds and radius from vertices and face loops.
+    void complete();
+};
+
+/// A box of the given full edge lengths about the origin.
+Polyhedron make_box(const Vec3& size);
+
+/// The convex hull of points (Qhull), about `origin` as the new centre. Throws InputError when the points have no volume.
+Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin);
+
+}  // namespace tumble

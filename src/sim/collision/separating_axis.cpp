@@ -1,0 +1,164 @@
+#include "sim/collision/separating_axis.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double lowest = -std::numeric_limits<double>::infinity();
+// Edges closer to parallel than this (squared sine) give no axis of their own: a face normal covers the case.
+constexpr double parallel = 1e-8;
+
+struct FaceAxis {
+    double separation = lowest;
+    std::uint32_t face = 0;
+};
+
+// Largest separation over the faces of `shape` from `other`, whose pose in shape's frame is given.
+FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose& other_pose, double margin) {
+    FaceAxis best;
+    for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
+        const Polyhedron::Face& face = shape.faces[f];
+        const Vec3 direction = -(other_pose.rotation.transpose() * face.normal);
+        double reach;
+        if (other.is_box) reach = other.half_extent.dot(direction.cwiseAbs());
+        else reach = direction.dot(other.vertices[other.support(direction)]);
+        const double separation = face.normal.dot(other_pose.position) - reach - face.offset;
+        if (separation > best.separation) best = {separation, f};
+        if (separation > margin) break;
+    }
+    return best;
+}
+
+// A box about a box in another frame.
+Bounds turned(const Bounds& b, const Pose& pose) {
+    const Vec3 center = pose.to_world(b.center()), half = pose.rotation.cwiseAbs() * (0.5 * b.extent());
+    return {center - half, center + half};
+}
+
+Pose inverse(const Pose& p) { return {-(p.rotation.transpose() * p.position), p.rotation.transpose()}; }
+
+// Edges of a shape that reach into a region. The two edges of an edge contact meet inside both shapes' bounds (each
+// one's nearest point lies in, or within the separation of, the other body), so no other edge needs a look.
+void edges_in(const Polyhedron& shape, const Bounds& region, std::vector<std::uint32_t>& edges) {
+    edges.clear();
+    for (std::uint32_t e = 0; e < shape.edges.size(); ++e) {
+        Bounds b;
+        b.add(shape.vertices[shape.edges[e].tail]);
+        b.add(shape.vertices[shape.edges[e].head]);
+        if (b.overlaps(region)) edges.push_back(e);
+    }
+}
+
+// Whether the two edges build a face of the Minkowski difference: their arcs on the Gauss map cross
+// (Gregorius 2013). a, b: A's face normals beside its edge; c, d: B's, negated; all in one frame.
+bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 bxa = b.cross(a), dxc = d.cross(c);
+    const double cba = c.dot(bxa), dba = d.dot(bxa), adc = a.dot(dxc), bdc = b.dot(dxc);
+    return cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0;
+}
+
+void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
+                  CollisionScratch& scratch, double& best, SeparatingAxis& axis) {
+    const Bounds in_a = turned(b.bounds, b_in_a).grown(margin), in_b = turned(a.bounds, inverse(b_in_a)).grown(margin);
+    edges_in(a, in_a, scratch.edges_a);
+    edges_in(b, in_b, scratch.edges_b);
+    for (const std::uint32_t ib : scratch.edges_b) {
+        const Polyhedron::Edge& eb = b.edges[ib];
+        const Vec3 tail_b = b_in_a.to_world(b.vertices[eb.tail]);
+        const Vec3 along_b = b_in_a.rotation * (b.vertices[eb.head] - b.vertices[eb.tail]);
+        const Vec3 c = -(b_in_a.rotation * b.faces[eb.left].normal), d = -(b_in_a.rotation * b.faces[eb.right].normal);
+        for (const std::uint32_t ia : scratch.edges_a) {
+            const Polyhedron::Edge& ea = a.edges[ia];
+            const Vec3 &left = a.faces[ea.left].normal, &right = a.faces[ea.right].normal;
+            if (!arcs_cross(left, right, c, d)) continue;
+            const Vec3 along_a = a.vertices[ea.head] - a.vertices[ea.tail];
+            Vec3 n = along_a.cross(along_b);
+            const double square = n.squaredNorm();
+            if (square < parallel * along_a.squaredNorm() * along_b.squaredNorm()) continue;
+            n /= std::sqrt(square);
+            if (n.dot(left + right) < 0.0) n = -n;
+            const double separation = n.dot(tail_b - a.vertices[ea.tail]);
+            if (separation <= best) continue;
+            best = separation;
+            axis = {SeparatingAxis::Kind::edges, separation, ia, ib, n};
+            if (separation > margin) return;
+        }
+    }
+}
+
+// The edge of a box along `axis` that lies farthest along a direction, by the signs of the other two axes.
+std::uint32_t box_edge(const Polyhedron& box, int axis, const Vec3& direction) {
+    std::uint32_t best = 0;
+    double farthest = lowest;
+    for (std::uint32_t e = 0; e < box.edges.size(); ++e) {
+        const Vec3 &tail = box.vertices[box.edges[e].tail], &head = box.vertices[box.edges[e].head];
+        if (tail[axis] == head[axis]) continue;
+        const double d = direction.dot(tail + head);
+        if (d > farthest) {
+            farthest = d;
+            best = e;
+        }
+    }
+    return best;
+}
+
+// Boxes have three edge directions each, so nine axes in place of 144 edge pairs.
+void search_box_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, double& best,
+                      SeparatingAxis& axis) {
+    int best_i = -1, best_j = -1;
+    Vec3 best_n = Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            Vec3 n = Vec3::Unit(i).cross(b_in_a.rotation.col(j));
+            const double square = n.squaredNorm();
+            if (square < parallel) continue;
+            n /= std::sqrt(square);
+            double d = n.dot(b_in_a.position);
+            if (d < 0.0) {
+                n = -n;
+                d = -d;
+            }
+            const double separation = d - a.half_extent.dot(n.cwiseAbs()) -
+                                      b.half_extent.dot((b_in_a.rotation.transpose() * n).cwiseAbs());
+            if (separation <= best) continue;
+            best = separation;
+            best_i = i;
+            best_j = j;
+            best_n = n;
+            if (separation > margin) break;
+        }
+    }
+    if (best_i < 0) return;
+    axis = {SeparatingAxis::Kind::edges, best, box_edge(a, best_i, best_n),
+            box_edge(b, best_j, -(b_in_a.rotation.transpose() * best_n)), best_n};
+}
+
+}  // namespace
+
+double axis_preference(double smaller_radius) { return 1e-3 * smaller_radius; }
+
+SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
+                                    CollisionScratch& scratch) {
+    const FaceAxis face_a = best_face(a, b, b_in_a, margin);
+    if (face_a.separation > margin) return {};
+    const FaceAxis face_b = best_face(b, a, inverse(b_in_a), margin);
+    if (face_b.separation > margin) return {};
+
+    const double preference = axis_preference(std::min(a.radius, b.radius));
+    SeparatingAxis axis;
+    if (face_b.separation > face_a.separation + preference) {
+        axis = {SeparatingAxis::Kind::face_b, face_b.separation, 0, face_b.face,
+                -(b_in_a.rotation * b.faces[face_b.face].normal)};
+    } else {
+        axis = {SeparatingAxis::Kind::face_a, face_a.separation, face_a.face, 0, a.faces[face_a.face].normal};
+    }
+    double best = axis.separation + preference;
+    if (a.is_box && b.is_box) search_box_edges(a, b, b_in_a, margin, best, axis);
+    else search_edges(a, b, b_in_a, margin, scratch, best, axis);
+    if (axis.separation > margin) return {};
+    return axis;
+}
+
+}  // namespace tumble

@@ -1,0 +1,122 @@
+#include "sim/contact/contact.h"
+
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace tumble {
+namespace {
+
+// n . ((I^-1 (r x u)) x r) for both bodies: how the points give way along v to an impulse along u.
+double compliance(const Contact& c, const Body& a, const Body& b, const Vec3& u, const Vec3& v) {
+    const Vec3 turn_a = a.inverse_inertia * c.arm_a.cross(u), turn_b = b.inverse_inertia * c.arm_b.cross(u);
+    return (a.inverse_mass + b.inverse_mass) * u.dot(v) + turn_a.dot(c.arm_a.cross(v)) + turn_b.dot(c.arm_b.cross(v));
+}
+
+void derive(Contact& c, const Body& a, const Body& b) {
+    c.turn_a = a.inverse_inertia * c.arm_a.cross(c.normal);
+    c.turn_b = b.inverse_inertia * c.arm_b.cross(c.normal);
+    c.inverse_effective_mass = compliance(c, a, b, c.normal, c.normal);
+    // Any two directions across the normal do: friction is solved for both together, as a disc.
+    int smallest = 0;
+    c.normal.cwiseAbs().minCoeff(&smallest);
+    c.tangent[0] = c.normal.cross(Vec3::Unit(smallest)).normalized();
+    c.tangent[1] = c.normal.cross(c.tangent[0]);
+    if (c.friction <= 0.0) return;
+    const double k00 = compliance(c, a, b, c.tangent[0], c.tangent[0]);
+    const double k11 = compliance(c, a, b, c.tangent[1], c.tangent[1]);
+    const double k01 = compliance(c, a, b, c.tangent[0], c.tangent[1]);
+    const double det = k00 * k11 - k01 * k01;
+    c.tangent_mass << k11 / det, -k01 / det, -k01 / det, k00 / det;
+}
+
+auto key(const Contact& c) { return std::make_tuple(c.a, c.b, c.part); }
+
+}  // namespace
+
+ContactState classify(double relative_velocity, double tolerance) {
+    if (relative_velocity > tolerance) return ContactState::separating;
+    if (relative_velocity < -tolerance) return ContactState::colliding;
+    return ContactState::resting;
+}
+
+double relative_velocity(const Contact& c, const Body& a, const Body& b) {
+    return c.normal.dot(b.point_velocity(c.arm_b) - a.point_velocity(c.arm_a));
+}
+
+double collision_impulse(const Contact& c, const Body& a, const Body& b) {
+    return -(1.0 + c.restitution) * relative_velocity(c, a, b) / c.inverse_effective_mass;
+}
+
+void apply_to_velocities(const Vec3& impulse, const Contact& c, Body& a, Body& b) {
+    if (a.dynamic()) {
+        a.velocity -= a.inverse_mass * impulse;
+        a.angular_velocity -= a.inverse_inertia * c.arm_a.cross(impulse);
+    }
+    if (b.dynamic()) {
+        b.velocity += b.inverse_mass * impulse;
+        b.angular_velocity += b.inverse_inertia * c.arm_b.cross(impulse);
+    }
+}
+
+void apply_normal_to_velocities(double j, const Contact& c, Body& a, Body& b) {
+    if (a.dynamic()) {
+        a.velocity -= (j * a.inverse_mass) * c.normal;
+        a.angular_velocity -= j * c.turn_a;
+    }
+    if (b.dynamic()) {
+        b.velocity += (j * b.inverse_mass) * c.normal;
+        b.angular_velocity += j * c.turn_b;
+    }
+}
+
+void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b) {
+    if (a.dynamic()) {
+        a.momentum -= impulse;
+        a.angular_momentum -= c.arm_a.cross(impulse);
+    }
+    if (b.dynamic()) {
+        b.momentum += impulse;
+        b.angular_momentum += c.arm_b.cross(impulse);
+    }
+}
+
+void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+                   const std::vector<Contact>& previous, std::vector<Contact>& contacts) {
+    contacts.clear();
+    std::size_t old = 0;
+    for (const Manifold& m : manifolds) {
+        const Body &a = bodies[m.a], &b = bodies[m.b];
+        Contact c;
+        c.a = m.a;
+        c.b = m.b;
+        c.part = m.part;
+        c.normal = m.normal;
+        c.restitution = std::max(a.restitution, b.restitution);
+        c.friction = std::sqrt(a.friction * b.friction);
+        c.touch_distance = tuning::touch * std::min(a.radius, b.radius);
+        while (old < previous.size() && key(previous[old]) < key(c)) ++old;
+        for (int i = 0; i < m.count; ++i) {
+            const ContactPoint& p = m.points[std::size_t(i)];
+            c.feature = p.feature;
+            c.separation = p.separation;
+            c.arm_a = p.position - a.position;
+            c.arm_b = p.position - b.position;
+            c.impulse = 0.0;
+            c.friction_impulse.setZero();
+            for (std::size_t k = old; k < previous.size() && key(previous[k]) == key(c); ++k) {
+                if (previous[k].feature != c.feature) continue;
+                c.impulse = previous[k].impulse;
+                // What friction carried stays across the normal when the normal has turned.
+                c.friction_impulse = previous[k].friction_impulse - c.normal.dot(previous[k].friction_impulse) * c.normal;
+                break;
+            }
+            derive(c, a, b);
+            contacts.push_back(c);
+        }
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,37 @@
+// Islands that have come to rest leave the loop until something touches them. A body at rest is one whose surface has
+// stayed within a hair of where it was for half a second; an island sleeps when all its bodies are at rest and it leans
+// on something fixed. Bodies in free flight never sleep, however slow.
+#pragma once
+
+#include "sim/contact/islands.h"
+
+#include <vector>
+
+namespace tumble {
+
+class SleepMonitor {
+public:
+    explicit SleepMonitor(std::size_t bodies) : watches_(bodies) {}
+
+    /// Wakes whatever an awake or kinematically moving body touches, and with a body the whole group it fell asleep
+    /// with. To be called after the narrow phase. Returns whether anybody woke.
+    bool wake_touched(const std::vector<Contact>& contacts, std::vector<Body>& bodies);
+
+    /// Wakes one body and its group.
+    void wake(std::uint32_t body, std::vector<Body>& bodies);
+
+    /// Follows the awake bodies over a step of h seconds and puts islands at rest to sleep.
+    void observe(const std::vector<Island>& islands, const std::vector<Contact>& contacts, std::vector<Body>& bodies,
+                 double h);
+
+private:
+    struct Watch {
+        Vec3 position = Vec3::Constant(1e300);   // where the watch began
+        Quat orientation = Quat::Identity();
+        double still = 0.0;                      // s
+        std::vector<std::uint32_t> group;        // while asleep
+    };
+    std::vector<Watch> watches_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,39 @@
+// The path of a kinematic body: smooth through its keyframes, still before the first and after the last.
+// Position: cubic Hermite spline with Catmull-Rom tangents for uneven times. Rotation: the same in rotation vectors of
+// each segment, q(u) = q_i exp(phi(u)), so that the angular velocity is continuous and evenly spaced keys of a steady
+// turn give a steady turn. Linear: constant velocity and constant turn between keys.
+#pragma once
+
+#include "core/vector.h"
+#include "scene/description.h"
+
+#include <vector>
+
+namespace tumble {
+
+class KeyframeTrack {
+public:
+    /// Keys in increasing time, at least one; rotations are taken the short way round from key to key.
+    KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpolation);
+
+    struct Motion {
+        Vec3 position;
+        Quat rotation;
+        Vec3 velocity;           // m/s, of the origin
+        Vec3 angular_velocity;   // rad/s, world frame
+    };
+    Motion at(double time) const;
+
+private:
+    std::vector<Keyframe> keys_;
+    std::vector<Vec3> velocity_;   // tangents at the keys, m/s
+    std::vector<Vec3> turn_;       // segment i: rotation vector from key i to i + 1, in key i's frame
+    std::vector<Vec3> spin_;       // angular velocity at the keys, in the key's frame, rad/s
+    bool smooth_;
+};
+
+/// The rotation vector (axis times angle, |angle| <= pi) of a unit quaternion, and back.
+Vec3 rotation_vector(const Quat& q);
+Quat from_rotation_vector(const Vec3& v);
+
+}  // namespace tumble

@@ -1,0 +1,206 @@
+#include "sim/world.h"
+
+#include "core/error.h"
+#include "sim/body_builder.h"
+#include "sim/broad_phase.h"
+#include "sim/contact/impacts.h"
+#include "sim/contact/islands.h"
+#include "sim/contact/rest_solver.h"
+#include "sim/contact/sleep.h"
+#include "sim/forces.h"
+#include "sim/integrator.h"
+#include "sim/measurement.h"
+#include "sim/narrow_phase.h"
+#include "sim/thread_pool.h"
+#include "sim/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+struct World::State {
+    SimulationSettings settings;
+    double fps;
+    double h;                         // s
+    std::int64_t steps = 0;           // time is counted in these, never summed up
+    ForceField forces;
+    std::vector<Body> bodies;
+    BroadPhase broad_phase;
+    NarrowPhase narrow_phase;
+    std::vector<Contact> contacts, previous_contacts;
+    std::vector<Island> islands;      // of the awake bodies
+    SleepMonitor sleep;
+    ThreadPool pool;
+    // Velocities before this step's forces: what explicit Euler moves by.
+    std::vector<Vec3> old_velocity, old_angular_velocity;
+
+    State(const SceneDescription& scene, int threads)
+        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene), narrow_phase(threads),
+          sleep(scene.bodies.size()), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
+          old_angular_velocity(scene.bodies.size(), Vec3::Zero()) {
+        BodyBuilder builder;
+        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d));
+        place_kinematic_bodies();
+    }
+
+    double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
+    bool awake(const Body& body) const { return body.dynamic() && !body.asleep; }
+
+    void place_kinematic_bodies();
+    void find_contacts();
+    void resolve_collisions();
+    void apply_forces();
+    void solve_resting_contacts();
+    void move();
+    void fall_asleep();
+    void check_finite() const;
+};
+
+void World::step() {
+    State& s = *state_;
+    s.find_contacts();            // pairs: broad phase, exact manifolds, islands
+    s.resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
+    s.apply_forces();             // F and tau at t_n change P and L
+    s.solve_resting_contacts();   // non-penetration and friction
+    s.move();                     // x and q to t_n+1
+    s.fall_asleep();              // islands at rest leave the loop
+    s.check_finite();
+    ++s.steps;
+}
+
+void World::advance_frame() {
+    for (int i = 0; i < state_->settings.steps_per_frame; ++i) step();
+}
+
+// Kinematic bodies go where their keyframes say; during the step they have the constant velocity that takes them there.
+void World::State::place_kinematic_bodies() {
+    for (Body& body : bodies) {
+        if (!body.track) continue;
+        const auto now = body.track->at(time(steps)), next = body.track->at(time(steps + 1));
+        body.orientation = now.rotation;
+        body.rotation = now.rotation.toRotationMatrix();
+        body.position = now.position + body.rotation * body.center_of_mass;
+        const Vec3 target = next.position + next.rotation * body.center_of_mass;
+        body.velocity = (target - body.position) / h;
+        body.angular_velocity = rotation_vector(next.rotation * now.rotation.conjugate()) / h;
+    }
+}
+
+void World::State::find_contacts() {
+    previous_contacts.swap(contacts);
+    const auto& manifolds = narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool);
+    make_contacts(manifolds, bodies, previous_contacts, contacts);
+    if (sleep.wake_touched(contacts, bodies)) {
+        // The woken ones need the contacts among themselves too, which were not looked for.
+        make_contacts(narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool), bodies, previous_contacts, contacts);
+    }
+    islands = find_islands(contacts, bodies);
+}
+
+void World::State::resolve_collisions() {
+    const double threshold = tuning::restitution_threshold * settings.gravity.norm() * h;
+    pool.for_each(islands.size(), tuning::parallel_grain,
+                  [&](std::size_t i, std::size_t) { resolve_impacts(islands[i], contacts, bodies, threshold); });
+    // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
+    for (const Contact& c : contacts)
+        if (c.impact > 0.0) add_impulse(c, c.impact * c.normal, bodies[c.a], bodies[c.b]);
+}
+
+void World::State::apply_forces() {
+    const double now = time(steps);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        Body& body = bodies[i];
+        if (body.asleep && forces.changes(i, now, time(steps + 1))) sleep.wake(std::uint32_t(i), bodies);
+        if (!awake(body)) continue;
+        body.derive();
+        old_velocity[i] = body.velocity;
+        old_angular_velocity[i] = body.angular_velocity;
+        const Wrench wrench = forces.at(i, body, now);
+        advance_momenta(body, wrench.force, wrench.torque, h);
+        body.derive();
+    }
+}
+
+void World::State::solve_resting_contacts() {
+    const double gravity_step = settings.gravity.norm() * h;
+    const RestSettings rest{h, tuning::restitution_threshold * gravity_step,
+                            std::max(tuning::solver_floor, tuning::solver_tolerance * gravity_step)};
+    pool.for_each(islands.size(), tuning::parallel_grain,
+                  [&](std::size_t i, std::size_t) { solve_rest(islands[i], contacts, bodies, rest); });
+    for (const Contact& c : contacts) {
+        const Vec3 impulse = c.impulse * c.normal + c.friction_impulse;
+        if (!impulse.isZero(0.0)) add_impulse(c, impulse, bodies[c.a], bodies[c.b]);
+    }
+}
+
+void World::State::move() {
+    const bool symplectic = settings.integrator == IntegratorKind::symplectic_euler;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        Body& body = bodies[i];
+        if (!awake(body)) continue;
+        const Vec3 velocity = symplectic ? body.velocity : old_velocity[i];
+        const Vec3 spin = symplectic ? body.angular_velocity : old_angular_velocity[i];
+        advance_pose(body, velocity + body.push_velocity, spin + body.push_angular_velocity, h, settings.rotation);
+        body.push_velocity.setZero();
+        body.push_angular_velocity.setZero();
+        body.derive();
+    }
+    ++steps;
+    place_kinematic_bodies();
+    --steps;
+}
+
+void World::State::fall_asleep() {
+    if (settings.sleep) sleep.observe(islands, contacts, bodies, h);
+}
+
+void World::State::check_finite() const {
+    for (const Body& body : bodies) {
+        if (!awake(body)) continue;
+        if (body.position.allFinite() && body.orientation.coeffs().allFinite() && body.momentum.allFinite() &&
+            body.angular_momentum.allFinite())
+            continue;
+        throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
+                                   "a smaller step (steps_per_frame, now {}) may hold it",
+                                   steps + 1, time(steps + 1), body.name, settings.steps_per_frame));
+    }
+}
+
+World::World(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, std::max(1, threads))) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+
+Snapshot World::snapshot() const {
+    const State& s = *state_;
+    Snapshot snapshot;
+    snapshot.frame = s.steps / s.settings.steps_per_frame;
+    snapshot.time = s.time(s.steps);
+    snapshot.bodies.reserve(s.bodies.size());
+    for (const Body& body : s.bodies) {
+        BodyState state{body.origin(), body.position, body.orientation, body.velocity, body.angular_velocity};
+        if (body.track) {   // the path's own velocity at this moment, not the mean over the coming step
+            const auto motion = body.track->at(snapshot.time);
+            state.angular_velocity = motion.angular_velocity;
+            state.velocity = motion.velocity + motion.angular_velocity.cross(body.position - motion.position);
+        }
+        snapshot.bodies.push_back(state);
+    }
+    return snapshot;
+}
+
+Measurement World::measure() const {
+    State& s = *state_;
+    // Contacts of the poses as they are now, not of the step that led here.
+    Measurement m = measure_motion(s.bodies, s.settings.gravity);
+    BroadPhase broad_phase;
+    NarrowPhase narrow_phase(s.pool.size(), NarrowPhase::Mode::measure);
+    measure_contacts(narrow_phase.find(broad_phase.update(s.bodies, s.h), s.bodies, s.h, s.pool), s.bodies, m);
+    return m;
+}
+
+BodyReport World::report(std::size_t index) const { return describe(state_->bodies[index]); }
+
+}  // namespace tumble
