@@ -1,5 +1,6 @@
 #include "core/elementary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -56,8 +57,11 @@ double atan2_stable(double y, double x) {
     if (x == 0.0 && y == 0.0) return 0.0;
     // Scale onto the unit circle, then one half-angle step and Newton steps on sin(a - angle) = 0:
     // each step cubes the error, so a rough start of 1e-2 ends at rounding after two.
-    const double r = std::sqrt(x * x + y * y);
-    const double s = y / r, c = x / r;
+    // The larger coordinate goes first: squares of tiny and huge ones are no numbers any more.
+    const double largest = std::max(std::fabs(x), std::fabs(y));
+    const double u = x / largest, v = y / largest;
+    const double r = std::sqrt(u * u + v * v);
+    const double s = v / r, c = u / r;
     const double ax = std::fabs(c), ay = std::fabs(s);
     const double t = ax > ay ? ay / ax : ax / ay;
     double a = t * (0.9724 - 0.1919 * t * t);
