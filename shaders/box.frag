@@ -1,0 +1,43 @@
+#version 410 core
+#include "frame.glsl"
+#include "body.glsl"
+#include "rotate.glsl"
+#include "lighting.glsl"
+#include "pattern.glsl"
+
+// How much of the pixel lies in the groove between a crate's frame and its panel.
+float groove(vec3 to_edges) {
+    // to_edges: distances to the three pairs of faces; the smallest is this face's own (zero), the middle one the edge's
+    float edge = max(min(to_edges.x, to_edges.y), min(max(to_edges.x, to_edges.y), to_edges.z));
+    float shortest = 2.0 * min(v_scale.x, min(v_scale.y, v_scale.z));
+    float footprint = max(fwidth(edge), 1e-6 * shortest);
+    float half_width = 0.5 * crate_groove * shortest;
+    float off = abs(edge - crate_frame * shortest);
+    return clamp((half_width - off) / footprint + 0.5, 0.0, 1.0) * min(1.0, 2.0 * half_width / footprint);
+}
+
+void main() {
+    vec3 half_size = v_scale.xyz;
+    float bevel = v_look.w;
+    // A rounded box's normal: away from the box that is smaller by the bevel.
+    vec3 inner = half_size - bevel;
+    vec3 local_normal = normalize(v_local - clamp(v_local, -inner, inner));
+
+    vec3 albedo = v_color.rgb;
+    if (v_look.y > 0.5) {
+        albedo = patterned(albedo, v_look.y, v_local, local_normal, 0.5 * min(half_size.x, min(half_size.y, half_size.z)));
+    } else {
+        albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(v_local));
+    }
+
+    Surface surface;
+    surface.position = v_position;
+    surface.normal = rotate(v_orientation, local_normal);
+    surface.face_normal = v_normal;
+    surface.albedo = albedo;
+    surface.roughness = v_color.w;
+    surface.metallic = v_look.x;
+    surface.reach = v_scale.w;
+    surface.body = v_look.z;
+    pixel = vec4(shade(surface), 1.0);
+}

@@ -1,0 +1,30 @@
+// The look: every constant of light and colour that was chosen by eye, in one place.
+// Light is linear and relative: 1 on a white surface is paper white on the screen.
+
+// Sun and sky give a face turned to the sun about 1, so that its colour on the screen is the scene file's.
+const vec3 sun_light = vec3(0.80, 0.745, 0.655);          // what a surface facing the sun receives: a warm late morning
+const vec3 sky_light = vec3(0.300, 0.345, 0.420);         // from straight above, without the sun
+const vec3 bounce_light = vec3(0.165, 0.155, 0.145);      // from below: the sunlit ground, seen dimly
+
+const vec3 sky_horizon = vec3(0.80, 0.86, 0.92);          // radiance: the backdrop and what shiny things mirror
+const vec3 sky_zenith = vec3(0.20, 0.38, 0.66);
+const vec3 sky_nadir = vec3(0.46, 0.49, 0.53);
+const float sky_haze = 5.0;                               // how fast the horizon's haze thins with height (1 / sine)
+const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky around the sun
+
+const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone
+
+const float occlusion_strength = 0.72;                    // sky light lost where a gap closes entirely
+const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels: contact seen in the sun
+const float occlusion_near = 0.22;                        // the first of two probes along the normal, in parts of the reach
+
+const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
+
+const float ground_contrast = 0.13;                       // of a checker's fields and a body's pattern
+const float grid_line_width = 0.022;                      // of a cell
+const float grid_line_contrast = 0.30;
+
+const float crate_frame = 0.13;                           // width of a box's frame, in parts of its shortest edge
+const float crate_groove = 0.012;                         // width of the groove inside it, likewise
+const float crate_groove_depth = 0.30;                    // how dark the groove is
+const float ball_contrast = 0.16;                         // between a ball's octants, which show how it turns

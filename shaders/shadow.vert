@@ -1,0 +1,13 @@
+#version 410 core
+#include "frame.glsl"
+#include "instance.glsl"
+
+uniform int far_map;
+
+void main() {
+    vec3 p = placed(mesh_position * instance_scale.xyz);
+    vec3 at = vec3(dot(shadow_x.xyz, p) + shadow_x.w, dot(shadow_y.xyz, p) + shadow_y.w,
+                   dot(shadow_z.xyz, p) + shadow_z.w);
+    if (far_map != 0) at.xy = at.xy * shadow_far.x + shadow_far.yz;
+    gl_Position = vec4(2.0 * at - 1.0, 1.0);
+}

@@ -1,0 +1,81 @@
+#include "render/body_looks.h"
+
+#include "render/mesh_occluders.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tumble {
+namespace {
+
+// How far a body darkens its surroundings, in parts of its middle half edge; a plate or stick no further than twice its
+// thin side.
+constexpr double reach_of_half_edge = 1.0;
+constexpr double reach_of_thin_side = 2.0;
+
+// Width of a box's rounded edge, in parts of its shortest edge: 3 cm on a crate of 1 m.
+constexpr double bevel_of_edge = 0.03;
+
+double reach_of(const Vec3& half_size) {
+    std::array<double, 3> h = {half_size.x(), half_size.y(), half_size.z()};
+    std::sort(h.begin(), h.end());
+    return std::min(reach_of_half_edge * h[1], reach_of_thin_side * h[0]);
+}
+
+void set_shape(BodyLook& look, const PlaneShape& plane, SceneLooks&) {
+    look.kind = DrawKind::plane;
+    look.plane = plane;
+}
+
+void set_shape(BodyLook& look, const BoxShape& box, SceneLooks&) {
+    look.kind = DrawKind::box;
+    look.half_size = 0.5 * box.size;
+    look.bound_radius = look.half_size.norm();
+    look.reach = reach_of(look.half_size);
+    look.bevel = bevel_of_edge * box.size.minCoeff();
+}
+
+void set_shape(BodyLook& look, const SphereShape& sphere, SceneLooks&) {
+    look.kind = DrawKind::ball;
+    look.half_size = Vec3::Constant(sphere.radius);
+    look.bound_radius = sphere.radius;
+    look.reach = reach_of(look.half_size);
+}
+
+void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
+    const MeshAsset* asset = mesh.asset.get();
+    if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
+    look.kind = DrawKind::mesh;
+    const auto known = std::find(looks.meshes.begin(), looks.meshes.end(), asset);
+    look.mesh = std::size_t(known - looks.meshes.begin());
+    if (known == looks.meshes.end()) {
+        looks.meshes.push_back(asset);
+        looks.mesh_occluders.push_back(make_mesh_occluders(asset->surface));
+    }
+    Bounds bounds;
+    for (const MeshAsset::Vertex& v : asset->vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    look.bound_center = bounds.center();
+    look.bound_radius = 0.5 * bounds.extent().norm();
+    look.reach = std::max(reach_of(0.5 * bounds.extent()), 1e-3 * look.bound_radius);   // a flat sheet has no thickness
+}
+
+}  // namespace
+
+SceneLooks make_scene_looks(const SceneDescription& scene) {
+    SceneLooks looks;
+    for (const BodyDescription& body : scene.bodies) {
+        BodyLook look;
+        if (body.surface.visible) {
+            std::visit([&](const auto& shape) { set_shape(look, shape, looks); }, body.shape);
+            const std::array<double, 3> linear = to_linear(body.surface.color);
+            look.color = {float(linear[0]), float(linear[1]), float(linear[2])};
+            look.roughness = float(body.surface.roughness);
+            look.metallic = float(body.surface.metallic);
+            look.pattern = body.surface.pattern;
+        }
+        looks.bodies.push_back(look);
+    }
+    return looks;
+}
+
+}  // namespace tumble

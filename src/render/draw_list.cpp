@@ -1,0 +1,112 @@
+#include "render/draw_list.h"
+
+#include "core/check.h"
+#include "render/glm_conversion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// A ball's outline may leave the true circle by this much.
+constexpr double outline_error = 0.15;   // pixels
+
+// The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
+constexpr double icosahedron_angle = 1.10714871779409;   // rad, atan 2
+
+struct Item {
+    std::size_t mesh;
+    double distance;
+    Instance instance;
+};
+
+// An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
+std::size_t ball_mesh_for(double radius, double distance, const CameraView& view) {
+    const double pixels = radius / (std::max(distance - radius, 1e-3 * radius) * view.pixel_size());
+    std::size_t level = 0;
+    double angle = icosahedron_angle;
+    while (level + 1 < ball_levels && pixels * angle * angle / 8.0 > outline_error) {
+        ++level;
+        angle *= 0.5;
+    }
+    return first_ball_mesh + level;
+}
+
+Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view, std::size_t body) {
+    const float pattern = look.pattern == Pattern::plain ? 0.0f : look.pattern == Pattern::grid ? 1.0f : 2.0f;
+    return {to_glm(view.relative(state.origin), look.bevel), to_glm(state.orientation), to_glm(look.half_size, look.reach),
+            glm::vec4(look.color, look.roughness), glm::vec4(look.metallic, pattern, float(body), 0.0f)};
+}
+
+Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
+    const BodyState& state = snapshot.bodies[cord.body];
+    const Vec3 from = view.relative(cord.anchor);
+    const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
+    const Vec3 middle = 0.5 * (from + to);
+    const double length = (to - from).norm();
+    const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()));
+    const std::array<double, 3> c = to_linear(cord.color);
+    const Vec3 scale(cord.radius, std::max(0.5 * length, 1e-3 * cord.radius), cord.radius);
+    return {cylinder_mesh, middle.norm(),
+            {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), 0.7f), glm::vec4(0.0f, 0.0f, -1.0f, 0.0f)}};
+}
+
+std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
+    switch (look.kind) {
+        case DrawKind::ball: return ball_mesh_for(ball.radius, ball.center.norm(), view);
+        case DrawKind::mesh: return first_scene_mesh + look.mesh;
+        default: return box_mesh;
+    }
+}
+
+// Appends the items to the instances, one batch a mesh, nearest first; equal ones keep the scene's order.
+std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances) {
+    std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+        return a.mesh != b.mesh ? a.mesh < b.mesh : a.distance < b.distance;
+    });
+    std::vector<Batch> batches;
+    for (const Item& item : items) {
+        if (batches.empty() || batches.back().mesh != item.mesh) batches.push_back({item.mesh, instances.size(), 0});
+        instances.push_back(item.instance);
+        ++batches.back().count;
+    }
+    return batches;
+}
+
+}  // namespace
+
+BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view) {
+    return {view.relative(state.origin) + state.orientation * look.bound_center, look.bound_radius};
+}
+
+DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
+                        const CameraView& view) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
+    const Vec3 light = scene.light.direction.normalized();
+    std::vector<Item> visible, casters;
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+        const bool in_view = view.sees(ball.center, ball.radius);
+        const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
+        if (!in_view && !casts) continue;
+        const Item item = {mesh_of(look, ball, view), ball.center.norm(),
+                           instance_of(look, snapshot.bodies[i], view, i)};
+        if (in_view) visible.push_back(item);
+        if (casts) casters.push_back(item);
+    }
+    for (const CordDescription& cord : scene.cords) {
+        const Item item = cord_item(cord, snapshot, view);
+        visible.push_back(item);
+        if (scene.light.shadows) casters.push_back(item);
+    }
+    DrawList list;
+    list.visible = append_batches(visible, list.instances);
+    list.casters = append_batches(casters, list.instances);
+    return list;
+}
+
+}  // namespace tumble

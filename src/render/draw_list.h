@@ -1,0 +1,49 @@
+// What one frame draws: plain values made from the scene's looks and a snapshot, ready for upload.
+// Bodies that share a mesh are one batch of instances, nearest first, so that what is hidden is rejected early.
+#pragma once
+
+#include "render/body_looks.h"
+#include "render/camera_view.h"
+#include "sim/snapshot.h"
+
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace tumble {
+
+/// One drawn body, as shaders/instance.glsl reads it.
+struct Instance {
+    glm::vec4 position;      // of the body's origin, relative to the eye; w: bevel, m
+    glm::vec4 orientation;   // x, y, z, w
+    glm::vec4 scale;         // of the mesh; w: occlusion reach, m
+    glm::vec4 color;         // linear; w: roughness
+    glm::vec4 look;          // metallic, pattern, body number
+};
+
+/// The meshes by number: the box, the balls from coarse to fine, the cylinder, then the scene's own.
+inline constexpr std::size_t box_mesh = 0, first_ball_mesh = 1, ball_levels = 6;
+inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
+
+struct Batch {
+    std::size_t mesh = 0;
+    std::size_t first = 0, count = 0;   // of the instances
+};
+
+struct DrawList {
+    std::vector<Instance> instances;
+    std::vector<Batch> visible;   // in the picture
+    std::vector<Batch> casters;   // their shadows may be
+};
+
+DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
+                        const CameraView& view);
+
+/// The ball around a body, relative to the eye.
+struct BoundingBall {
+    Vec3 center;
+    double radius;
+};
+BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view);
+
+}  // namespace tumble

@@ -1,0 +1,51 @@
+#include "render/frame_uniforms.h"
+
+#include "render/glm_conversion.h"
+#include "render/shadow_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Half of a thing's light is haze at this many viewing distances: the ground ends softly, the bodies stay clear.
+constexpr double haze_distance = 7.0;
+
+// The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
+constexpr double nearest_part = 1e-4;
+
+}  // namespace
+
+double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+    double nearest = view.target_distance();
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        if (looks.bodies[i].kind == DrawKind::hidden || looks.bodies[i].kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
+        if (view.sees(ball.center, ball.radius)) nearest = std::min(nearest, ball.center.dot(view.forward()) - ball.radius);
+    }
+    nearest = std::max(nearest, nearest_part * view.target_distance());
+    return std::exp2(std::floor(std::log2(0.5 * nearest)));
+}
+
+FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
+                                  const ShadowFit& shadows, const OccluderGrid& grid) {
+    FrameUniforms u{};
+    u.clip_from_relative = view.clip_from_relative(near_distance);
+    u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
+    u.ray_dx = to_glm(view.ray(1.0, 0.0) - view.ray(0.0, 0.0), 0.0);
+    u.ray_dy = to_glm(view.ray(0.0, 1.0) - view.ray(0.0, 0.0), 0.0);
+    u.to_light = to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0);
+    u.shadow_x = shadows.x;
+    u.shadow_y = shadows.y;
+    u.shadow_z = shadows.z;
+    u.shadow_far = shadows.far;
+    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels), 0.0f);
+    const double half_haze = haze_distance * view.target_distance();
+    u.haze = glm::vec4(float(1.0 / (half_haze * half_haze)), float(view.pixel_size()), 0.0f, 0.0f);
+    u.occlusion_grid = glm::vec4(float(1.0 / grid.cell_size), float(grid.table_size - 1), float(grid.planes.size()), 0.0f);
+    std::copy(grid.planes.begin(), grid.planes.end(), u.occluding_planes);
+    return u;
+}
+
+}  // namespace tumble

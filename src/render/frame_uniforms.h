@@ -1,0 +1,31 @@
+// The values that hold for a whole frame, laid out as shaders/frame.glsl reads them (std140: vec4s throughout).
+#pragma once
+
+#include "render/camera_view.h"
+#include "render/occluders.h"
+#include "render/shadow_fit.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace tumble {
+
+struct FrameUniforms {
+    glm::mat4 clip_from_relative;
+    glm::vec4 ray_origin, ray_dx, ray_dy;
+    glm::vec4 to_light;
+    glm::vec4 shadow_x, shadow_y, shadow_z, shadow_far, shadow_texels;
+    glm::vec4 haze;
+    glm::vec4 occlusion_grid;
+    glm::vec4 occluding_planes[most_occluding_planes];
+};
+static_assert(sizeof(FrameUniforms) == 4 * sizeof(glm::vec4) + (11 + most_occluding_planes) * sizeof(glm::vec4));
+
+FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
+                                  const ShadowFit& shadows, const OccluderGrid& grid);
+
+/// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
+/// movements do not round all depths anew.
+double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+
+}  // namespace tumble

@@ -1,0 +1,75 @@
+#include "render/framebuffer.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+int integer(const GlFunctions& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
+int supported_samples(const GlFunctions& gl, int wanted) {
+    const int most = std::max(1, integer(gl, GL_MAX_SAMPLES));
+    return wanted <= 1 ? 1 : std::min(wanted, most);
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int samples)
+    : gl_(&gl), width_(width), height_(height), samples_(supported_samples(gl, samples)),
+      drawn_(make_target(samples_, true)) {
+    if (samples_ > 1) resolved_.emplace(make_target(1, false));
+}
+
+Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const {
+    const int most = integer(*gl_, GL_MAX_RENDERBUFFER_SIZE);
+    if (width_ > most || height_ > most)
+        throw RunError(fmt::format("the OpenGL driver draws pictures of at most {0} x {0} pixels, not {1} x {2}", most,
+                                   width_, height_));
+    Target target{GlObject(*gl_, GlKind::framebuffer), GlObject(*gl_, GlKind::renderbuffer),
+                  GlObject(*gl_, GlKind::renderbuffer)};
+    const GLsizei stored = samples > 1 ? samples : 0;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
+    gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
+    gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_SRGB8_ALPHA8, width_, height_);
+    gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
+    if (with_depth) {
+        gl_->BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_DEPTH_COMPONENT32F, width_, height_);
+        gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
+    }
+    const GLenum status = gl_->CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE || gl_->GetError() == GL_OUT_OF_MEMORY)
+        throw RunError(fmt::format("the OpenGL driver refuses a framebuffer of {} x {} pixels with {} samples (0x{:x})",
+                                   width_, height_, samples, status));
+    return target;
+}
+
+void Framebuffer::bind() const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn_.framebuffer.name());
+    gl_->Viewport(0, 0, width_, height_);
+    gl_->Enable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Framebuffer::resolve() const {
+    if (!resolved_) return;
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_->framebuffer.name());
+    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::read(Image& image) const {
+    if (image.width != width_ || image.height != height_) image = Image(width_, height_);
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer.name() : drawn_.framebuffer.name());
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+}
+
+}  // namespace tumble

@@ -1,0 +1,89 @@
+// The OpenGL functions that we call, as typed pointers filled in from one context's loader.
+// Passed by reference to whoever draws: no globals, so that two contexts cannot be mixed up unseen.
+#pragma once
+
+#include <GL/glcorearb.h>
+
+#include <functional>
+
+// (type of the pointer, name without "gl")
+#define TUMBLE_GL_FUNCTIONS(X)                                \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                  \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                    \
+    X(PFNGLBINDBUFFERPROC, BindBuffer)                        \
+    X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)              \
+    X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)            \
+    X(PFNGLBINDTEXTUREPROC, BindTexture)                      \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)              \
+    X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)              \
+    X(PFNGLBUFFERDATAPROC, BufferData)                        \
+    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus) \
+    X(PFNGLCLEARPROC, Clear)                                  \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                  \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                  \
+    X(PFNGLCREATESHADERPROC, CreateShader)                    \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                  \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)        \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                  \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)      \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                    \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)        \
+    X(PFNGLDEPTHFUNCPROC, DepthFunc)                          \
+    X(PFNGLDISABLEPROC, Disable)                              \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                        \
+    X(PFNGLDRAWBUFFERPROC, DrawBuffer)                        \
+    X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)  \
+    X(PFNGLENABLEPROC, Enable)                                \
+    X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+    X(PFNGLFINISHPROC, Finish)                                \
+    X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)    \
+    X(PFNGLFRONTFACEPROC, FrontFace)                          \
+    X(PFNGLGENBUFFERSPROC, GenBuffers)                        \
+    X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)              \
+    X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)            \
+    X(PFNGLGENTEXTURESPROC, GenTextures)                      \
+    X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)              \
+    X(PFNGLGETERRORPROC, GetError)                            \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                      \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)          \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                    \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)            \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv)                      \
+    X(PFNGLGETSTRINGPROC, GetString)                          \
+    X(PFNGLGETUNIFORMBLOCKINDEXPROC, GetUniformBlockIndex)    \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)        \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                      \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                      \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                  \
+    X(PFNGLREADBUFFERPROC, ReadBuffer)                        \
+    X(PFNGLREADPIXELSPROC, ReadPixels)                        \
+    X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+    X(PFNGLSCISSORPROC, Scissor)                              \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                    \
+    X(PFNGLTEXBUFFERPROC, TexBuffer)                          \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                        \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                  \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                          \
+    X(PFNGLUNIFORM4FVPROC, Uniform4fv)                        \
+    X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)      \
+    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)            \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                        \
+    X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)      \
+    X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)      \
+    X(PFNGLVIEWPORTPROC, Viewport)
+
+namespace tumble {
+
+struct GlFunctions {
+#define TUMBLE_GL_MEMBER(type, name) type name = nullptr;
+    TUMBLE_GL_FUNCTIONS(TUMBLE_GL_MEMBER)
+#undef TUMBLE_GL_MEMBER
+};
+
+/// `find` returns the address of "glName" or null. Throws RunError naming a function that is not there.
+GlFunctions load_gl_functions(const std::function<void*(const char*)>& find);
+
+}  // namespace tumble

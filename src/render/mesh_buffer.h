@@ -1,0 +1,30 @@
+// A mesh on the graphics side, drawn many times at once with one Instance each.
+#pragma once
+
+#include "render/draw_list.h"
+#include "render/gl_object.h"
+
+#include <cstdint>
+#include <span>
+
+namespace tumble {
+
+class MeshBuffer {
+public:
+    MeshBuffer(const GlFunctions& gl, std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices,
+               bool closed);
+
+    /// A closed mesh hides its back faces.
+    bool closed() const { return closed_; }
+
+    /// Draws `count` instances from the buffer `instances`, beginning with number `first`.
+    void draw(GLuint instances, std::size_t first, std::size_t count) const;
+
+private:
+    const GlFunctions* gl_;
+    GlObject array_, vertices_, indices_;
+    GLsizei index_count_;
+    bool closed_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,39 @@
+#include "render/mesh_library.h"
+
+#include "render/primitives.h"
+
+namespace tumble {
+namespace {
+
+constexpr int cylinder_sides = 16;   // a cord is a few pixels wide
+
+}  // namespace
+
+MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks)
+    : gl_(&gl), instances_(gl, GlKind::buffer) {
+    const auto add = [&](const DrawMesh& mesh) { meshes_.emplace_back(gl, mesh.vertices, mesh.indices, true); };
+    add(make_box());
+    for (std::size_t level = 0; level < ball_levels; ++level) add(make_ball(int(level)));
+    add(make_cylinder(cylinder_sides));
+    for (const MeshAsset* asset : looks.meshes) {
+        const Closedness form = closedness(asset->surface);
+        meshes_.emplace_back(gl, asset->vertices, asset->indices, form.closed() && form.signed_volume > 0.0);
+    }
+}
+
+void MeshLibrary::upload(std::span<const Instance> instances) {
+    gl_->BindBuffer(GL_ARRAY_BUFFER, instances_.name());
+    gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(instances.size_bytes()), instances.data(), GL_STREAM_DRAW);
+}
+
+void MeshLibrary::draw(const Batch& batch) const {
+    const MeshBuffer& mesh = meshes_[batch.mesh];
+    if (mesh.closed()) {
+        gl_->Enable(GL_CULL_FACE);
+    } else {
+        gl_->Disable(GL_CULL_FACE);
+    }
+    mesh.draw(instances_.name(), batch.first, batch.count);
+}
+
+}  // namespace tumble

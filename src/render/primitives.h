@@ -1,0 +1,26 @@
+// The meshes that every scene can need: unit box, unit balls of several finenesses, unit cylinder.
+#pragma once
+
+#include "scene/description.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// Triangles for drawing, counter-clockwise from outside.
+struct DrawMesh {
+    std::vector<MeshAsset::Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+};
+
+/// The cube [-1, 1]^3, flat faces.
+DrawMesh make_box();
+
+/// A ball of radius 1: an icosahedron whose faces are split into four `level` times (Fuller's geodesic sphere).
+DrawMesh make_ball(int level);
+
+/// The cylinder of radius 1 about the y axis from -1 to 1, without caps (a cord's ends are hidden).
+DrawMesh make_cylinder(int sides);
+
+}  // namespace tumble

@@ -1,0 +1,111 @@
+// A frame as a table of contents; each step has a file of its own.
+#include "render/renderer.h"
+
+#include "core/check.h"
+#include "render/camera_view.h"
+#include "render/draw_list.h"
+#include "render/frame_uniforms.h"
+#include "render/framebuffer.h"
+#include "render/gl_context.h"
+#include "render/mesh_library.h"
+#include "render/occlusion_buffers.h"
+#include "render/plane_painter.h"
+#include "render/shadow_map.h"
+#include "render/surface_programs.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace tumble {
+namespace {
+
+// The driver's words for itself; a null pointer would mean that no context is current.
+std::string words(const GlFunctions& gl, GLenum name) {
+    const GLubyte* text = gl.GetString(name);
+    return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+}  // namespace
+
+struct Renderer::State {
+    State(const SceneDescription& description, const RenderOptions& options, const std::filesystem::path& shaders)
+        : scene(description),
+          looks(make_scene_looks(scene)),
+          view(scene.camera, scene.output.width, scene.output.height),
+          stage(scene, looks, view, shadow_map_texels),
+          context(make_gl_context(options.backend)),
+          gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
+          framebuffer(gl, scene.output.width, scene.output.height, scene.output.samples),
+          uniforms(gl, GlKind::buffer),
+          meshes(gl, looks),
+          occlusion(gl),
+          shadow_map(gl, shaders, frame_block),
+          programs(gl, shaders),
+          planes(gl, shaders) {
+        gl.FrontFace(GL_CW);          // the picture is drawn upside down (see CameraView)
+        gl.Enable(GL_DEPTH_TEST);
+        gl.Enable(GL_DEPTH_CLAMP);    // nothing is cut off in front of the near plane or in front of the sun's first depth
+        gl.DepthFunc(GL_LEQUAL);
+    }
+
+    SceneDescription scene;
+    SceneLooks looks;
+    CameraView view;
+    ShadowStage stage;
+    std::unique_ptr<GlContext> context;
+    GlFunctions gl;
+    Framebuffer framebuffer;
+    GlObject uniforms;
+    MeshLibrary meshes;
+    OcclusionBuffers occlusion;
+    ShadowMap shadow_map;
+    SurfacePrograms programs;
+    PlanePainter planes;
+};
+
+Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
+    const std::filesystem::path shaders = options.shader_folder.empty() ? find_shader_folder() : options.shader_folder;
+    state_ = std::make_unique<State>(scene, options, shaders);
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::render(const Snapshot& snapshot, Image& frame) {
+    State& s = *state_;
+    const double near_distance = near_distance_for(s.looks, snapshot, s.view);
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view);
+    const OccluderGrid grid = make_occluder_grid(s.looks, snapshot, s.view);
+    const ShadowFit shadows = s.stage.fit(s.looks, snapshot, s.view);
+    const FrameUniforms uniforms = make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, grid);
+
+    s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
+    s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
+    s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
+    s.meshes.upload(list.instances);
+    s.occlusion.upload(grid);
+
+    if (s.scene.light.shadows) s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
+
+    s.framebuffer.bind();
+    s.gl.Clear(GL_DEPTH_BUFFER_BIT);   // colour is covered by the sky at the latest
+    s.occlusion.bind(occluders_unit, cells_unit);
+    s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
+    s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
+    s.programs.draw(s.meshes, list.visible);
+    s.planes.draw(s.looks, snapshot, s.view, near_distance);
+    s.planes.draw_sky();
+
+    s.framebuffer.resolve();
+    s.framebuffer.read(frame);
+    TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
+}
+
+std::string Renderer::driver() const {
+    const GlFunctions& gl = state_->gl;
+    std::string text = fmt::format("{}, OpenGL {}", words(gl, GL_RENDERER), words(gl, GL_VERSION));
+    if (text.find("softpipe") != std::string::npos) text += " (softpipe has no multisampling: edges will be jagged)";
+    return text;
+}
+
+}  // namespace tumble

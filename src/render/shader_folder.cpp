@@ -1,0 +1,33 @@
+// find_shader_folder() of renderer.h.
+#include "render/renderer.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace tumble {
+
+std::filesystem::path find_shader_folder() {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> places;
+    if (const char* named = std::getenv("TUMBLE_SHADERS"); named != nullptr && *named != '\0') {
+        places.emplace_back(named);   // who names a folder wants that one: no falling back to another
+    } else {
+        std::error_code failed;
+        const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+        if (!failed) places.push_back(program.parent_path() / ".." / "share" / "tumble" / "shaders");
+        places.emplace_back(TUMBLE_SHADER_SOURCE_FOLDER);
+    }
+    std::string tried;
+    for (const fs::path& place : places) {
+        std::error_code failed;
+        if (fs::is_regular_file(place / "look.glsl", failed)) return place.lexically_normal();
+        tried += "\n  " + place.lexically_normal().string();
+    }
+    throw RunError(fmt::format("no shaders found; set TUMBLE_SHADERS to their folder. Looked in:{}", tried));
+}
+
+}  // namespace tumble

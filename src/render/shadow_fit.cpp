@@ -1,0 +1,131 @@
+#include "render/shadow_fit.h"
+
+#include "render/glm_conversion.h"
+#include "render/plane_patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Bodies roll a little out of the place where they start and land.
+constexpr double near_margin = 1.3;
+
+// A body this many times as far away as the middle one does not widen the near map: it is small in the picture.
+constexpr double far_away = 4.0;
+
+// Lost bodies must not blur what is left: the far map grows to this many times the near one.
+constexpr double most_growth = 64.0;
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    void add(double at, double radius) {
+        low = std::min(low, at - radius);
+        high = std::max(high, at + radius);
+    }
+    bool empty() const { return low > high; }
+    double size() const { return high - low; }
+};
+
+// How far a point falls until it meets one of the scene's planes, m; 0 where there is none below.
+double fall_to_plane(const Vec3& point, const Vec3& down, const SceneDescription& scene, const SceneLooks& looks) {
+    double fall = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        if (looks.bodies[i].kind != DrawKind::plane) continue;
+        BodyState state;
+        state.origin = scene.bodies[i].position;
+        state.orientation = scene.bodies[i].rotation;
+        const PlaneShape plane = plane_in_world(looks.bodies[i], state);
+        const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
+        if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
+    }
+    return std::isfinite(fall) ? fall : 0.0;
+}
+
+double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
+
+}  // namespace
+
+ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels)
+    : texels_(texels) {
+    z_axis_ = scene.light.direction.normalized();
+    const Vec3 across = std::abs(z_axis_.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
+    x_axis_ = (across - z_axis_ * z_axis_.dot(across)).normalized();
+    y_axis_ = z_axis_.cross(x_axis_);
+
+    const double gravity = scene.simulation.gravity.norm();
+    const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
+    struct Place { Vec3 center; double radius, distance; };
+    std::vector<Place> places;
+    const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
+        const Vec3 center = origin + rotation * look.bound_center;
+        const Vec3 landed = center + down * (falls ? fall_to_plane(center, down, scene, looks) : 0.0);
+        for (const Vec3& p : {center, landed})
+            if (view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
+                places.push_back({p, look.bound_radius, view.relative(p).norm()});
+    };
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BodyDescription& body = scene.bodies[i];
+        add(look, body.position, body.rotation, body.type == BodyType::dynamic);
+        for (const Keyframe& key : body.keyframes) add(look, key.position, key.rotation, false);
+    }
+
+    std::vector<double> distances;
+    for (const Place& p : places) distances.push_back(p.distance);
+    if (!distances.empty())
+        std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2), distances.end());
+    Extent x, y;
+    for (const Place& p : places) {
+        if (p.distance - p.radius > far_away * distances[distances.size() / 2]) continue;
+        x.add(x_axis_.dot(p.center), p.radius);
+        y.add(y_axis_.dot(p.center), p.radius);
+    }
+    if (x.empty()) {   // nothing in view at first: what the camera looks at
+        const Vec3 target = view.eye() + view.forward() * view.target_distance();
+        x.add(x_axis_.dot(target), 0.5 * view.target_distance());
+        y.add(y_axis_.dot(target), 0.5 * view.target_distance());
+    }
+    size_ = near_margin * std::max({x.size(), y.size(), 1e-9});
+    low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
+    low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
+}
+
+ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
+    Extent x, y, z;   // of what throws shadows into the picture; x and y in near maps, from its corner
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+        if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
+        const Vec3 center = view.eye() + ball.center;
+        x.add((x_axis_.dot(center) - low_x_) / size_, ball.radius / size_);
+        y.add((y_axis_.dot(center) - low_y_) / size_, ball.radius / size_);
+        z.add(z_axis_.dot(center), ball.radius);
+    }
+    if (x.empty()) x.add(0.5, 0.5), y.add(0.5, 0.5), z.add(0.0, size_);
+
+    ShadowFit fit;
+    fit.near_texel = size_ / texels_;
+    const auto row = [&](const Vec3& axis, double low, double size) {
+        return to_glm(axis / size, (axis.dot(view.eye()) - low) / size);
+    };
+    fit.x = row(x_axis_, low_x_, size_);
+    fit.y = row(y_axis_, low_y_, size_);
+
+    // The depths' range keeps to powers of two as well, so that a moving body does not round the others' depths anew.
+    const double depth_step = power_of_two_at_least(z.size());
+    const double low_z = depth_step * std::floor(z.low / depth_step);
+    fit.z = row(z_axis_, low_z, depth_step * (std::floor(z.high / depth_step) + 1.0) - low_z);
+
+    const double reach = std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});   // from the near map's middle
+    fit.has_far = reach > 0.5 - 8.0 / texels_;   // the filter's margin
+    const double growth = fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * reach))) : 1.0;
+    fit.far = glm::vec4(float(1.0 / growth), float(0.5 - 0.5 / growth), float(0.5 - 0.5 / growth), fit.has_far ? 1.0f : 0.0f);
+    fit.far_texel = growth * fit.near_texel;
+    return fit;
+}
+
+}  // namespace tumble

@@ -1,0 +1,29 @@
+// Depths as the sun sees them: the near and the far map of shadow_fit.h side by side in one texture.
+#pragma once
+
+#include "render/mesh_library.h"
+#include "render/shader_program.h"
+
+#include <filesystem>
+
+namespace tumble {
+
+/// Texels across one map. A finer one costs more (2048: +6 ms a frame on the reference machine) and looks harder.
+inline constexpr int shadow_map_texels = 1024;
+
+class ShadowMap {
+public:
+    ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block);
+
+    /// Draws the casters into the near map, and into the far one when there is one.
+    void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, bool with_far) const;
+
+    GLuint texture() const { return texture_.name(); }
+
+private:
+    const GlFunctions* gl_;
+    ShaderProgram program_;
+    GlObject texture_, framebuffer_;
+};
+
+}  // namespace tumble

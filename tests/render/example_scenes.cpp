@@ -1,0 +1,158 @@
+#include "example_scenes.h"
+
+#include "core/elementary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace tumble {
+namespace {
+
+Quat turned(const Vec3& axis, double angle) {
+    const SinCos half = sincos(0.5 * angle);
+    const Vec3 v = axis.normalized() * half.sin;
+    return {half.cos, v.x(), v.y(), v.z()};
+}
+
+// The standard leaves the distributions' algorithms open; this keeps the pictures the same everywhere.
+class Random {
+public:
+    double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
+
+private:
+    std::mt19937 engine_{7};
+};
+
+Color pleasant_color(Random& random) {
+    const double hue = random.between(0.0, 6.0), value = random.between(0.72, 0.95), tone = random.between(0.35, 0.75);
+    const auto channel = [&](double shift) {
+        const double h = std::fmod(hue + shift, 6.0), ramp = std::clamp(std::min(h, 4.0 - h), 0.0, 1.0);
+        return std::uint8_t(255.0 * value * (1.0 - tone + tone * ramp));
+    };
+    return {channel(2.0), channel(0.0), channel(4.0)};
+}
+
+}  // namespace
+
+SceneDescription empty_scene() {
+    SceneDescription scene;
+    scene.output.width = 320;
+    scene.output.height = 180;
+    scene.camera.eye = Vec3(0.0, 1.0, 8.0);
+    scene.camera.target = Vec3(0.0, 1.0, 0.0);
+    return scene;
+}
+
+BodyDescription ground_plane(Color color, Pattern pattern) {
+    BodyDescription body;
+    body.type = BodyType::fixed;
+    body.shape = PlaneShape{};
+    body.surface.color = color;
+    body.surface.pattern = pattern;
+    body.surface.roughness = 0.8;
+    return body;
+}
+
+BodyDescription box_body(const Vec3& position, const Vec3& size, Color color, const Quat& rotation) {
+    BodyDescription body;
+    body.shape = BoxShape{size};
+    body.surface.color = color;
+    body.position = position;
+    body.rotation = rotation;
+    return body;
+}
+
+BodyDescription ball_body(const Vec3& position, double radius, Color color, const Quat& rotation) {
+    BodyDescription body = box_body(position, Vec3::Ones(), color, rotation);
+    body.shape = SphereShape{radius};
+    body.surface.roughness = 0.3;
+    return body;
+}
+
+BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color, const Quat& rotation) {
+    BodyDescription body = box_body(position, Vec3::Ones(), color, rotation);
+    body.shape = MeshShape{std::move(asset)};
+    body.surface.roughness = 0.35;
+    return body;
+}
+
+std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius) {
+    constexpr std::uint32_t around = 64, across = 32;
+    auto asset = std::make_shared<MeshAsset>();
+    for (std::uint32_t i = 0; i < around; ++i)
+        for (std::uint32_t j = 0; j < across; ++j) {
+            const SinCos a = sincos(2.0 * pi * i / around), b = sincos(2.0 * pi * j / across);
+            const Vec3 normal(b.cos * a.sin, b.sin, b.cos * a.cos);
+            const Vec3 p = Vec3(a.sin, 0.0, a.cos) * ring_radius + normal * tube_radius;
+            asset->surface.vertices.push_back(p);
+            asset->vertices.push_back({{float(p.x()), float(p.y()), float(p.z())},
+                                       {float(normal.x()), float(normal.y()), float(normal.z())}});
+            const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
+            const std::uint32_t corners[4] = {i * across + j, next_i * across + j, next_i * across + next_j,
+                                              i * across + next_j};
+            asset->surface.triangles.push_back({corners[0], corners[1], corners[2]});
+            asset->surface.triangles.push_back({corners[0], corners[2], corners[3]});
+        }
+    for (const auto& t : asset->surface.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
+    return asset;
+}
+
+Snapshot first_snapshot(const SceneDescription& scene) {
+    Snapshot snapshot;
+    for (const BodyDescription& body : scene.bodies)
+        snapshot.bodies.push_back({body.position, body.position, body.rotation, body.velocity, body.angular_velocity});
+    return snapshot;
+}
+
+SceneDescription heap_scene(int count) {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 1280;
+    scene.output.height = 720;
+    const double spread = 0.45 * std::sqrt(double(count));
+    const double far = spread / 4.5;
+    scene.camera.eye = Vec3(7.0, 5.5, 11.0) * far;
+    scene.camera.target = Vec3(0.0, 1.4, 0.0) * far;
+    scene.bodies.push_back(ground_plane());
+
+    Random random;
+    struct Standing { double x, z, radius, top; };
+    std::vector<Standing> pile;
+    for (int i = 0; i < count; ++i) {
+        const Vec3 size(random.between(0.7, 1.25), random.between(0.7, 1.15), random.between(0.7, 1.25));
+        const double angle = random.between(0.0, 2.0 * pi), distance = spread * std::sqrt(random.between(0.0, 1.0)) * 0.85;
+        const SinCos direction = sincos(angle);
+        const double x = distance * direction.cos, z = distance * direction.sin;
+        const double radius = 0.42 * (size.x() + size.z()) * 0.5;
+        double base = 0.0;
+        for (const Standing& other : pile)
+            if (std::hypot(other.x - x, other.z - z) < other.radius + radius) base = std::max(base, other.top);
+        const double tilt = base > 0.0 && random.between(0.0, 1.0) < 0.5 ? random.between(0.05, 0.5) : 0.0;
+        const Quat rotation = turned(Vec3(direction.sin, 0.0, direction.cos), tilt) *
+                              turned(Vec3::UnitY(), random.between(0.0, 2.0 * pi));
+        scene.bodies.push_back(box_body(Vec3(x, base + 0.5 * size.y(), z), size, pleasant_color(random), rotation));
+        pile.push_back({x, z, radius, base + size.y()});
+    }
+    return scene;
+}
+
+SceneDescription scaled(SceneDescription scene, double factor) {
+    scene.camera.eye *= factor;
+    scene.camera.target *= factor;
+    for (BodyDescription& body : scene.bodies) {
+        body.position *= factor;
+        if (auto* box = std::get_if<BoxShape>(&body.shape)) box->size *= factor;
+        if (auto* ball = std::get_if<SphereShape>(&body.shape)) ball->radius *= factor;
+        if (auto* plane = std::get_if<PlaneShape>(&body.shape)) plane->offset *= factor;
+    }
+    return scene;
+}
+
+SceneDescription moved(SceneDescription scene, const Vec3& by) {
+    scene.camera.eye += by;
+    scene.camera.target += by;
+    for (BodyDescription& body : scene.bodies) body.position += by;
+    return scene;
+}
+
+}  // namespace tumble

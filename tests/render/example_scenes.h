@@ -1,0 +1,33 @@
+// Scenes made by hand, for the tests of drawing: no file is read and nothing is simulated.
+#pragma once
+
+#include "scene/description.h"
+#include "sim/snapshot.h"
+
+namespace tumble {
+
+/// A small empty scene: 320 x 180 pixels, the default light, an eye at (0, 1, 8) looking at (0, 1, 0).
+SceneDescription empty_scene();
+
+BodyDescription ground_plane(Color color = {176, 180, 184}, Pattern pattern = Pattern::grid);
+BodyDescription box_body(const Vec3& position, const Vec3& size, Color color, const Quat& rotation = Quat::Identity());
+BodyDescription ball_body(const Vec3& position, double radius, Color color, const Quat& rotation = Quat::Identity());
+BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color,
+                          const Quat& rotation = Quat::Identity());
+
+/// A ring in the plane y = 0, around the y axis.
+std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius);
+
+/// The poses that the description starts from.
+Snapshot first_snapshot(const SceneDescription& scene);
+
+/// `count` boxes of about 1 m piled on the ground, seen as in a demonstration clip.
+SceneDescription heap_scene(int count);
+
+/// All lengths times a factor.
+SceneDescription scaled(SceneDescription scene, double factor);
+
+/// All positions moved.
+SceneDescription moved(SceneDescription scene, const Vec3& by);
+
+}  // namespace tumble
