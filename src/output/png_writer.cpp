@@ -80,12 +80,13 @@ void encode_png(const Image& image, std::vector<std::byte>& bytes) {
                                           sink.error.empty() ? "out of memory" : sink.error));
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
-    std::vector<std::byte> bytes;
-    encode_png(image, bytes);
+void PngFile::write(const std::filesystem::path& path, const Image& image) {
+    encode_png(image, bytes_);
     TemporaryFile file(path);
-    file.write(bytes);
+    file.write(bytes_);
     file.commit();
 }
+
+void write_png(const std::filesystem::path& path, const Image& image) { PngFile().write(path, image); }
 
 }  // namespace tumble

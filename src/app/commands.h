@@ -1,0 +1,59 @@
+// What each command is told, and does. The functions return the exit code where there is more to say than "done";
+// errors leave them as InputError (exit code 2) or RunError (1).
+#pragma once
+
+#include "render/renderer.h"
+#include "scene/load.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace tumble {
+
+struct RenderCommand {
+    std::filesystem::path scene;
+    std::optional<std::filesystem::path> clip;     // neither this nor frames: the scene's name with .mp4
+    std::optional<std::filesystem::path> frames;   // folder
+    SceneOverrides overrides;
+    RenderOptions drawing;
+    int threads = 1;
+    bool quiet = false;
+};
+void run_render(const RenderCommand& command);
+
+struct SimulateCommand {
+    std::filesystem::path scene;
+    std::optional<std::filesystem::path> trajectory, energy;
+    SceneOverrides overrides;
+    int threads = 1;
+    bool quiet = false;
+};
+void run_simulate(const SimulateCommand& command);
+
+struct EncodeCommand {
+    std::filesystem::path frames;   // folder
+    std::filesystem::path clip;
+    double fps = 60.0;
+    bool quiet = false;
+};
+void run_encode(const EncodeCommand& command);
+
+struct CompareCommand {
+    std::filesystem::path a, b;
+    std::optional<std::filesystem::path> difference;
+    int tolerance = 3;
+    double fraction = 1e-4;
+};
+/// 0 alike, 1 different.
+int run_compare(const CompareCommand& command);
+
+struct InfoCommand {
+    std::filesystem::path scene;
+    SceneOverrides overrides;
+};
+void run_info(const InfoCommand& command);
+
+/// 0 when clips can be rendered here, else 1.
+int run_doctor();
+
+}  // namespace tumble

@@ -1,0 +1,71 @@
+#include "app/frame_folder.h"
+
+#include "core/error.h"
+#include "output/temporary_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The n of "frame_N.png" with six digits or more, if that is what the name is.
+std::optional<std::int64_t> frame_number(const std::string& name) {
+    constexpr std::string_view before = "frame_", after = ".png";
+    if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
+    const char* first = name.data() + before.size();
+    const char* last = name.data() + name.size() - after.size();
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(first, last, number);
+    if (error != std::errc() || end != last || last - first < 6 || number < 0) return std::nullopt;
+    return number;
+}
+
+}  // namespace
+
+fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder / fmt::format("frame_{:06}.png", frame); }
+
+std::vector<std::int64_t> frames_in(const fs::path& folder) {
+    std::error_code error;
+    std::vector<std::int64_t> numbers;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (const auto number = frame_number(entry->path().filename().string())) numbers.push_back(*number);
+    if (error) throw InputError({folder.string(), 0, 0}, "cannot be read as a folder: " + error.message());
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+FrameFolder::FrameFolder(const fs::path& folder) : folder_(folder) {
+    std::error_code error;
+    std::vector<fs::path> missing;
+    for (fs::path p = fs::absolute(folder).lexically_normal(); !p.empty() && !fs::exists(p, error); p = p.parent_path())
+        missing.push_back(p);
+    for (auto p = missing.rbegin(); p != missing.rend(); ++p)
+        if (fs::create_directory(*p, error)) made_.push_back(*p);
+    try {
+        if (!fs::is_directory(folder, error)) {
+            if (!error) error = std::make_error_code(std::errc::not_a_directory);
+            throw RunError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+        }
+        const TemporaryFile probe(frame_path(folder, 0));   // only trying tells whether a file can be made there
+    } catch (...) {
+        remove_empty();
+        throw;
+    }
+}
+
+FrameFolder::~FrameFolder() { remove_empty(); }
+
+void FrameFolder::remove_empty() const {
+    std::error_code not_empty;
+    for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, not_empty);
+}
+
+}  // namespace tumble

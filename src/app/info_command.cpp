@@ -1,0 +1,150 @@
+#include "app/commands.h"
+#include "app/stage_time.h"
+#include "core/error.h"
+#include "sim/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
+constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
+constexpr std::int64_t frames_in_flight = 8; // between drawing and the outputs, at most about so many
+
+const char* type_text(BodyType type) {
+    switch (type) {
+        case BodyType::dynamic: return "dynamic";
+        case BodyType::fixed: return "fixed";
+        case BodyType::kinematic: return "kinematic";
+    }
+    return "";
+}
+
+/// The kind of shape alone, for the groups, and with its measures, for the list.
+struct ShapeText {
+    std::string kind, measures;
+};
+
+ShapeText shape_text(const Shape& shape) {
+    struct Tell {
+        ShapeText operator()(const PlaneShape& s) const { return {"plane", fmt::format("offset {:.4g}", s.offset)}; }
+        ShapeText operator()(const BoxShape& s) const {
+            return {"box", fmt::format("{:.4g} x {:.4g} x {:.4g}", s.size.x(), s.size.y(), s.size.z())};
+        }
+        ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
+        ShapeText operator()(const MeshShape& s) const {
+            return {"mesh", fmt::format("{}, {} triangles", std::filesystem::path(s.asset->file).filename().string(),
+                                        s.asset->surface.triangles.size())};
+        }
+    };
+    return std::visit(Tell{}, shape);
+}
+
+std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }
+
+void print_head(const SceneDescription& scene) {
+    fmt::print("{}{}\n", scene.title.empty() ? scene.file : scene.title,
+               scene.title.empty() ? "" : " (" + scene.file + ")");
+    const std::int64_t frames = scene.frame_count();
+    const int steps = scene.simulation.steps_per_frame;
+    fmt::print("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
+               scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
+    fmt::print("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
+               scene.output.samples, scene.light.shadows ? "on" : "off");
+    fmt::print("  camera    from {} to {}, {:.4g} degrees high\n", vector_text(scene.camera.eye),
+               vector_text(scene.camera.target), scene.camera.vertical_fov);
+    fmt::print("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
+    if (scene.wind)
+        fmt::print("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
+                   scene.wind->density, scene.wind->drag);
+    if (!scene.forces.empty()) fmt::print("  forces    {} at points of bodies\n", scene.forces.size());
+}
+
+void print_groups(const SceneDescription& scene, const World& world) {
+    struct Group {
+        std::size_t count = 0;
+        double mass = 0.0;
+    };
+    std::map<std::pair<BodyType, std::string>, Group> groups;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        Group& group = groups[{body.type, shape_text(body.shape).kind}];
+        ++group.count;
+        group.mass += world.report(i).mass;
+    }
+    fmt::print("\n{} bodies\n", scene.bodies.size());
+    for (const auto& [key, group] : groups) {
+        fmt::print("  {:>7} {} {}", group.count, type_text(key.first), key.second);
+        if (key.first == BodyType::dynamic) fmt::print(", {:.6g} kg in all", group.mass);
+        fmt::print("\n");
+    }
+}
+
+void print_bodies(const SceneDescription& scene, const World& world) {
+    if (scene.bodies.empty()) return;
+    fmt::print("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
+               "principal inertia (kg m^2)", "hull");
+    const std::size_t count = std::min(scene.bodies.size(), listed_bodies);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        const BodyReport report = world.report(i);
+        const ShapeText shape = shape_text(body.shape);
+        const bool moves = body.type == BodyType::dynamic;
+        fmt::print("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", body.name, type_text(body.type), shape.kind,
+                   shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
+                   moves ? vector_text(report.principal_inertia) : "-",
+                   report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
+    }
+    if (count < scene.bodies.size()) fmt::print("  ... and {} more\n", scene.bodies.size() - count);
+    fmt::print("  hull: vertices of the convex shape that collides\n");
+}
+
+/// Steps the world for a moment, and takes that for the whole: heaps that form later cost more.
+std::string simulation_cost(const SceneDescription& scene, World& world) {
+    const std::int64_t frames = scene.frame_count() - 1;
+    if (frames <= 0) return "nothing to simulate";
+    const double start = wall_seconds();
+    std::int64_t done = 0;
+    try {
+        while (done < frames && wall_seconds() - start < trial_seconds) {
+            world.advance_frame();
+            ++done;
+        }
+    } catch (const RunError& error) {
+        return fmt::format("the simulation fails: {}", error.what());
+    }
+    const double seconds = wall_seconds() - start;
+    return fmt::format("about {:.3g} s on one thread, by its first {} frames", seconds * double(frames) / double(done),
+                       done);
+}
+
+void print_cost(const SceneDescription& scene, World& world) {
+    const double pixels = double(scene.output.width) * scene.output.height;
+    // Colour and depth of each sample, the resolved picture, and the pictures on their way.
+    const double drawing = pixels * (8.0 * scene.output.samples + 8.0) + pixels * 4.0 * frames_in_flight;
+    fmt::print("\ncost\n");
+    fmt::print("  simulation  {}\n", simulation_cost(scene, world));
+    fmt::print("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
+               1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
+    fmt::print("  memory      about {:.3g} MiB for pictures, for any number of frames\n", drawing / (1024.0 * 1024.0));
+}
+
+}  // namespace
+
+void run_info(const InfoCommand& command) {
+    const SceneDescription scene = load_scene(command.scene, command.overrides);
+    World world(scene);
+    print_head(scene);
+    print_groups(scene, world);
+    print_bodies(scene, world);
+    print_cost(scene, world);
+}
+
+}  // namespace tumble

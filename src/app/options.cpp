@@ -1,0 +1,197 @@
+#include "app/options.h"
+
+#include "app/commands.h"
+#include "core/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <string>
+#include <thread>
+
+namespace tumble {
+namespace {
+
+constexpr int most_threads = 256;
+
+int machine_threads() { return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads); }
+
+/// "1280x720" to two numbers. Their range is the scene's affair.
+void read_size(const std::string& text, SceneOverrides& overrides) {
+    int width = 0, height = 0;
+    const char* const last = text.data() + text.size();
+    const auto [x, bad_width] = std::from_chars(text.data(), last, width);
+    bool good = bad_width == std::errc() && x != last && *x == 'x';
+    if (good) {
+        const auto [end, bad_height] = std::from_chars(x + 1, last, height);
+        good = bad_height == std::errc() && end == last;
+    }
+    if (!good)
+        throw InputError(fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", text));
+    overrides.width = width;
+    overrides.height = height;
+}
+
+/// What the user may say on the command line; each command takes what it knows.
+struct CommandLine {
+    RenderCommand render;
+    SimulateCommand simulate;
+    EncodeCommand encode;
+    CompareCommand compare;
+    InfoCommand info;
+    std::string render_size, info_size;
+};
+
+void add_scene(CLI::App& command, std::filesystem::path& scene) {
+    command.add_option("scene", scene, "The scene file (TOML)")->required()->type_name("SCENE");
+}
+
+void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
+    command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")->type_name("N");
+    command.add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
+        ->type_name("S");
+}
+
+void add_run(CLI::App& command, int& threads, bool& quiet) {
+    threads = machine_threads();
+    command.add_option("--threads", threads, "Threads to use; the result is the same for any number")
+        ->check(CLI::Range(1, most_threads))->type_name("N")->capture_default_str();
+    command.add_flag("--quiet", quiet, "Say nothing but errors");
+}
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+    RenderCommand& c = line.render;
+    CLI::App* command = app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    add_scene(*command, c.scene);
+    command->add_option("-o,--output", c.clip,
+                        "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264), .webm (VP9), .gif. "
+                        "Default, without --frames: the scene's name with .mp4, in this folder")->type_name("CLIP");
+    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->type_name("DIR");
+    command->add_option("--size", line.render_size, "Picture size, in place of the scene's")->type_name("WxH");
+    add_frames_of_time(*command, c.overrides);
+    command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
+        ->type_name("N");
+    static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
+    command->add_option("--gl", c.drawing.backend, "How to draw: osmesa (on the CPU, default) or egl (a GPU if there is one)")
+        ->transform(CLI::CheckedTransformer(backends))->type_name("NAME");
+    add_run(*command, c.threads, c.quiet);
+    command->footer(
+        "Examples:\n"
+        "  tumble render scene.toml                          writes scene.mp4\n"
+        "  tumble render scene.toml -o clip.webm --size 640x360\n"
+        "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
+        "  tumble render scene.toml --frames one --duration 0  writes the first frame only");
+    return command;
+}
+
+CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
+    SimulateCommand& c = line.simulate;
+    CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
+    add_scene(*command, c.scene);
+    command->add_option("--trajectory", c.trajectory,
+                        "CSV: one row per frame and moving body, with its position, orientation and velocities")
+        ->type_name("T.csv");
+    command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts")
+        ->type_name("E.csv");
+    CLI::Option* step = command->add_option("--step", c.overrides.step,
+                                            "The fixed step in s, in place of the scene's; it must divide 1/fps")
+                            ->type_name("H");
+    command->add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
+        ->excludes(step)->type_name("N");
+    command->add_option("--integrator", c.overrides.integrator, "symplectic-euler or explicit-euler")->type_name("NAME");
+    command->add_option("--impacts", c.overrides.impacts, "stepped: impacts are resolved at the step")->type_name("MODE");
+    add_frames_of_time(*command, c.overrides);
+    add_run(*command, c.threads, c.quiet);
+    command->footer(
+        "Examples:\n"
+        "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
+        "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
+    return command;
+}
+
+CLI::App* add_encode(CLI::App& app, CommandLine& line) {
+    EncodeCommand& c = line.encode;
+    CLI::App* command = app.add_subcommand("encode", "Make a clip of frames that are there already");
+    command->add_option("frames", c.frames, "The folder with frame_000000.png, frame_000001.png and so on")
+        ->required()->type_name("DIR");
+    command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
+        ->required()->type_name("CLIP");
+    command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
+    command->add_flag("--quiet", c.quiet, "Say nothing but errors");
+    command->footer("Example:\n  tumble encode out -o clip.mp4 --fps 30");
+    return command;
+}
+
+CLI::App* add_compare(CLI::App& app, CommandLine& line) {
+    CompareCommand& c = line.compare;
+    CLI::App* command = app.add_subcommand("compare", "Compare two pictures: exit code 0 alike, 1 different, 2 cannot compare");
+    command->add_option("a", c.a, "A picture (PNG)")->required()->type_name("A.png");
+    command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
+    command->add_option("--diff", c.difference, "Write a picture of the differences: red beyond the tolerance, blue within")
+        ->type_name("D.png");
+    command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a channel may differ everywhere")
+        ->check(CLI::Range(0, 255))->type_name("N")->capture_default_str();
+    command->add_option("--fraction", c.fraction, "Part of the pixels that may differ by more")
+        ->check(CLI::Range(0.0, 1.0))->type_name("F")->capture_default_str();
+    command->footer(
+        "Pictures of one scene from two processors pass; a small object moved by one pixel, a lost shadow\n"
+        "or a shifted colour do not: several such pixels close together, or a slight difference all over an\n"
+        "8 x 8 window, are not allowed either. Both limits grow with --tolerance and --fraction.\n"
+        "Example:\n  tumble compare golden.png frame_000100.png --diff difference.png");
+    return command;
+}
+
+CLI::App* add_info(CLI::App& app, CommandLine& line) {
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds and what it will cost");
+    add_scene(*command, line.info.scene);
+    command->add_option("--size", line.info_size, "Picture size, in place of the scene's")->type_name("WxH");
+    add_frames_of_time(*command, line.info.overrides);
+    command->footer("Example:\n  tumble info scene.toml");
+    return command;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+    CommandLine line;
+    CLI::App app("Tumble: clips of rigid bodies that fall, bounce and come to rest, drawn without a screen.", "tumble");
+    app.set_version_flag("--version", "tumble " TUMBLE_VERSION, "Print the version");
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(32);
+    app.footer(
+        "Start here:\n"
+        "  tumble doctor                                     is everything there?\n"
+        "  tumble info assets/scenes/falling_boxes.toml      what is in the scene?\n"
+        "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4\n"
+        "\"tumble COMMAND --help\" tells more. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
+        "or bad input. Messages and progress go to standard error.");
+    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        return fmt::format("error: {} (\"tumble --help\" and \"tumble COMMAND --help\" tell more)\n", error.what());
+    });
+    const CLI::App* render = add_render(app, line);
+    const CLI::App* simulate = add_simulate(app, line);
+    const CLI::App* encode = add_encode(app, line);
+    const CLI::App* compare = add_compare(app, line);
+    const CLI::App* info = add_info(app, line);
+    app.add_subcommand("doctor", "Look whether everything is there that rendering needs, and how to get what is not");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    if (!line.render_size.empty()) read_size(line.render_size, line.render.overrides);
+    if (!line.info_size.empty()) read_size(line.info_size, line.info.overrides);
+
+    if (render->parsed()) run_render(line.render);
+    else if (simulate->parsed()) run_simulate(line.simulate);
+    else if (encode->parsed()) run_encode(line.encode);
+    else if (compare->parsed()) return run_compare(line.compare);
+    else if (info->parsed()) run_info(line.info);
+    else return run_doctor();
+    return 0;
+}
+
+}  // namespace tumble

@@ -1,0 +1,108 @@
+#include "app/pipeline.h"
+
+#include "app/interrupt.h"
+#include "app/stage_group.h"
+#include "core/error.h"
+#include "output/png_writer.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace tumble {
+namespace {
+
+// Enough to even out frames of different cost, few enough to be nothing beside one frame's pixels.
+constexpr std::size_t waiting_poses = 8;
+// A frame of 1280 x 720 is 3.5 MiB: two waiting at each output even out its pace, more would only fill memory.
+constexpr std::size_t waiting_frames = 2;
+constexpr auto supervision_period = std::chrono::milliseconds(50);
+
+}  // namespace
+
+void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
+    while (!stages.wait(supervision_period)) {
+        report();
+        if (interrupt.pending()) stages.stop(std::make_exception_ptr(RunError("interrupted")));
+    }
+    stages.finish();
+}
+
+Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+                   int png_threads)
+    : world_(world),
+      frames_(frames),
+      drawer_(drawer),
+      folder_(folder),
+      video_(video),
+      png_threads_(png_threads),
+      poses_(waiting_poses),
+      for_png_(waiting_frames),
+      for_video_(waiting_frames) {}
+
+void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
+    StageGroup stages;
+    stages.on_stop([this] {
+        poses_.cancel();
+        for_png_.cancel();
+        for_video_.cancel();
+        if (video_ != nullptr) video_->abandon();
+    });
+    stages.start([this] { simulate(); });
+    stages.start([this] {
+        drawer_.run(poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing);
+        for_png_.close();
+        for_video_.close();
+    });
+    if (folder_ != nullptr)
+        for (int i = 0; i < png_threads_; ++i) stages.start([this] { write_frames(); });
+    if (video_ != nullptr) stages.start([this] { write_video(); });
+    supervise(stages, interrupt, [&] { report(finished()); });
+}
+
+void Pipeline::simulate() {
+    for (std::int64_t n = 0; n < frames_; ++n) {
+        Snapshot pose;
+        {
+            const StageTimer timer(times_.simulation);
+            if (n > 0) world_.advance_frame();
+            pose = world_.snapshot();
+        }
+        if (!poses_.push(std::move(pose))) return;
+    }
+    poses_.close();
+}
+
+bool Pipeline::hand_on(const Frame& frame) {
+    if (folder_ != nullptr && !for_png_.push(frame)) return false;
+    return video_ == nullptr || for_video_.push(frame);
+}
+
+void Pipeline::write_frames() {
+    PngFile file;
+    while (const std::optional<Frame> frame = for_png_.pop()) {
+        const StageTimer timer(times_.png);
+        file.write(frame_path(folder_->path(), frame->number), *frame->image);
+        ++written_;
+    }
+}
+
+void Pipeline::write_video() {
+    while (const std::optional<Frame> frame = for_video_.pop()) {
+        const StageTimer timer(times_.video);
+        video_->write(*frame->image);
+        ++filmed_;
+    }
+    // After a stop the queue ends too, but the clip is not whole.
+    if (filmed_ != frames_) return;
+    const StageTimer timer(times_.video);
+    video_->finish();
+}
+
+std::int64_t Pipeline::finished() const {
+    std::int64_t done = frames_;
+    if (folder_ != nullptr) done = std::min(done, written_.load());
+    if (video_ != nullptr) done = std::min(done, filmed_.load());
+    return done;
+}
+
+}  // namespace tumble

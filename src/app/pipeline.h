@@ -1,0 +1,66 @@
+// The whole street at work at once:
+//
+//   simulation ──poses──> drawing ──frames──┬──> PNG writers (a few threads)
+//                                           └──> video (ffmpeg)
+//
+// Each arrow is a bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the
+// clip is. The first error of any stage stops all of them.
+#pragma once
+
+#include "app/drawer.h"
+#include "app/frame_folder.h"
+#include "app/stage_time.h"
+#include "output/video_writer.h"
+#include "scene/description.h"
+#include "sim/world.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+namespace tumble {
+
+class Interrupt;
+class StageGroup;
+
+/// What the stages used; they overlap, so that the sum is more than the run.
+struct PipelineTimes {
+    StageTime simulation, drawing, png, video;
+};
+
+class Pipeline {
+public:
+    /// Simulates and draws `frames` frames; each goes to the outputs that are there (null: not asked for).
+    /// All are used while run() lasts. `png_threads` compress at most so many frames at a time.
+    Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+             int png_threads);
+
+    /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
+    /// Throws the first error of any stage; RunError when interrupted. Frames written by then are whole, and stay.
+    void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
+
+    const PipelineTimes& times() const { return times_; }
+
+private:
+    void simulate();
+    void write_frames();
+    void write_video();
+    bool hand_on(const Frame& frame);
+    std::int64_t finished() const;
+
+    World& world_;
+    std::int64_t frames_;
+    Drawer& drawer_;
+    const FrameFolder* folder_;
+    VideoWriter* video_;
+    int png_threads_;
+    BoundedQueue<Snapshot> poses_;
+    BoundedQueue<Frame> for_png_, for_video_;
+    std::atomic<std::int64_t> written_{0}, filmed_{0};
+    PipelineTimes times_;
+};
+
+/// Waits for the stages of a run: reports, and stops them when the user interrupts. Throws their first error.
+void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<void()>& report);
+
+}  // namespace tumble

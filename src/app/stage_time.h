@@ -1,0 +1,29 @@
+// How long the stages of a run worked: the seconds between taking something up and putting it down, without waiting.
+#pragma once
+
+#include <atomic>
+
+namespace tumble {
+
+/// Sums of one stage over all its threads, in s. `cpu` leaves out threads that a library runs on its own.
+struct StageTime {
+    std::atomic<double> wall{0.0}, cpu{0.0};
+};
+
+/// Seconds of a clock that only goes forward.
+double wall_seconds();
+
+/// Adds its own lifetime to a stage.
+class StageTimer {
+public:
+    explicit StageTimer(StageTime& stage);
+    ~StageTimer();
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+
+private:
+    StageTime& stage_;
+    double wall_start_, cpu_start_;
+};
+
+}  // namespace tumble
