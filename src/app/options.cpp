@@ -58,7 +58,7 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
 void add_run(CLI::App& command, int& threads, bool& quiet) {
     threads = machine_threads();
     command.add_option("--threads", threads, "Threads to use; the result is the same for any number")
-        ->check(CLI::Range(1, most_threads))->type_name("N")->capture_default_str();
+        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", threads));
     command.add_flag("--quiet", quiet, "Say nothing but errors");
 }
 
@@ -67,16 +67,17 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
     add_scene(*command, c.scene);
     command->add_option("-o,--output", c.clip,
-                        "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264), .webm (VP9), .gif. "
-                        "Default, without --frames: the scene's name with .mp4, in this folder")->type_name("CLIP");
+                        "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
+                        ".webm (VP9), .gif. Without this and --frames: the scene's name with .mp4,\n"
+                        "in this folder")->type_name("CLIP");
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->type_name("DIR");
     command->add_option("--size", line.render_size, "Picture size, in place of the scene's")->type_name("WxH");
     add_frames_of_time(*command, c.overrides);
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
     static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
-    command->add_option("--gl", c.drawing.backend, "How to draw: osmesa (on the CPU, default) or egl (a GPU if there is one)")
-        ->transform(CLI::CheckedTransformer(backends))->type_name("NAME");
+    command->add_option("--gl", c.drawing.backend, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
+        ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
     add_run(*command, c.threads, c.quiet);
     command->footer(
         "Examples:\n"
@@ -92,7 +93,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
     add_scene(*command, c.scene);
     command->add_option("--trajectory", c.trajectory,
-                        "CSV: one row per frame and moving body, with its position, orientation and velocities")
+                        "CSV: one row per frame and moving body, with its centre of mass, orientation\nand velocities")
         ->type_name("T.csv");
     command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts")
         ->type_name("E.csv");
@@ -132,10 +133,10 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
     command->add_option("--diff", c.difference, "Write a picture of the differences: red beyond the tolerance, blue within")
         ->type_name("D.png");
-    command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a channel may differ everywhere")
-        ->check(CLI::Range(0, 255))->type_name("N")->capture_default_str();
+    command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a pixel may differ in each channel; its surroundings\non average by half of it")
+        ->check(CLI::Range(0, 255))->option_text("N [3]");
     command->add_option("--fraction", c.fraction, "Part of the pixels that may differ by more")
-        ->check(CLI::Range(0.0, 1.0))->type_name("F")->capture_default_str();
+        ->check(CLI::Range(0.0, 1.0))->option_text("F [0.0001]");
     command->footer(
         "Pictures of one scene from two processors pass; a small object moved by one pixel, a lost shadow\n"
         "or a shifted colour do not: several such pixels close together, or a slight difference all over an\n"

@@ -1,0 +1,163 @@
+// What is written comes back to the bit; what is broken is refused with its name; every kind of PNG can be read.
+#include "core/error.h"
+#include "output/png_reader.h"
+#include "output/png_writer.h"
+
+#include "folder.h"
+#include "pictures.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <cstring>
+#include <span>
+
+namespace tumble {
+namespace {
+
+std::string message_of(const std::filesystem::path& path) {
+    try {
+        read_png(path);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "read without an error";
+}
+
+TEST(Png, ComesBackToTheBit) {
+    const TestFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 17}, {31, 1}, {33, 27}, {320, 180}, {641, 359}}) {
+        const Image image = colorful(width, height);
+        write_png(folder / "a.png", image);
+        EXPECT_EQ(read_png(folder / "a.png"), image) << width << " x " << height;
+        EXPECT_EQ(read_png_size(folder / "a.png"), (PictureSize{width, height}));
+    }
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(Png, LeavesAlphaOut) {
+    const TestFolder folder;
+    Image image = colorful(5, 4);
+    image.at(2, 1)[3] = 7;
+    write_png(folder / "a.png", image);
+    EXPECT_EQ(read_png(folder / "a.png"), colorful(5, 4));
+}
+
+TEST(Png, SaysItIsSrgbRgb8) {
+    std::vector<std::byte> bytes;
+    encode_png(colorful(9, 5), bytes);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    EXPECT_EQ(text.substr(1, 3), "PNG");
+    EXPECT_EQ(text[24], 8);   // bits
+    EXPECT_EQ(text[25], 2);   // RGB
+    EXPECT_NE(text.find("sRGB"), std::string::npos);
+}
+
+TEST(Png, TheSamePictureIsTheSameBytes) {
+    std::vector<std::byte> first, second(100);
+    encode_png(colorful(64, 48), first);
+    encode_png(colorful(64, 48), second);
+    EXPECT_EQ(first, second);
+}
+
+TEST(Png, AnEmptyPictureIsRefused) {
+    std::vector<std::byte> bytes;
+    EXPECT_THROW(encode_png(Image(0, 5), bytes), RunError);
+    const TestFolder folder;
+    EXPECT_THROW(write_png(folder / "a.png", Image()), RunError);
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+TEST(Png, ReadsEveryKind) {
+    const TestFolder folder;
+    struct Kind {
+        png_uint_32 format;
+        std::vector<std::uint8_t> pixels;   // 2 x 1
+        std::vector<std::uint8_t> expected;
+    };
+    const Kind kinds[] = {
+        {PNG_FORMAT_GRAY, {10, 200}, {10, 10, 10, 255, 200, 200, 200, 255}},
+        {PNG_FORMAT_GA, {10, 255, 200, 128}, {10, 10, 10, 255, 200, 200, 200, 128}},
+        {PNG_FORMAT_RGB, {1, 2, 3, 4, 5, 6}, {1, 2, 3, 255, 4, 5, 6, 255}},
+        {PNG_FORMAT_RGBA, {1, 2, 3, 255, 4, 5, 6, 77}, {1, 2, 3, 255, 4, 5, 6, 77}},
+    };
+    for (const Kind& kind : kinds) {
+        png_image image{};
+        image.version = PNG_IMAGE_VERSION;
+        image.width = 2;
+        image.height = 1;
+        image.format = kind.format;
+        ASSERT_NE(png_image_write_to_file(&image, (folder / "k.png").c_str(), 0, kind.pixels.data(), 0, nullptr), 0);
+        EXPECT_EQ(read_png(folder / "k.png").pixels, kind.expected) << "format " << kind.format;
+    }
+    // A palette: the pixels are indices.
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = 2;
+    image.height = 1;
+    image.format = PNG_FORMAT_RGB_COLORMAP;
+    image.colormap_entries = 2;
+    const std::uint8_t indices[] = {1, 0}, colors[] = {9, 8, 7, 30, 20, 10};
+    ASSERT_NE(png_image_write_to_file(&image, (folder / "k.png").c_str(), 0, indices, 0, colors), 0);
+    EXPECT_EQ(read_png(folder / "k.png").pixels, (std::vector<std::uint8_t>{30, 20, 10, 255, 9, 8, 7, 255}));
+}
+
+TEST(Png, WhatIsNoPngIsNamed) {
+    const TestFolder folder;
+    EXPECT_NE(message_of(folder / "none.png").find("none.png: error: cannot be read: No such file"), std::string::npos);
+    write_text(folder / "text.png", "not a picture");
+    EXPECT_NE(message_of(folder / "text.png").find("text.png: error: not a whole PNG file"), std::string::npos);
+    write_text(folder / "empty.png", "");
+    EXPECT_NE(message_of(folder / "empty.png").find("not a whole PNG"), std::string::npos);
+    std::filesystem::create_directory(folder / "folder.png");
+    EXPECT_NE(message_of(folder / "folder.png").find("is a folder"), std::string::npos);
+}
+
+TEST(Png, EveryCutIsRefused) {
+    const TestFolder folder;
+    std::vector<std::byte> bytes;
+    encode_png(colorful(20, 10), bytes);
+    const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (std::size_t n = 0; n < whole.size() - 12; n += 7) {   // the last 12 bytes are the end mark: nothing is lost
+        write_text(folder / "cut.png", whole.substr(0, n));
+        EXPECT_NE(message_of(folder / "cut.png").find("not a whole PNG file"), std::string::npos) << n << " bytes";
+    }
+}
+
+TEST(Png, NoChangedByteCrashes) {
+    const TestFolder folder;
+    std::vector<std::byte> bytes;
+    encode_png(colorful(20, 10), bytes);
+    const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+        std::string broken = whole;
+        broken[n] = char(~broken[n]);
+        write_text(folder / "broken.png", broken);
+        message_of(folder / "broken.png");   // an error or a picture; the sanitizers watch
+    }
+}
+
+TEST(Png, AHostileSizeIsRefusedBeforeMemoryIsTaken) {
+    const TestFolder folder;
+    std::vector<std::byte> bytes;
+    encode_png(colorful(1, 1), bytes);
+    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const char huge[] = {0x00, 0x0f, 0x42, 0x40};   // 1,000,000, big end first
+    std::memcpy(&text[16], huge, 4);
+    std::memcpy(&text[20], huge, 4);
+    const auto checksum = [&] {
+        std::uint32_t crc = 0xffffffffu;   // of the head chunk (PNG specification, annex D)
+        for (std::size_t i = 12; i < 29; ++i) {
+            crc ^= static_cast<std::uint8_t>(text[i]);
+            for (int bit = 0; bit < 8; ++bit) crc = (crc & 1u) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;
+        }
+        return ~crc;
+    }();
+    for (std::size_t i = 0; i < 4; ++i) text[29 + i] = char(checksum >> (24 - 8 * i));
+    write_text(folder / "huge.png", text);
+    EXPECT_NE(message_of(folder / "huge.png").find("too large (1000000 x 1000000"), std::string::npos)
+        << message_of(folder / "huge.png");
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,100 @@
+// A file appears whole or not at all, and what was there before stays until then.
+#include "core/error.h"
+#include "output/png_writer.h"
+#include "output/temporary_file.h"
+
+#include "folder.h"
+#include "pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <span>
+
+namespace tumble {
+namespace {
+
+void put(TemporaryFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
+
+TEST(TemporaryFile, AppearsAtCommit) {
+    const TestFolder folder;
+    write_text(folder / "a.txt", "old");
+    {
+        TemporaryFile file(folder / "a.txt");
+        put(file, "new");
+        EXPECT_EQ(read_text(folder / "a.txt"), "old");
+        EXPECT_EQ(file.path().extension(), ".txt");
+        file.commit();
+    }
+    EXPECT_EQ(read_text(folder / "a.txt"), "new");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(TemporaryFile, WithoutCommitNothingIsLeft) {
+    const TestFolder folder;
+    write_text(folder / "a.txt", "old");
+    {
+        TemporaryFile file(folder / "a.txt");
+        put(file, "new");
+    }
+    EXPECT_EQ(read_text(folder / "a.txt"), "old");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(TemporaryFile, ALinkIsWrittenThrough) {
+    const TestFolder folder;
+    write_text(folder / "a.txt", "old");
+    std::filesystem::create_symlink(folder / "a.txt", folder / "link.txt");
+    TemporaryFile file(folder / "link.txt");
+    put(file, "new");
+    file.commit();
+    EXPECT_EQ(read_text(folder / "a.txt"), "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+}
+
+TEST(TemporaryFile, ErrorsNameTheFinalFile) {
+    const TestFolder folder;
+    write_text(folder / "file", "");
+    for (const auto& path : {folder / "missing/a.png", folder / "file/a.png", folder / "."}) {
+        try {
+            write_png(path, colorful(2, 2));
+            FAIL() << path;
+        } catch (const RunError& error) {
+            EXPECT_NE(std::string(error.what()).find("cannot write '" + path.string() + "'"), std::string::npos)
+                << error.what();
+        }
+    }
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(TemporaryFile, ADeviceIsWrittenInPlace) {
+    TemporaryFile null("/dev/null");
+    put(null, "gone");
+    null.commit();
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    EXPECT_THROW(
+        {
+            TemporaryFile full("/dev/full");
+            put(full, "no room");
+        },
+        RunError);
+}
+
+TEST(TemporaryFile, AFullDiskLeavesNothing) {
+    const TestFolder folder;
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto previous = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit small = before;
+    small.rlim_cur = 1000;   // bytes in a file: the writer meets it as it meets the end of a disk
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(write_png(folder / "a.png", colorful(320, 180)), RunError);
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, previous);
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,66 @@
+// Endings and frame rates, before any program runs.
+#include "core/error.h"
+#include "output/video_format.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+TEST(FrameRate, IsTheFractionMeant) {
+    EXPECT_EQ(to_frame_rate(60.0), (FrameRate{60, 1}));
+    EXPECT_EQ(to_frame_rate(29.97), (FrameRate{2997, 100}));
+    EXPECT_EQ(to_frame_rate(30000.0 / 1001.0), (FrameRate{30000, 1001}));
+    EXPECT_EQ(to_frame_rate(0.5), (FrameRate{1, 2}));
+    EXPECT_EQ(to_frame_rate(1.0 / 3.0), (FrameRate{1, 3}));
+    EXPECT_EQ(to_frame_rate(12.5), (FrameRate{25, 2}));
+    EXPECT_EQ(to_frame_rate(1e6), (FrameRate{1000000, 1}));
+    EXPECT_EQ(to_frame_rate(0.001), (FrameRate{1, 1000}));
+    EXPECT_EQ(to_frame_rate(60.0).text(), "60/1");
+}
+
+TEST(FrameRate, IsCloseForAnyNumber) {
+    for (double fps = 0.0013; fps < 1e6; fps *= 1.0371) {
+        const FrameRate rate = to_frame_rate(fps);
+        ASSERT_GE(rate.numerator, 1);
+        ASSERT_GE(rate.denominator, 1);
+        EXPECT_LE(rate.numerator, 1'000'000);
+        EXPECT_LE(rate.denominator, 1'000'000);
+        // A best fraction p/q is closer than 1/(q * limit): the worst case is a limit in the numerator.
+        EXPECT_NEAR(double(rate.numerator) / double(rate.denominator), fps, fps * fps * 1e-6 + fps * 1e-6) << fps;
+    }
+}
+
+TEST(VideoFormat, ByEnding) {
+    EXPECT_EQ(video_format("a.mp4", 60.0).kind, VideoKind::h264);
+    EXPECT_EQ(video_format("a.MP4", 60.0).kind, VideoKind::h264);
+    EXPECT_EQ(video_format("a.mov", 60.0).kind, VideoKind::h264);
+    EXPECT_EQ(video_format("b/a.mkv", 60.0).kind, VideoKind::h264);
+    EXPECT_EQ(video_format("a.webm", 60.0).kind, VideoKind::vp9);
+    EXPECT_EQ(video_format("a.gif", 25.0).kind, VideoKind::gif);
+    for (const char* name : {"a", "a.avi", "mp4", "a.mp4.png", "a.", ""}) EXPECT_THROW(video_format(name, 60.0), InputError);
+}
+
+TEST(VideoFormat, RatesThatCannotBe) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double fps : {0.0, -1.0, 1e-5, 1.1e6, nan, infinity}) EXPECT_THROW(video_format("a.mp4", fps), InputError);
+    EXPECT_NO_THROW(video_format("a.mp4", 1e6));
+    EXPECT_NO_THROW(video_format("a.mkv", 1000.0));
+    EXPECT_THROW(video_format("a.mkv", 1001.0), InputError);
+    EXPECT_THROW(video_format("a.webm", 1e6), InputError);
+}
+
+TEST(VideoFormat, AGifLeavesFramesOutEvenly) {
+    EXPECT_EQ(video_format("a.gif", 50.0).frame_step, 1);
+    const VideoFormat format = video_format("a.gif", 60.0);
+    EXPECT_EQ(format.frame_step, 2);
+    EXPECT_EQ(format.rate, (FrameRate{30, 1}));
+    EXPECT_EQ(video_format("a.gif", 1e6).frame_step, 20000);
+    EXPECT_EQ(video_format("a.mp4", 1e6).frame_step, 1);
+}
+
+}  // namespace
+}  // namespace tumble

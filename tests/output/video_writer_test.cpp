@@ -1,0 +1,221 @@
+// Clips by the real ffmpeg, measured with ffprobe and decoded again.
+#include "core/error.h"
+#include "output/process.h"
+#include "output/video_writer.h"
+
+#include "folder.h"
+#include "pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace tumble {
+namespace {
+
+constexpr Pixel crate{200, 133, 60};
+
+std::string probe(const std::filesystem::path& clip, const std::string& what) {
+    auto text = output_of("/usr/bin/ffprobe", {"-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                                               "stream=" + what, "-of", "default=nw=1:nk=1", clip.string()});
+    if (!text) return "ffprobe failed";
+    for (char& c : *text)
+        if (c == '\n') c = ' ';
+    if (!text->empty()) text->pop_back();
+    return *text;
+}
+
+/// All frames as RGB bytes, by the matrix that the clip says it has.
+std::string decoded(const std::filesystem::path& clip) {
+    const std::filesystem::path raw = clip.string() + ".rgb";
+    if (!output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-f", "rawvideo", "-pix_fmt", "rgb24", "-y",
+                                       raw.string()}))
+        return "";
+    std::string bytes = read_text(raw);
+    std::filesystem::remove(raw);
+    return bytes;
+}
+
+/// A box that moves over plain ground by 4 pixels a frame.
+Image moving_box(int width, int height, int frame) {
+    Image image = plain(width, height, {90, 100, 110});
+    if (width >= 8 && height >= 8) fill(image, std::min(4 * frame, width - 8), height / 2 - 4, 8, 8, crate);
+    return image;
+}
+
+void write_clip(const std::filesystem::path& clip, int width, int height, double fps, int frames) {
+    std::filesystem::remove(clip);
+    VideoWriter writer(clip, width, height, fps);
+    for (int n = 0; n < frames; ++n) writer.write(moving_box(width, height, n));
+    EXPECT_FALSE(std::filesystem::exists(clip)) << "half-written under its final name";
+    writer.finish();
+}
+
+Pixel pixel_at(const std::string& rgb, int width, int height, int frame, int x, int y) {
+    const std::size_t at = 3 * ((std::size_t(frame) * std::size_t(height) + std::size_t(y)) * std::size_t(width) +
+                                std::size_t(x));
+    if (at + 3 > rgb.size()) return {-1, -1, -1};
+    const auto byte = [&](std::size_t i) { return int(static_cast<std::uint8_t>(rgb[at + i])); };
+    return {byte(0), byte(1), byte(2)};
+}
+
+void expect_near(Pixel a, Pixel b, int levels) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], levels) << "channel " << c;
+}
+
+TEST(VideoWriter, H264HasWhatPlayersWant) {
+    const TestFolder folder;
+    write_clip(folder / "a.mp4", 64, 48, 60.0, 12);
+    EXPECT_EQ(probe(folder / "a.mp4", "codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
+                                      "color_primaries,avg_frame_rate,nb_read_frames"),
+              "h264 64 48 yuv420p tv bt709 bt709 bt709 60/1 12");
+    const std::string bytes = read_text(folder / "a.mp4");
+    EXPECT_LT(bytes.find("moov"), bytes.find("mdat")) << "it cannot play while it loads";
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(VideoWriter, ColoursAndPlacesSurvive) {
+    const TestFolder folder;
+    for (const char* name : {"a.mp4", "a.mkv", "a.mov", "a.webm", "a.gif"}) {
+        SCOPED_TRACE(name);
+        write_clip(folder / name, 64, 48, 25.0, 10);
+        const std::string rgb = decoded(folder / name);
+        ASSERT_EQ(rgb.size(), 10u * 64u * 48u * 3u);
+        for (const int frame : {0, 5, 9}) {
+            expect_near(pixel_at(rgb, 64, 48, frame, 4 * frame + 4, 24), crate, 12);
+            expect_near(pixel_at(rgb, 64, 48, frame, 60, 5), {90, 100, 110}, 4);
+        }
+    }
+}
+
+TEST(VideoWriter, AnyRate) {
+    const TestFolder folder;
+    for (const auto& [fps, text] : {std::pair{29.97, "2997/100"}, {0.5, "1/2"}, {1e6, "1000000/1"}, {23.976, "2997/125"}}) {
+        write_clip(folder / "a.mp4", 32, 32, fps, 5);
+        EXPECT_EQ(probe(folder / "a.mp4", "avg_frame_rate,nb_read_frames"), std::string(text) + " 5") << fps;
+    }
+}
+
+TEST(VideoWriter, OneFrameIsAClip) {
+    const TestFolder folder;
+    for (const char* name : {"a.mp4", "a.webm", "a.gif"}) {
+        write_clip(folder / name, 32, 32, 1e3, 1);
+        EXPECT_EQ(probe(folder / name, "nb_read_frames"), "1") << name;
+    }
+}
+
+TEST(VideoWriter, OddSizesRepeatTheirEdge) {
+    const TestFolder folder;
+    VideoWriter writer(folder / "a.mp4", 33, 17, 10.0);
+    for (int n = 0; n < 3; ++n) writer.write(plain(33, 17, crate));
+    writer.finish();
+    EXPECT_EQ(probe(folder / "a.mp4", "width,height,nb_read_frames"), "34 18 3");
+    const std::string rgb = decoded(folder / "a.mp4");
+    expect_near(pixel_at(rgb, 34, 18, 1, 33, 17), crate, 5);
+    expect_near(pixel_at(rgb, 34, 18, 1, 33, 0), crate, 5);
+
+    write_clip(folder / "tiny.mp4", 1, 1, 10.0, 2);
+    EXPECT_EQ(probe(folder / "tiny.mp4", "width,height"), "2 2");
+    write_clip(folder / "odd.gif", 33, 17, 10.0, 2);
+    EXPECT_EQ(probe(folder / "odd.gif", "width,height"), "33 17");
+}
+
+TEST(VideoWriter, AFastGifTakesEverySoManiethFrame) {
+    const TestFolder folder;
+    VideoWriter writer(folder / "a.gif", 64, 48, 60.0);
+    for (int n = 0; n < 9; ++n) writer.write(moving_box(64, 48, n));
+    writer.finish();
+    EXPECT_EQ(writer.frames_in_clip(), 5);
+    const std::string rgb = decoded(folder / "a.gif");
+    expect_near(pixel_at(rgb, 64, 48, 2, 4 * 4 + 4, 24), crate, 12);   // the third shows frame 4
+}
+
+TEST(VideoWriter, TheSameFramesAreTheSameBytes) {
+    const TestFolder folder;
+    for (const char* ending : {".mp4", ".mkv", ".webm", ".gif"}) {
+        write_clip(folder / ("a" + std::string(ending)), 64, 48, 30.0, 20);
+        write_clip(folder / ("b" + std::string(ending)), 64, 48, 30.0, 20);
+        EXPECT_TRUE(read_text(folder / ("a" + std::string(ending))) == read_text(folder / ("b" + std::string(ending))))
+            << ending;
+    }
+}
+
+TEST(VideoWriter, StrangeNamesAreNames) {
+    const TestFolder folder;
+    for (const char* name : {"-y.mp4", "http:x.mp4", "a %d 'b' \"c\" $HOME;.mp4"}) {
+        write_clip(folder / name, 32, 32, 10.0, 2);
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    }
+}
+
+TEST(VideoWriter, GivenUpNothingIsLeft) {
+    const TestFolder folder;
+    write_text(folder / "a.gif", "old");
+    {
+        VideoWriter writer(folder / "a.gif", 64, 48, 30.0);
+        writer.write(moving_box(64, 48, 0));
+    }
+    {
+        VideoWriter writer(folder / "a.gif", 64, 48, 30.0);
+        writer.abandon();
+        EXPECT_THROW(writer.finish(), RunError);
+    }
+    EXPECT_EQ(read_text(folder / "a.gif"), "old");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+/// A PATH with this script as its ffmpeg, or with none.
+class OtherFfmpeg {
+public:
+    explicit OtherFfmpeg(const std::string& script) : before_(std::getenv("PATH")) {
+        if (!script.empty()) {
+            write_text(folder_ / "ffmpeg", "#!/bin/sh\n" + script);
+            std::filesystem::permissions(folder_ / "ffmpeg", std::filesystem::perms::owner_all);
+        }
+        setenv("PATH", (folder_ / "").c_str(), 1);
+    }
+    ~OtherFfmpeg() { setenv("PATH", before_.c_str(), 1); }
+    OtherFfmpeg(const OtherFfmpeg&) = delete;
+    OtherFfmpeg& operator=(const OtherFfmpeg&) = delete;
+
+private:
+    std::string before_;
+    TestFolder folder_;
+};
+
+std::string error_of_writing(const std::filesystem::path& clip) {
+    try {
+        VideoWriter writer(clip, 640, 480, 30.0);
+        for (int n = 0; n < 20; ++n) writer.write(moving_box(640, 480, n));
+        writer.finish();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(VideoWriter, NoFfmpegSaysHowToGetIt) {
+    const TestFolder folder;
+    const OtherFfmpeg none("");
+    EXPECT_NE(error_of_writing(folder / "a.mp4").find("apt-get install ffmpeg"), std::string::npos);
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+TEST(VideoWriter, ItsDeathIsReportedInItsWords) {
+    const TestFolder folder;
+    for (const char* script : {"echo 'no such encoder' >&2; exit 3", "exec <&-; echo 'no such encoder' >&2; exit 3",
+                               "/bin/cat > /dev/null; echo 'no such encoder' >&2; exit 3"}) {
+        const OtherFfmpeg broken(script);
+        const std::string error = error_of_writing(folder / "a.mp4");
+        EXPECT_NE(error.find("a.mp4': ffmpeg failed (exit code 3):\nno such encoder"), std::string::npos) << error;
+        EXPECT_EQ(folder.files(), 0u);
+    }
+}
+
+TEST(VideoWriter, AFolderThatIsNotThereIsNamed) {
+    const TestFolder folder;
+    EXPECT_NE(error_of_writing(folder / "no/a.mp4").find("no/a.mp4': No such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tumble
