@@ -24,7 +24,6 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         TriangleSurface::Triangle triangle;
         triangle.vertices = t;
         triangle.normal = n.normalized();
-        triangle.neighbour = {-1, -1, -1};
         Bounds box;
         for (int i = 0; i < 3; ++i) {
             const Vec3 &p = s.vertices[t[i]], &q = s.vertices[t[(i + 1) % 3]];

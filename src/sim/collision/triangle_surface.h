@@ -14,11 +14,11 @@ namespace tumble {
 
 struct TriangleSurface {
     struct Triangle {
-        std::array<std::uint32_t, 3> vertices;
-        Vec3 normal;                                // unit, by the winding
-        std::array<Vec3, 3> outward;                // unit, in the plane, out over edge i (from vertex i to i + 1)
-        std::array<std::int32_t, 3> neighbour;      // triangle over edge i; -1: open or crowded
-        std::array<std::uint32_t, 3> edge;          // index of edge i, shared with the neighbour
+        std::array<std::uint32_t, 3> vertices{};
+        Vec3 normal = Vec3::Zero();                       // unit, by the winding
+        std::array<Vec3, 3> outward{};                    // unit, in the plane, out over edge i (from vertex i to i + 1)
+        std::array<std::int32_t, 3> neighbour{-1, -1, -1};   // triangle over edge i; -1: open or crowded
+        std::array<std::uint32_t, 3> edge{};              // index of edge i, shared with the neighbour
     };
 
     std::vector<Vec3> vertices;

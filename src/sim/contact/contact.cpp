@@ -19,17 +19,13 @@ void derive(Contact& c, const Body& a, const Body& b) {
     c.turn_a = a.inverse_inertia * c.arm_a.cross(c.normal);
     c.turn_b = b.inverse_inertia * c.arm_b.cross(c.normal);
     c.inverse_effective_mass = compliance(c, a, b, c.normal, c.normal);
-    // Any two directions across the normal do: friction is solved for both together, as a disc.
+    if (c.friction <= 0.0) return;
+    // The larger eigenvalue of the two-by-two compliance across the normal.
     int smallest = 0;
     c.normal.cwiseAbs().minCoeff(&smallest);
-    c.tangent[0] = c.normal.cross(Vec3::Unit(smallest)).normalized();
-    c.tangent[1] = c.normal.cross(c.tangent[0]);
-    if (c.friction <= 0.0) return;
-    const double k00 = compliance(c, a, b, c.tangent[0], c.tangent[0]);
-    const double k11 = compliance(c, a, b, c.tangent[1], c.tangent[1]);
-    const double k01 = compliance(c, a, b, c.tangent[0], c.tangent[1]);
-    const double det = k00 * k11 - k01 * k01;
-    c.tangent_mass << k11 / det, -k01 / det, -k01 / det, k00 / det;
+    const Vec3 t0 = c.normal.cross(Vec3::Unit(smallest)).normalized(), t1 = c.normal.cross(t0);
+    const double k00 = compliance(c, a, b, t0, t0), k11 = compliance(c, a, b, t1, t1), k01 = compliance(c, a, b, t0, t1);
+    c.inverse_tangent_mass = 0.5 * (k00 + k11 + std::sqrt((k00 - k11) * (k00 - k11) + 4.0 * k01 * k01));
 }
 
 auto key(const Contact& c) { return std::make_tuple(c.a, c.b, c.part); }

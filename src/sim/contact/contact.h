@@ -31,8 +31,7 @@ struct Contact {
     // Derived once a step: I^-1 (r x n) and the bracket of eq. 20.
     Vec3 turn_a, turn_b;
     double inverse_effective_mass = 0.0;    // 1/kg
-    Eigen::Matrix2d tangent_mass;           // kg, of two directions across the normal together
-    Vec3 tangent[2];
+    double inverse_tangent_mass = 0.0;      // 1/kg, of the direction across the normal that gives way most
 
     double impact = 0.0;                    // N s, the impulse of this step's collision
     double bounce_velocity = 0.0;           // m/s, v_rel after the collision: gravity's step must not eat it

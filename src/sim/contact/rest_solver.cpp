@@ -68,14 +68,14 @@ private:
         return std::abs(delta) * c.inverse_effective_mass;
     }
 
-    // Both tangential directions at once, then back into the disc: Coulomb's cone, not a pyramid.
+    // Both tangential directions at once, then back into the disc: Coulomb's cone, not a pyramid. One scalar mass for
+    // both keeps friction against the slip; each direction's own would turn it aside when the disc cuts it.
     double solve_friction(Row& r) {
         Contact& c = *r.contact;
         if (c.friction <= 0.0) return 0.0;
         const Vec3 v = r.b->point_velocity(c.arm_b) - r.a->point_velocity(c.arm_a);
-        const Eigen::Vector2d slip(c.tangent[0].dot(v), c.tangent[1].dot(v));
-        const Eigen::Vector2d step = c.tangent_mass * slip;
-        Vec3 target = c.friction_impulse - step.x() * c.tangent[0] - step.y() * c.tangent[1];
+        const Vec3 slip = v - c.normal.dot(v) * c.normal;
+        Vec3 target = c.friction_impulse - slip / c.inverse_tangent_mass;
         const double limit = c.friction * (c.impulse + c.impact);
         const double size = target.norm();
         if (size > limit) target *= limit / size;

@@ -1,0 +1,88 @@
+// Coulomb friction against the textbook: sliding, sticking, rolling.
+#include "core/elementary.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+constexpr double g = 9.81;
+}
+
+// v^2 / (2 mu g), in any direction across the ground: a cone, not a pyramid.
+TEST(Friction, BoxSlidesToRest) {
+    for (const double direction : {0.0, 0.5, pi / 4}) {
+        SceneDescription scene = ground_scene(0.0, 0.4, 32);
+        BodyDescription& box = add_box(scene, {1.0, 0.2, 1.0}, {0.0, 0.1, 0.0});
+        box.friction = 0.4;
+        box.velocity = 3.0 * Vec3(std::cos(direction), 0.0, std::sin(direction));
+        World world(scene);
+        run(world, scene, 2.0);
+        const BodyState b = world.snapshot().bodies[1];
+        const double way = Vec3(b.center_of_mass.x(), 0.0, b.center_of_mass.z()).norm();
+        EXPECT_NEAR(way, 9.0 / (2.0 * 0.4 * g), 2e-3) << direction;
+        EXPECT_LT(b.velocity.norm(), 1e-9);
+        EXPECT_NEAR(b.center_of_mass.z(), way * std::sin(direction), 1e-3);
+    }
+}
+
+// On an incline mu above tan(theta) sticks, below it slides with g (sin - mu cos).
+TEST(Friction, InclineDecidesStickOrSlip) {
+    const double angle = 30.0 * pi / 180.0;
+    for (const double mu : {0.99 * std::tan(angle), 1.01 * std::tan(angle)}) {
+        SceneDescription scene = ground_scene(0.0, mu, 16);
+        scene.bodies[0].shape = PlaneShape{Vec3(-std::sin(angle), std::cos(angle), 0.0), 0.0};
+        BodyDescription& box = add_box(scene, {1.0, 0.2, 1.0}, 0.1 * Vec3(-std::sin(angle), std::cos(angle), 0.0));
+        box.friction = mu;
+        box.rotation = turn(Vec3::UnitZ(), angle);
+        scene.simulation.sleep = false;
+        World world(scene);
+        run(world, scene, 4.0);
+        const double way = (world.snapshot().bodies[1].center_of_mass - box.position).norm();
+        const double a = g * (std::sin(angle) - mu * std::cos(angle));
+        if (a > 0.0) EXPECT_NEAR(way, 0.5 * a * 16.0, 0.01 * 0.5 * a * 16.0 + 1e-3);
+        else EXPECT_LT(way, 1e-4);
+    }
+}
+
+// A sliding sphere rolls without slipping at 5/7 of its speed, after 2 v / (7 mu g).
+TEST(Friction, SphereGoesFromSlidingToRolling) {
+    SceneDescription scene = ground_scene(0.0, 0.3, 32);
+    BodyDescription& ball = add_sphere(scene, 0.5, {0.0, 0.5, 0.0});
+    ball.friction = 0.3;
+    ball.velocity = Vec3(7.0, 0.0, 0.0);
+    World world(scene);
+    run(world, scene, 0.5 * 2.0 * 7.0 / (7.0 * 0.3 * g));
+    EXPECT_GT(world.snapshot().bodies[1].velocity.x(), 5.5);
+    run(world, scene, 1.0);
+    const BodyState b = world.snapshot().bodies[1];
+    EXPECT_NEAR(b.velocity.x(), 5.0, 1e-3);
+    EXPECT_NEAR(b.angular_velocity.z(), -10.0, 2e-3);
+}
+
+// Without friction nothing turns and nothing slows.
+TEST(Friction, NoneMeansNone) {
+    SceneDescription scene = ground_scene(0.0, 0.0);
+    BodyDescription& box = add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5, 0.0});
+    box.velocity = Vec3(2.0, 0.0, 1.0);
+    World world(scene);
+    run(world, scene, 3.0);
+    const BodyState b = world.snapshot().bodies[1];
+    EXPECT_NEAR(b.velocity.x(), 2.0, 1e-12);
+    EXPECT_NEAR(b.velocity.z(), 1.0, 1e-12);
+    EXPECT_LT(b.angular_velocity.norm(), 1e-12);
+}
+
+// The friction of a bounce is bounded by the collision's impulse: a dropped spinning ball gains mu (1 + e) v at most.
+TEST(Friction, BounceOfASpinningBall) {
+    SceneDescription scene = ground_scene(0.5, 0.2, 64);
+    BodyDescription& ball = add_sphere(scene, 0.5, {0.0, 1.5, 0.0});
+    ball.friction = 0.2;
+    ball.angular_velocity = Vec3(0.0, 0.0, -50.0);
+    World world(scene);
+    run(world, scene, 0.7);
+    const double landing = std::sqrt(2.0 * g * 1.0);
+    EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 0.2 * 1.5 * landing, 0.02 * landing);
+}

@@ -1,0 +1,64 @@
+// Masses, centres of mass and inertia tensors against their formulas.
+#include "sim/mass_properties.h"
+#include "support/meshes.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+TEST(Inertia, BoxAndSphere) {
+    const MassProperties box = box_mass({1.0, 2.0, 3.0}, 500.0);
+    EXPECT_DOUBLE_EQ(box.mass, 3000.0);
+    EXPECT_DOUBLE_EQ(box.inertia(0, 0), 3000.0 * 13.0 / 12.0);
+    EXPECT_DOUBLE_EQ(box.inertia(1, 1), 3000.0 * 10.0 / 12.0);
+    EXPECT_DOUBLE_EQ(box.inertia(2, 2), 3000.0 * 5.0 / 12.0);
+    const MassProperties sphere = sphere_mass(0.5, 1000.0);
+    EXPECT_NEAR(sphere.mass, 523.5987755982989, 1e-9);
+    EXPECT_NEAR(sphere.inertia(2, 2), 0.4 * sphere.mass * 0.25, 1e-12);
+}
+
+// The mesh integrals of a box are the box's, wherever its origin is.
+TEST(Inertia, MeshOfABoxFarFromItsOrigin) {
+    const Vec3 low(100.0, -50.0, 7.0), size(1.0, 2.0, 3.0);
+    const MassProperties mesh = mesh_mass(box_mesh(low, low + size), 500.0), box = box_mass(size, 500.0);
+    EXPECT_NEAR(mesh.mass, box.mass, 1e-9);
+    EXPECT_LT((mesh.center_of_mass - low - 0.5 * size).norm(), 1e-12);
+    EXPECT_LT((mesh.inertia - box.inertia).norm(), 1e-8);
+}
+
+// Tetrahedron (0, a e_x, b e_y, c e_z): V = abc/6, centre (a, b, c)/4, I_xx = m 3/80 (b^2 + c^2), I_xy = m ab/80.
+TEST(Inertia, RightTetrahedron) {
+    const double a = 1.0, b = 2.0, c = 3.0;
+    const MassProperties t = mesh_mass(tetrahedron(Vec3::Zero(), {a, 0, 0}, {0, b, 0}, {0, 0, c}), 2.0);
+    EXPECT_NEAR(t.mass, 2.0, 1e-14);
+    EXPECT_LT((t.center_of_mass - Vec3(a, b, c) / 4.0).norm(), 1e-14);
+    EXPECT_NEAR(t.inertia(0, 0), t.mass * 3.0 / 80.0 * (b * b + c * c), 1e-13);
+    EXPECT_NEAR(t.inertia(1, 1), t.mass * 3.0 / 80.0 * (a * a + c * c), 1e-13);
+    EXPECT_NEAR(t.inertia(0, 1), t.mass * a * b / 80.0, 1e-13);
+}
+
+// A mesh whose centre of mass is not its origin turns about the centre of mass.
+TEST(Inertia, BodyWithOffsetOriginTurnsAboutItsCentreOfMass) {
+    SceneDescription scene = empty_scene(16);
+    BodyDescription& body = add_body(scene, MeshShape{asset_of(box_mesh({1.0, 0.0, 0.0}, {3.0, 1.0, 1.0}))}, {5.0, 0.0, 0.0});
+    body.angular_velocity = Vec3(0.0, 0.0, 1.0);
+    World world(scene);
+    EXPECT_LT((world.snapshot().bodies[0].center_of_mass - Vec3(7.0, 0.5, 0.5)).norm(), 1e-14);
+    EXPECT_EQ(world.report(0).center_of_mass, Vec3(2.0, 0.5, 0.5));
+    run(world, scene, 1.0);
+    const BodyState b = world.snapshot().bodies[0];
+    EXPECT_LT((b.center_of_mass - Vec3(7.0, 0.5, 0.5)).norm(), 1e-12);
+    EXPECT_LT((b.origin - (b.center_of_mass - b.orientation * Vec3(2.0, 0.5, 0.5))).norm(), 1e-12);
+}
+
+TEST(Inertia, GivenMassScalesTheTensor) {
+    SceneDescription scene = empty_scene();
+    add_body(scene, MeshShape{icosahedron(1.0)}, Vec3::Zero()).mass = 7.0;
+    World world(scene);
+    const BodyReport r = world.report(0);
+    EXPECT_DOUBLE_EQ(r.mass, 7.0);
+    EXPECT_NEAR(r.principal_inertia.x(), r.principal_inertia.z(), 1e-12);   // by symmetry
+    EXPECT_EQ(r.hull_vertices, 12u);
+}

@@ -1,0 +1,44 @@
+// Prints the bytes of a trajectory that goes through every part of the simulation: boxes, spheres, hulls, a triangle
+// surface, a kinematic paddle, wind, a point force, friction, restitution, sleep. Argument: the number of threads.
+#include "support/meshes.h"
+#include "support/scenes.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+int main(int argc, char** argv) {
+    SceneDescription scene = ground_scene(0.3, 0.6, 8);
+    scene.wind = WindDescription{Vec3(2.0, 0.0, 0.5), 1.2, 1.0};
+    for (int i = 0; i < 32; ++i) {
+        const Vec3 at((i % 4) * 0.9, 0.6 + 0.8 * (i / 16), ((i / 4) % 4) * 0.9);
+        BodyDescription& body = i % 3 == 0   ? add_sphere(scene, 0.3, at)
+                                : i % 3 == 1 ? add_box(scene, {0.5, 0.6, 0.4}, at)
+                                             : add_body(scene, MeshShape{icosahedron(0.35)}, at);
+        body.friction = 0.5;
+        body.restitution = 0.1 * (i % 5);
+        body.rotation = Quat(1.0, 0.1 * (i % 7), 0.2, -0.05 * (i % 3)).normalized();
+        body.angular_velocity = Vec3(0.3 * i, 1.0, -0.2 * i);
+    }
+    BodyDescription& ramp = add_body(scene, MeshShape{open_ramp()}, Vec3(-3.0, 0.0, 0.0));
+    ramp.type = BodyType::fixed;
+    ramp.friction = 0.4;
+    BodyDescription& paddle = add_body(scene, BoxShape{Vec3(0.2, 1.0, 3.0)}, Vec3(5.0, 0.5, 1.5));
+    paddle.type = BodyType::kinematic;
+    paddle.keyframes = {{0.2, Vec3(5.0, 0.5, 1.5), Quat::Identity()},
+                        {0.7, Vec3(2.0, 0.6, 1.5), turn(Vec3::UnitY(), 0.4)},
+                        {1.0, Vec3(5.0, 0.5, 1.5), Quat::Identity()}};
+    scene.forces.push_back({2, Vec3(0.2, 0.0, 0.0), Vec3(0.0, 30.0, 5.0), false, 0.3, 0.6});
+    World world(scene, argc > 1 ? std::atoi(argv[1]) : 1);
+    for (int frame = 0; frame < 70; ++frame) {
+        world.advance_frame();
+        for (const BodyState& b : world.snapshot().bodies) {
+            std::fwrite(b.center_of_mass.data(), sizeof(double), 3, stdout);
+            std::fwrite(b.orientation.coeffs().data(), sizeof(double), 4, stdout);
+            std::fwrite(b.velocity.data(), sizeof(double), 3, stdout);
+            std::fwrite(b.angular_velocity.data(), sizeof(double), 3, stdout);
+        }
+    }
+}
