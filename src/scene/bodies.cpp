@@ -3,6 +3,7 @@
 #include "scene/copies.h"
 #include "scene/limits.h"
 #include "scene/motion.h"
+#include "scene/run_settings.h"
 
 #include <fmt/format.h>
 
@@ -43,6 +44,7 @@ BodyDescription read_model(const TomlTable& table, const Materials& materials, B
     table.read("visible", body.surface.visible);
     read_mass(table, body);
     read_motion(table, body);
+    if (const auto name = table.find("integrator")) body.integrator = name->choice(integrator_choices());
     return body;
 }
 
@@ -81,7 +83,7 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
         table.set_title("[[body]]");
         table.expect_keys({"name", "type", "shape", "material", "color", "roughness", "metallic", "pattern", "visible",
                            "density", "mass", "restitution", "friction", "position", "rotation", "velocity",
-                           "angular_velocity", "keyframes", "interpolation", "grid", "scatter", "scale", "colors"});
+                           "angular_velocity", "keyframes", "interpolation", "integrator", "grid", "scatter", "scale", "colors"});
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, body_types);
         const ShapeRequest shape = read_shape(table.require("shape"), type, folder, meshes);

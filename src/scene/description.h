@@ -127,6 +127,7 @@ struct BodyDescription {
     Quat rotation = Quat::Identity();
     Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
     Vec3 angular_velocity = Vec3::Zero(); // rad/s
+    std::optional<IntegratorKind> integrator;   // in place of the simulation's, for showing two side by side
     std::vector<Keyframe> keyframes;      // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
 };

@@ -59,6 +59,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.light = read_light(root);
     scene.wind = read_wind(root);
     scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed);
+    if (overrides.integrator)   // the command line speaks for every body
+        for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
     read_cords(root, scene);
     scene.camera = read_camera(root, scene);

@@ -148,6 +148,8 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
 
 }  // namespace
 
+std::span<const Choice<IntegratorKind>> integrator_choices() { return integrators; }
+
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output) {
     TimeRequest time;

@@ -6,10 +6,15 @@
 #include "scene/load.h"
 #include "scene/toml_reader.h"
 
+#include <span>
+
 namespace tumble {
 
 /// Reads both tables (either may be missing) under the overrides.
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output);
+
+/// The integrators by their names in a file.
+std::span<const Choice<IntegratorKind>> integrator_choices();
 
 }  // namespace tumble

@@ -23,6 +23,7 @@ struct Body {
     double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
     double drag_area = 0.0;                  // m^2, mean projected area
+    IntegratorKind integrator = IntegratorKind::symplectic_euler;
     std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
 
     // State (notes eq. 1). Both forms of the rotation are kept; the world's settings say which one is integrated and

@@ -56,12 +56,13 @@ Collider BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, con
     }
 }
 
-Body BodyBuilder::build(const BodyDescription& d) {
+Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     Body body;
     body.name = d.name;
     body.type = d.type;
     body.restitution = d.restitution;
     body.friction = d.friction;
+    body.integrator = d.integrator.value_or(integrator);
     const MassProperties mass = mass_of(d);
     body.center_of_mass = mass.center_of_mass;
     if (const auto* plane = std::get_if<PlaneShape>(&d.shape)) body.collider = HalfSpace{plane->normal, plane->offset};

@@ -12,7 +12,8 @@ namespace tumble {
 /// Builds bodies, making the hull, surface and mass integrals of a shared mesh once.
 class BodyBuilder {
 public:
-    Body build(const BodyDescription& description);
+    /// `integrator` is the simulation's, for bodies that name none of their own.
+    Body build(const BodyDescription& description, IntegratorKind integrator);
 
 private:
     struct Mesh {

@@ -42,7 +42,7 @@ struct World::State {
           sleep(scene.bodies.size()), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()) {
         BodyBuilder builder;
-        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d));
+        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         place_kinematic_bodies();
     }
 
@@ -137,10 +137,10 @@ void World::State::solve_resting_contacts() {
 }
 
 void World::State::move() {
-    const bool symplectic = settings.integrator == IntegratorKind::symplectic_euler;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         Body& body = bodies[i];
         if (!awake(body)) continue;
+        const bool symplectic = body.integrator == IntegratorKind::symplectic_euler;
         const Vec3 velocity = symplectic ? body.velocity : old_velocity[i];
         const Vec3 spin = symplectic ? body.angular_velocity : old_angular_velocity[i];
         advance_pose(body, velocity + body.push_velocity, spin + body.push_angular_velocity, h, settings.rotation);
