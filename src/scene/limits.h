@@ -14,6 +14,8 @@ inline constexpr std::int64_t scene_bytes = 256 << 20;    // a file of a million
 inline constexpr std::int64_t mesh_bytes = 256 << 20;     // assimp needs about ten times the file in memory
 inline constexpr std::int64_t mesh_triangles = 5'000'000; // 32-bit indices and about a gigabyte when welded
 
+inline constexpr std::int64_t polygon_corners = 2000;     // cutting one takes time as their square, or cube at worst
+
 // -- Time
 inline constexpr Range duration{0.0, 1e9, "s"};           // thirty years
 inline constexpr Range fps{1e-9, 1e6, "frames per second"};   // 1e6: the contract's; below: 1/fps stays a time

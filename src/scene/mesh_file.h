@@ -1,4 +1,4 @@
-// A mesh file as triangles: OBJ, STL, PLY and glTF, read by assimp.
+// A mesh file as triangles: OBJ, STL and glTF read by assimp, PLY by ourselves.
 #pragma once
 
 #include "core/vector.h"
@@ -19,15 +19,26 @@ struct MeshError : std::runtime_error {
 /// All triangles of a file, the transforms of its nodes applied, in the file's own units. Counter-clockwise outside.
 struct MeshFile {
     struct Corner {
-        std::uint32_t position;   // index into positions
-        Vec3 normal;              // unit, or zero where the file has none
+        std::uint32_t position = 0;      // index into positions
+        Vec3 normal = Vec3::Zero();      // unit, or zero where the file has none
     };
-    std::vector<Vec3> positions;               // finite; not welded
+    std::vector<Vec3> positions;         // not welded
     std::vector<std::array<Corner, 3>> triangles;
+
+    /// Throws MeshError when the position is not finite or beyond 1e30, whose squares would be none.
+    void add_position(const Vec3& position);
+    /// Cuts the polygon into triangles. Throws MeshError when it or the file has too many corners.
+    void add_polygon(const std::vector<Corner>& corners);
 };
 
 /// Throws MeshError when the file is missing, of another kind, unreadable or empty, or holds indices or numbers that
 /// mean nothing. Normals of STL files are left out: they are those of the facets and say nothing of smoothness.
 MeshFile read_mesh_file(const std::filesystem::path& file);
+
+/// A number that a file or a library stored as a float, as it was meant: 0.1f is 0.100000001490116, and the shortest
+/// decimal that means the same float is what was written if that had up to 7 digits. So a mesh keeps its exact size.
+double as_written(float value);
+
+Vec3 unit_or_zero(const Vec3& v);
 
 }  // namespace tumble

@@ -1,0 +1,143 @@
+#include "scene/default_camera.h"
+#include "scene/load.h"
+#include "scene/shape_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+BodyDescription box_at(const Vec3& position, const Vec3& size, BodyType type = BodyType::dynamic) {
+    BodyDescription body;
+    body.type = type;
+    body.shape = BoxShape{size};
+    body.position = position;
+    return body;
+}
+
+BodyDescription ground() {
+    BodyDescription body;
+    body.type = BodyType::fixed;
+    body.shape = PlaneShape{};
+    return body;
+}
+
+/// Where a point appears: within +-1 in both directions when it is in the picture; third, its depth.
+Vec3 in_picture(const SceneDescription& scene, const CameraDescription& camera, const Vec3& p) {
+    const Vec3 forward = (camera.target - camera.eye).normalized();
+    const Vec3 right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+    const Vec3 d = p - camera.eye;
+    const double tangent = std::tan(camera.vertical_fov * M_PI / 360.0);
+    const double aspect = double(scene.output.width) / scene.output.height;
+    return {d.dot(right) / d.dot(forward) / tangent / aspect, d.dot(up) / d.dot(forward) / tangent, d.dot(forward)};
+}
+
+/// The largest part of the half picture that the corners of the bodies reach.
+double used(const SceneDescription& scene, const CameraDescription& camera) {
+    double most = 0.0;
+    for (const BodyDescription& body : scene.bodies) {
+        if (std::holds_alternative<PlaneShape>(body.shape)) continue;
+        const Bounds b = local_bounds(body.shape);
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 corner(i & 1 ? b.max.x() : b.min.x(), i & 2 ? b.max.y() : b.min.y(), i & 4 ? b.max.z() : b.min.z());
+            const Vec3 at = in_picture(scene, camera, body.position + body.rotation * corner);
+            EXPECT_GT(at.z(), 0.0);
+            most = std::max({most, std::fabs(at.x()), std::fabs(at.y())});
+        }
+    }
+    return most;
+}
+
+TEST(DefaultCamera, FillsThePictureAtAnyScale) {
+    for (const double scale : {1e-3, 1.0, 1e3}) {
+        for (const int width : {200, 1280, 3000}) {
+            SceneDescription scene;
+            scene.output.width = width;
+            scene.output.height = 720;
+            scene.bodies = {box_at(Vec3(1, 5, 2) * scale, Vec3(1, 2, 3) * scale),
+                            box_at(Vec3(-4, 1, 0) * scale, Vec3(1, 1, 1) * scale)};
+            const CameraDescription camera = default_camera(scene, {});
+            EXPECT_LE(used(scene, camera), 0.95) << scale << " " << width;
+            EXPECT_GE(used(scene, camera), 0.7) << scale << " " << width;
+        }
+    }
+}
+
+TEST(DefaultCamera, LooksDownAtTheScene) {
+    SceneDescription scene;
+    scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
+    const CameraDescription camera = default_camera(scene, {});
+    EXPECT_GT(camera.eye.y(), camera.target.y());
+    EXPECT_GT(camera.eye.z(), camera.target.z());   // from the front
+    EXPECT_LT((camera.eye - camera.target).norm(), 10.0);
+}
+
+TEST(DefaultCamera, ShowsTheGroundBeneathAFallingBody) {
+    SceneDescription scene;
+    scene.bodies = {ground(), box_at({3, 20, 0}, {1, 1, 1})};
+    const CameraDescription camera = default_camera(scene, {});
+    const Vec3 foot = in_picture(scene, camera, {3, 0, 0});
+    EXPECT_LT(std::fabs(foot.x()), 1.0);
+    EXPECT_LT(std::fabs(foot.y()), 1.0);
+    EXPECT_LE(used(scene, camera), 1.0);
+}
+
+TEST(DefaultCamera, ShowsAllOfAKinematicBodysWay) {
+    SceneDescription scene;
+    BodyDescription body = box_at({0, 0, 0}, {1, 1, 1}, BodyType::kinematic);
+    body.keyframes = {{0.0, {0, 0, 0}, Quat::Identity()}, {1.0, {30, 0, 0}, Quat::Identity()}};
+    scene.bodies = {body};
+    const CameraDescription camera = default_camera(scene, {});
+    EXPECT_LT(std::fabs(in_picture(scene, camera, {30.5, 0, 0}).x()), 1.0);
+}
+
+TEST(DefaultCamera, AWideFloorMadeOfABoxDoesNotPushItAway) {
+    SceneDescription scene;
+    scene.bodies = {box_at({0, -0.5, 0}, {500, 1, 500}, BodyType::fixed), box_at({0, 2, 0}, {1, 1, 1})};
+    EXPECT_LT((default_camera(scene, {}).eye).norm(), 30.0);
+}
+
+TEST(DefaultCamera, AFixedThingBesideTheMovingOnesIsInThePicture) {
+    SceneDescription scene;
+    scene.bodies = {box_at({9, 1, 0}, {2, 2, 2}, BodyType::fixed), box_at({0, 2, 0}, {1, 1, 1})};
+    EXPECT_LE(used(scene, default_camera(scene, {})), 1.0);
+}
+
+TEST(DefaultCamera, StandsSomewhereSensibleWithoutBodies) {
+    for (const bool with_ground : {false, true}) {
+        SceneDescription scene;
+        if (with_ground) scene.bodies = {ground()};
+        const CameraDescription camera = default_camera(scene, {});
+        EXPECT_TRUE(camera.eye.allFinite());
+        EXPECT_GT(camera.eye.y(), 0.5);
+        EXPECT_LT(camera.eye.norm(), 30.0);
+    }
+}
+
+TEST(DefaultCamera, FollowsTheLens) {
+    SceneDescription scene;
+    scene.bodies = {box_at({0, 0, 0}, {1, 1, 1})};
+    for (const Vec3& up : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, -1, 0)}) {
+        CameraDescription lens;
+        lens.up = up;
+        lens.vertical_fov = 20.0;
+        const CameraDescription camera = default_camera(scene, lens);
+        EXPECT_GT((camera.eye - camera.target).dot(up), 0.0);
+        EXPECT_LE(used(scene, camera), 0.95);
+    }
+}
+
+TEST(DefaultCamera, FillsInWhatTheFileLeavesOut) {
+    const std::string body = "\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\nposition = [5, 0, 0]\n";
+    const auto whole = parse_scene("format = 1" + body, "a.toml").camera;
+    const auto eye = parse_scene("format = 1\n[camera]\neye = [0, 0, 50]" + body, "a.toml").camera;
+    EXPECT_EQ(eye.eye, Vec3(0, 0, 50));
+    EXPECT_EQ(eye.target, whole.target);
+    const auto target = parse_scene("format = 1\n[camera]\ntarget = [0, 0, 0]" + body, "a.toml").camera;
+    EXPECT_TRUE(target.eye.isApprox(whole.eye - whole.target, 1e-12));
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,118 @@
+// Files that are broken, by accident or on purpose: an error each, no crash, no endless loop, nothing printed.
+#include "mesh_files.h"
+#include "scene/mesh_loader.h"
+
+#include <fmt/format.h>
+
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+class HostileMesh : public MeshFiles {
+protected:
+    std::string error_of(const std::filesystem::path& file) const {
+        try {
+            load_mesh(file);
+        } catch (const MeshError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+    void expect_error(const std::string& name, const std::string& text, const std::string& phrase) const {
+        const std::string error = error_of(write(name, text));
+        EXPECT_NE(error.find(phrase), std::string::npos) << name << ": " << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos);
+        EXPECT_LT(error.size(), 300u);
+    }
+};
+
+TEST_F(HostileMesh, FilesThatAreNone) {
+    EXPECT_EQ(error_of(folder() / "none.obj"), "does not exist");
+    EXPECT_EQ(error_of(folder()), "is of an unknown kind: .obj, .stl, .ply, .gltf and .glb can be read");
+    std::filesystem::create_directory(folder() / "folder.obj");
+    EXPECT_EQ(error_of(folder() / "folder.obj"), "is not a file");
+    expect_error("a.obj", "", "is empty");
+    expect_error("a.ply", "", "is empty");
+    expect_error("a.blend", "x", "unknown kind");
+    expect_error("a.fbx", "x", "unknown kind");
+}
+
+TEST_F(HostileMesh, Obj) {
+    expect_error("a.obj", "nothing of a mesh in here at all\n", "");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "range");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n", "");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", "");
+    expect_error("a.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite");
+    expect_error("a.obj", "v 1e39 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "");
+    expect_error("a.obj", "v 1e31 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "1e30");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle with any area");
+    expect_error("a.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "no triangle with any area");
+    expect_error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\np 3\n", "no triangles");
+    std::string polygon = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+    for (int i = 0; i < 3000; ++i) polygon += fmt::format(" {}", i % 3 + 1);
+    expect_error("a.obj", polygon + "\n", "corners");
+}
+
+TEST_F(HostileMesh, Ply) {
+    const std::string start = "ply\nformat ascii 1.0\n";
+    const std::string points = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    expect_error("a.ply", "plx\n", "does not begin with \"ply\"");
+    expect_error("a.ply", start + points, "ends within its header");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0", "ends early");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 1 0\n", "ends early");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "a face with a vertex of 3");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "a face with a vertex of -1");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 nan\n", "a face with a vertex of nan");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 1 0\n2000000000 0 1 2\n", "a list with a length");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 0\n0 inf 0\n3 0 1 2\n", "finite");
+    expect_error("a.ply", start + points + faces + "0 0 0\n1 0 zero\n0 0 0\n3 0 1 2\n", "not a number");
+    expect_error("a.ply", start + "element vertex 3\nproperty half x\nend_header\n", "unknown type");
+    expect_error("a.ply", start + "element vertex 3\nproperty float x\nend_header\n", "without x, y and z");
+    expect_error("a.ply", start + points + "element face 1\nproperty int x\nend_header\n0 0 0\n1 0 0\n0 1 0\n", "without vertex_indices");
+    expect_error("a.ply", start + "property float x\nend_header\n", "misplaced");
+    expect_error("a.ply", "ply\nformat base64 1.0\nend_header\n", "unknown format");
+    expect_error("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nproperty float x\n"
+                          "property float y\nproperty float z\nend_header\n1234", "ends early");
+    expect_error("a.ply", start + "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "no triangles");
+    expect_error("a.ply", start + "element nothing 18446744073709551615\nend_header\n", "no triangles");   // at once
+}
+
+TEST_F(HostileMesh, StlAndGltf) {
+    expect_error("a.stl", "solid x\nendsolid x\n", "");
+    expect_error("a.stl", std::string(84, '\xff'), "");
+    expect_error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex a b c\n" + std::string(5000, 'y'), "cannot be read");
+    expect_error("a.gltf", "{", "cannot be read");
+    expect_error("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "");
+    expect_error("a.glb", "glTF", "cannot be read");
+    expect_error("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[0]}]}", "");
+}
+
+TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {
+    // Whatever comes of it, it comes as a mesh or as an error, and without a word on the terminal.
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    std::mt19937 random(1);
+    std::size_t errors = 0, meshes = 0;
+    for (const char* name : {"gem.obj", "t_handle.obj", "star.glb", "half_pipe.stl", "knot.ply"}) {
+        std::ifstream file(asset(name), std::ios::binary);
+        const std::string whole(std::istreambuf_iterator<char>(file), {});
+        for (int i = 0; i < 40; ++i) {
+            std::string text = whole;
+            if (i % 2) text.resize(random() % text.size());
+            else for (int k = 0; k < 3; ++k) text[random() % text.size()] = static_cast<char>(random());
+            (error_of(write(fmt::format("{}{}", i, name), text)) == "no error" ? meshes : errors)++;
+        }
+    }
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    EXPECT_GT(errors, 50u);
+    EXPECT_GT(meshes, 5u);
+}
+
+}  // namespace
+}  // namespace tumble
