@@ -1,9 +1,9 @@
 #version 410 core
 #include "frame.glsl"
 #include "body.glsl"
-#include "rotate.glsl"
-#include "lighting.glsl"
-#include "pattern.glsl"
+
+flat in vec3 v_normal;
+in vec2 v_atlas;
 
 // How much of the pixel lies in the groove between a crate's frame and its panel.
 float groove(vec3 to_edges) {
@@ -18,26 +18,16 @@ float groove(vec3 to_edges) {
 
 void main() {
     vec3 half_size = v_scale.xyz;
-    float bevel = v_look.w;
     // A rounded box's normal: away from the box that is smaller by the bevel.
-    vec3 inner = half_size - bevel;
+    vec3 inner = half_size - v_look.z;
     vec3 local_normal = normalize(v_local - clamp(v_local, -inner, inner));
 
     vec3 albedo = v_color.rgb;
-    if (v_look.y > 0.5) {
-        albedo = patterned(albedo, v_look.y, v_local, local_normal, 0.5 * min(half_size.x, min(half_size.y, half_size.z)));
-    } else {
-        albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(v_local));
-    }
-
-    Surface surface;
-    surface.position = v_position;
-    surface.normal = rotate(v_orientation, local_normal);
-    surface.face_normal = v_normal;
-    surface.albedo = albedo;
-    surface.roughness = v_color.w;
-    surface.metallic = v_look.x;
-    surface.reach = v_scale.w;
-    surface.body = v_look.z;
-    pixel = vec4(shade(surface), 1.0);
+#ifdef PATTERNED
+    albedo = patterned(albedo, v_look.y, v_local, local_normal, v_scale.w);
+#else
+    albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(v_local));
+#endif
+    float open = texture(occlusion_atlas, v_atlas).r;
+    pixel = vec4(shade(body_surface(rotate(v_orientation, local_normal), v_normal, albedo, open)), 1.0);
 }

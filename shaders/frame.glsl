@@ -12,6 +12,5 @@ layout(std140) uniform Frame {
     vec4 shadow_far;             // near map -> far map: scale, offset x, offset y; w: 1 with a far map, else 0
     vec4 shadow_texels;          // a texel's size in m, near and far; z: texels across one map
     vec4 haze;                   // x: 1 / distance^2 at which half the light is haze; y: a pixel's size at distance 1
-    vec4 occlusion_grid;         // x: 1 / cell size, y: table size - 1; z: number of occluding planes
-    vec4 occluding_planes[4];    // unit normal and the eye's height above it
+    vec4 atlas;                  // 1 / size of the occlusion atlas, in texels
 };

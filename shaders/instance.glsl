@@ -3,9 +3,11 @@ layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 instance_position;      // relative to the eye; w: bevel, m
 layout(location = 3) in vec4 instance_orientation;   // unit quaternion x, y, z, w
-layout(location = 4) in vec4 instance_scale;         // of the mesh; w: occlusion reach, m
+layout(location = 4) in vec4 instance_scale;         // of the mesh; w: its pattern's cell, m
 layout(location = 5) in vec4 instance_color;         // linear; w: roughness
-layout(location = 6) in vec4 instance_look;          // metallic, pattern, body number
+layout(location = 6) in vec4 instance_look;          // metallic, pattern; z, w: place in the occlusion atlas, texels
+layout(location = 7) in float instance_tile;         // edge of its tiles there; 0: it has none and is open
+layout(location = 8) in uint mesh_probe;             // whose sky light a vertex of the scene's own meshes has
 
 #include "rotate.glsl"
 

@@ -1,20 +1,20 @@
 // From a surface point to the light it sends to the eye, and from light to the bytes of the screen.
 #include "look.glsl"
 #include "sky.glsl"
-#ifndef OPEN_GROUND
+#ifndef OPEN
 #include "shadow.glsl"
-#include "occlusion.glsl"
 #endif
 
 struct Surface {
     vec3 position;      // relative to the eye
+    vec3 to_eye;        // unit
     vec3 normal;        // unit, bent at bevels
     vec3 face_normal;   // unit, of the geometry
     vec3 albedo;        // linear
     float roughness;
     float metallic;
-    float reach;        // how far other bodies occlude it, m
-    float body;         // its number: it does not occlude itself
+    float open;         // share of the sky's light that other bodies leave
+    vec4 haze;          // light of the air before it; w: share of its own light that comes through
 };
 
 float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
@@ -23,8 +23,8 @@ float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
     float a = roughness * roughness;
     float a2 = a * a;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;
-    float visibility = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, a);
-    return a2 / (d * d) * visibility;   // D V without 1/pi: the sun's light here is irradiance over pi
+    // D V without 1/pi: the sun's light here is irradiance over pi
+    return 0.5 * a2 / (d * d * mix(2.0 * n_l * n_v, n_l + n_v, a));
 }
 
 vec2 environment_scale(float roughness, float n_v) {
@@ -34,59 +34,39 @@ vec2 environment_scale(float roughness, float n_v) {
     return vec2(-1.04, 1.04) * a + r.zw;
 }
 
-vec3 tone_mapped(vec3 light) {
-    // Lalish et al. 2024, Khronos PBR Neutral Tone Mapper: colours as given, only highlights rolled off to white
-    const float start = 0.8 - 0.04, desaturation = 0.15;
-    float low = min(light.r, min(light.g, light.b));
-    light -= low < 0.08 ? low - 6.25 * low * low : 0.04;
-    float peak = max(light.r, max(light.g, light.b));
-    const float room = 1.0 - start;
-    float new_peak = 1.0 - room * room / (peak + room - start);
-    vec3 rolled = light * (new_peak / max(peak, 1e-6));
-    float pale = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    return peak < start ? light : mix(rolled, vec3(new_peak), pale);
-}
-
 vec3 displayed(vec3 light) {
-    light = clamp(tone_mapped(light), 0.0, 1.0);
-#ifdef ENCODE_IN_SHADER
-    vec3 s1 = sqrt(light), s2 = sqrt(s1), s3 = sqrt(s2);
-    return 0.662002687 * s1 + 0.684122060 * s2 - 0.323583601 * s3 - 0.0225411470 * light;
-#else
-    return light;   // the framebuffer encodes to sRGB
-#endif
+    // Minimax fit in s = sqrt(light), to 0.8 levels of 255, of two steps at once:
+    // IEC 61966-2-1 (1999), the sRGB transfer curve, of light itself up to 0.62 and of a shoulder above it,
+    // 1 - 0.38 exp(-(light - 0.62) / 0.38), that never reaches white. One root and one quotient, no powers.
+    vec3 s = sqrt(max(light, 0.0));
+    vec3 rise = s * s * (21.217153 + s * (-35.617540 + s * 32.353397));
+    return rise / (1.0 + s * (7.989843 + s * (8.709465 + s * (-30.195670 + s * 31.746583))));
 }
 
 vec3 shade(Surface s) {
-    float squared = dot(s.position, s.position);
-    vec3 to_eye = s.position * -inversesqrt(squared);
     float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
-    float n_v = clamp(dot(s.normal, to_eye), 1e-3, 1.0);
+    float n_v = clamp(dot(s.normal, s.to_eye), 1e-3, 1.0);
 
-#ifdef OPEN_GROUND
-    float open = 1.0, sun = n_l;
+#ifdef OPEN
+    float sun = n_l;
 #else
-    float open = sky_open(s.position, s.face_normal, s.reach, s.body);
-    float sun = n_l * sun_visible(s.position, s.face_normal) * mix(1.0, open, occlusion_of_sun);
+    float sun = n_l * sun_visible(s.position, s.face_normal) * mix(1.0, s.open, occlusion_of_sun);
 #endif
     vec3 f0 = mix(vec3(dielectric_reflectance), s.albedo, s.metallic);
     vec3 diffuse = s.albedo * (1.0 - s.metallic);
-    vec3 from_sky = mix(bounce_light, sky_light, 0.5 + 0.5 * s.normal.y) * open;
+    vec3 from_sky = mix(bounce_light, sky_light, 0.5 + 0.5 * s.normal.y) * s.open;
     vec3 light = diffuse * (sun * sun_light + from_sky);
 
     float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
-    vec3 middle = normalize(to_light.xyz + to_eye);
+    vec3 middle = normalize(to_light.xyz + s.to_eye);
     float n_h = clamp(dot(s.normal, middle), 0.0, 1.0);
-    float l_h = clamp(dot(to_light.xyz, middle), 0.0, 1.0);
-    float grazing = 1.0 - l_h;                  // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
-    float grazing2 = grazing * grazing;
+    float grazing = 1.0 - clamp(dot(to_light.xyz, middle), 0.0, 1.0);
+    float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
     vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-    light += fresnel * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0) * (sun * sun_light);
+    light += fresnel * sun_light * (sun * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0));
 
     vec2 environment = environment_scale(roughness, n_v);
-    vec3 mirrored = reflect(-to_eye, s.normal);
-    light += blurred_sky(mirrored, roughness) * (f0 * environment.x + environment.y) * open;
+    light += blurred_sky(reflect(-s.to_eye, s.normal), roughness) * (f0 * environment.x + environment.y) * s.open;
 
-    light = mix(light, sky(-to_eye), haze_share(squared));
-    return displayed(light);
+    return displayed(light * s.haze.w + s.haze.rgb);
 }

@@ -3,8 +3,8 @@
 
 // Sun and sky give a face turned to the sun about 1, so that its colour on the screen is the scene file's.
 const vec3 sun_light = vec3(0.80, 0.745, 0.655);          // what a surface facing the sun receives: a warm late morning
-const vec3 sky_light = vec3(0.300, 0.345, 0.420);         // from straight above, without the sun
-const vec3 bounce_light = vec3(0.165, 0.155, 0.145);      // from below: the sunlit ground, seen dimly
+const vec3 sky_light = vec3(0.385, 0.425, 0.500);         // from straight above, without the sun
+const vec3 bounce_light = vec3(0.250, 0.235, 0.220);      // from below: the sunlit ground, seen dimly
 
 const vec3 sky_horizon = vec3(0.80, 0.86, 0.92);          // radiance: the backdrop and what shiny things mirror
 const vec3 sky_zenith = vec3(0.20, 0.38, 0.66);
@@ -14,9 +14,8 @@ const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky ar
 
 const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone
 
-const float occlusion_strength = 0.72;                    // sky light lost where a gap closes entirely
+const float corner_darkness = 0.5;                        // sky light lost where two planes meet
 const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels: contact seen in the sun
-const float occlusion_near = 0.22;                        // the first of two probes along the normal, in parts of the reach
 
 const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 

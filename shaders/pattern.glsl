@@ -12,7 +12,7 @@ float grid(vec2 p, vec2 width, float line) {
     width += 1e-4;
     p += 0.5 * line;
     vec2 a = p + 0.5 * width, b = p - 0.5 * width;
-    vec2 i = (floor(a) + min(fract(a) / line, 1.0) * line - floor(b) - min(fract(b) / line, 1.0) * line) / width;
+    vec2 i = (line * (floor(a) - floor(b)) + min(fract(a), line) - min(fract(b), line)) / width;
     return 1.0 - (1.0 - i.x) * (1.0 - i.y);
 }
 

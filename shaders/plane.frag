@@ -1,6 +1,7 @@
 #version 410 core
+// An infinite plane. Compiled with GRID, CHECKER or neither; OPEN where neither shadows nor bodies' darkening reach;
+// OTHER_PLANES gives the number of those that it may meet.
 #include "frame.glsl"
-#include "rotate.glsl"
 #include "lighting.glsl"
 #include "pattern.glsl"
 
@@ -8,12 +9,39 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic, pattern
+uniform vec4 plane_look;        // metallic
+#ifndef OPEN
+uniform sampler2D occlusion_atlas;
+uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
+uniform vec4 window_v;
+uniform vec4 window_rim;        // its first and last texels, which are open
+#endif
+#ifdef OTHER_PLANES
+uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height above it
+uniform float other_reach;                 // m
+#endif
 
 layout(location = 0) out vec4 pixel;
 
 const float farthest = 1e6;     // in heights above the plane: keeps the numbers finite at the horizon
-const float any_reach = 1e9;    // a plane has no size of its own: its occluders' reach counts
+
+// What the bodies, and in a corner the other planes, leave of the sky's light.
+float openness(vec3 position) {
+    float open = 1.0;
+#ifndef OPEN
+    vec2 texel = vec2(dot(window_u.xyz, position), dot(window_v.xyz, position)) + vec2(window_u.w, window_v.w);
+    open = texture(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy).r;
+#endif
+#ifdef OTHER_PLANES
+    for (int i = 0; i < OTHER_PLANES; ++i) {
+        vec4 other = other_planes[i];
+        float rise = dot(other.xyz, plane_normal.xyz);
+        float height = (dot(other.xyz, position) + other.w) / other_reach;
+        open *= 1.0 - corner_darkness * clamp(1.0 - height - rise, 0.0, 1.0);
+    }
+#endif
+    return open;
+}
 
 void main() {
     vec3 ray = ray_origin.xyz + gl_FragCoord.x * ray_dx.xyz + gl_FragCoord.y * ray_dy.xyz;
@@ -22,30 +50,26 @@ void main() {
     vec3 position = ray * (plane_normal.w / slope);
 
     vec2 p = vec2(dot(plane_u.xyz, position), dot(plane_v.xyz, position)) + vec2(plane_u.w, plane_v.w);
-    // The pixel's footprint in cells, from the derivatives of ray / slope.
-    vec3 dx = (ray_dx.xyz * slope + ray * dot(plane_normal.xyz, ray_dx.xyz)) * (plane_normal.w / (slope * slope));
-    vec3 dy = (ray_dy.xyz * slope + ray * dot(plane_normal.xyz, ray_dy.xyz)) * (plane_normal.w / (slope * slope));
-    vec2 width = max(abs(vec2(dot(plane_u.xyz, dx), dot(plane_v.xyz, dx))),
-                     abs(vec2(dot(plane_u.xyz, dy), dot(plane_v.xyz, dy))));
-
+    vec2 width = max(abs(dFdx(p)), abs(dFdy(p)));          // the pixel's footprint in cells
     vec3 albedo = plane_color.rgb;
-    if (plane_look.y > 1.5) {
-        float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);   // a box filter still ripples far out
-        albedo *= 1.0 - 2.0 * ground_contrast * mix(0.5, checker(p, width), distinct);
-    } else if (plane_look.y > 0.5) {
-        vec2 share = clamp(2.0 - width, 0.0, 1.0);
-        float mean = 2.0 * grid_line_width;
-        albedo *= 1.0 - grid_line_contrast * mix(mean, grid(p, width, grid_line_width), min(share.x, share.y));
-    }
+    float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);   // a box filter still ripples far out
+#ifdef CHECKER
+    albedo *= 1.0 - 2.0 * ground_contrast * mix(0.5, checker(p, width), distinct);
+#endif
+#ifdef GRID
+    albedo *= 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(p, width, grid_line_width), distinct);
+#endif
 
     Surface surface;
     surface.position = position;
+    surface.to_eye = -normalize(ray);
     surface.normal = plane_normal.xyz;
     surface.face_normal = plane_normal.xyz;
     surface.albedo = albedo;
     surface.roughness = plane_color.w;
     surface.metallic = plane_look.x;
-    surface.reach = any_reach;
-    surface.body = -1.0;
+    surface.open = openness(position);
+    float share = haze_share(dot(position, position));
+    surface.haze = vec4(share * sky(-surface.to_eye), 1.0 - share);
     pixel = vec4(shade(surface), 1.0);
 }

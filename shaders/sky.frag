@@ -1,5 +1,5 @@
 #version 410 core
-#define OPEN_GROUND
+#define OPEN
 #include "frame.glsl"
 #include "lighting.glsl"
 

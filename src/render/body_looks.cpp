@@ -1,6 +1,7 @@
 #include "render/body_looks.h"
 
 #include "render/mesh_occluders.h"
+#include "render/mesh_probes.h"
 
 #include <algorithm>
 #include <array>
@@ -16,10 +17,25 @@ constexpr double reach_of_thin_side = 2.0;
 // Width of a box's rounded edge, in parts of its shortest edge: 3 cm on a crate of 1 m.
 constexpr double bevel_of_edge = 0.03;
 
+// A body's pattern has four cells across its thinnest side.
+constexpr double pattern_cell_of_radius = 0.5;
+
 double reach_of(const Vec3& half_size) {
     std::array<double, 3> h = {half_size.x(), half_size.y(), half_size.z()};
     std::sort(h.begin(), h.end());
     return std::min(reach_of_half_edge * h[1], reach_of_thin_side * h[0]);
+}
+
+MeshLook make_mesh_look(const MeshAsset& asset) {
+    MeshLook look;
+    look.asset = &asset;
+    Bounds bounds;
+    for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    look.bound_center = bounds.center();
+    look.half_extent = 0.5 * bounds.extent();
+    look.occluders = make_mesh_occluders(asset.surface);
+    set_mesh_probes(look);
+    return look;
 }
 
 void set_shape(BodyLook& look, const PlaneShape& plane, SceneLooks&) {
@@ -33,11 +49,13 @@ void set_shape(BodyLook& look, const BoxShape& box, SceneLooks&) {
     look.bound_radius = look.half_size.norm();
     look.reach = reach_of(look.half_size);
     look.bevel = bevel_of_edge * box.size.minCoeff();
+    look.pattern_cell = pattern_cell_of_radius * look.half_size.minCoeff();
 }
 
 void set_shape(BodyLook& look, const SphereShape& sphere, SceneLooks&) {
     look.kind = DrawKind::ball;
     look.half_size = Vec3::Constant(sphere.radius);
+    look.pattern_cell = pattern_cell_of_radius * sphere.radius;
     look.bound_radius = sphere.radius;
     look.reach = reach_of(look.half_size);
 }
@@ -46,17 +64,15 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
     const MeshAsset* asset = mesh.asset.get();
     if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
     look.kind = DrawKind::mesh;
-    const auto known = std::find(looks.meshes.begin(), looks.meshes.end(), asset);
+    const auto known = std::find_if(looks.meshes.begin(), looks.meshes.end(),
+                                    [&](const MeshLook& other) { return other.asset == asset; });
     look.mesh = std::size_t(known - looks.meshes.begin());
-    if (known == looks.meshes.end()) {
-        looks.meshes.push_back(asset);
-        looks.mesh_occluders.push_back(make_mesh_occluders(asset->surface));
-    }
-    Bounds bounds;
-    for (const MeshAsset::Vertex& v : asset->vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
-    look.bound_center = bounds.center();
-    look.bound_radius = 0.5 * bounds.extent().norm();
-    look.reach = std::max(reach_of(0.5 * bounds.extent()), 1e-3 * look.bound_radius);   // a flat sheet has no thickness
+    if (known == looks.meshes.end()) looks.meshes.push_back(make_mesh_look(*asset));
+    const MeshLook& shared = looks.meshes[look.mesh];
+    look.bound_center = shared.bound_center;
+    look.bound_radius = shared.half_extent.norm();
+    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);   // a flat sheet has no thickness
+    look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
 }  // namespace
@@ -75,7 +91,27 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
         }
         looks.bodies.push_back(look);
     }
+    std::vector<double> reaches;
+    for (const BodyLook& look : looks.bodies)
+        if (look.reach > 0.0) reaches.push_back(look.reach);
+    if (!reaches.empty()) {
+        const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
+        std::nth_element(reaches.begin(), middle, reaches.end());
+        looks.typical_reach = *middle;
+    }
     return looks;
+}
+
+BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view) {
+    return {view.relative(state.origin) + state.orientation * look.bound_center, look.bound_radius};
+}
+
+float pattern_number(Pattern pattern) {
+    switch (pattern) {
+        case Pattern::grid: return 1.0f;
+        case Pattern::checker: return 2.0f;
+        default: return 0.0f;
+    }
 }
 
 }  // namespace tumble

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "core/vector.h"
+#include "render/camera_view.h"
 #include "scene/description.h"
+#include "sim/snapshot.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tumble {
@@ -21,24 +24,49 @@ struct BodyLook {
     double bound_radius = 0.0;               // m
     double reach = 0.0;                      // how far it darkens its neighbours, and they it, m
     double bevel = 0.0;                      // m
+    double pattern_cell = 1.0;               // m; a plane's follows the view instead
     PlaneShape plane;                        // planes only
     glm::vec3 color{1.0f};                   // linear
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
 };
 
-/// A box inside a body that stands for it where neighbours are darkened; body frame.
+/// A box inside a mesh that stands for it where neighbours are darkened; body frame.
 struct OccluderBox {
     Vec3 center;      // m
     Vec3 half_size;   // m
 };
 
+/// A place on a mesh where its own sky light is worked out; body frame.
+struct MeshProbe {
+    Vec3 position;    // m
+    Vec3 normal;      // unit
+};
+
+struct MeshLook {
+    const MeshAsset* asset = nullptr;
+    Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();   // m
+    std::vector<OccluderBox> occluders;
+    std::vector<MeshProbe> probes;
+    std::vector<std::uint32_t> probe_of_vertex;
+};
+
 struct SceneLooks {
-    std::vector<BodyLook> bodies;                            // in scene order
-    std::vector<const MeshAsset*> meshes;                    // each once, in order of first use
-    std::vector<std::vector<OccluderBox>> mesh_occluders;    // for each of them
+    std::vector<BodyLook> bodies;    // in scene order
+    std::vector<MeshLook> meshes;    // each once, in order of first use
+    double typical_reach = 1.0;      // m, the median of the bodies'
 };
 
 SceneLooks make_scene_looks(const SceneDescription& scene);
+
+/// The ball around a body, relative to the eye.
+struct BoundingBall {
+    Vec3 center;
+    double radius;
+};
+BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view);
+
+/// A pattern as the shaders count them.
+float pattern_number(Pattern pattern);
 
 }  // namespace tumble

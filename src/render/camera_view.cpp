@@ -35,6 +35,12 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height)
               (up_ + tan_y_ * forward_).normalized(), (-up_ + tan_y_ * forward_).normalized()};
 }
 
+Eigen::Vector2d CameraView::pixel(const Vec3& relative) const {
+    const double depth = relative.dot(forward_);
+    return {0.5 * width_ * (1.0 + relative.dot(right_) / (tan_x_ * depth)),
+            0.5 * height_ * (1.0 - relative.dot(up_) / (tan_y_ * depth))};
+}
+
 Vec3 CameraView::ray(double x, double y) const {
     return forward_ + right_ * (tan_x_ * (2.0 * x / width_ - 1.0)) + up_ * (tan_y_ * (1.0 - 2.0 * y / height_));
 }

@@ -33,6 +33,9 @@ public:
 
     Vec3 relative(const Vec3& world) const { return world - eye_; }
 
+    /// Where a point in front of the eye, relative to it, lands: pixels from the top left corner.
+    Eigen::Vector2d pixel(const Vec3& relative) const;
+
     /// The ray through a point of the picture (pixels from the top left corner), one long along the axis.
     Vec3 ray(double x, double y) const;
 

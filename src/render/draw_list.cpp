@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tumble {
 namespace {
@@ -15,8 +16,11 @@ constexpr double outline_error = 0.15;   // pixels
 // The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
 constexpr double icosahedron_angle = 1.10714871779409;   // rad, atan 2
 
+constexpr float cord_roughness = 0.7f;
+
 struct Item {
     std::size_t mesh;
+    bool patterned;
     double distance;
     Instance instance;
 };
@@ -33,10 +37,13 @@ std::size_t ball_mesh_for(double radius, double distance, const CameraView& view
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view, std::size_t body) {
-    const float pattern = look.pattern == Pattern::plain ? 0.0f : look.pattern == Pattern::grid ? 1.0f : 2.0f;
-    return {to_glm(view.relative(state.origin), look.bevel), to_glm(state.orientation), to_glm(look.half_size, look.reach),
-            glm::vec4(look.color, look.roughness), glm::vec4(look.metallic, pattern, float(body), 0.0f)};
+Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view, const OcclusionPlace& place) {
+    return {to_glm(view.relative(state.origin), look.bevel),
+            to_glm(state.orientation),
+            to_glm(look.half_size, look.pattern_cell),
+            glm::vec4(look.color, look.roughness),
+            glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
+            float(place.size)};
 }
 
 Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
@@ -48,9 +55,9 @@ Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const Came
     const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()));
     const std::array<double, 3> c = to_linear(cord.color);
     const Vec3 scale(cord.radius, std::max(0.5 * length, 1e-3 * cord.radius), cord.radius);
-    return {cylinder_mesh, middle.norm(),
+    return {cylinder_mesh, false, middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
-             glm::vec4(float(c[0]), float(c[1]), float(c[2]), 0.7f), glm::vec4(0.0f, 0.0f, -1.0f, 0.0f)}};
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), 0.0f}};
 }
 
 std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
@@ -64,11 +71,12 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
 // Appends the items to the instances, one batch a mesh, nearest first; equal ones keep the scene's order.
 std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances) {
     std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-        return a.mesh != b.mesh ? a.mesh < b.mesh : a.distance < b.distance;
+        return std::tuple(a.mesh, a.patterned, a.distance) < std::tuple(b.mesh, b.patterned, b.distance);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
-        if (batches.empty() || batches.back().mesh != item.mesh) batches.push_back({item.mesh, instances.size(), 0});
+        if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned)
+            batches.push_back({item.mesh, item.patterned, instances.size(), 0});
         instances.push_back(item.instance);
         ++batches.back().count;
     }
@@ -77,12 +85,8 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 
 }  // namespace
 
-BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view) {
-    return {view.relative(state.origin) + state.orientation * look.bound_center, look.bound_radius};
-}
-
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view) {
+                        const CameraView& view, const OcclusionAtlas& atlas) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -93,8 +97,8 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool in_view = view.sees(ball.center, ball.radius);
         const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
-        const Item item = {mesh_of(look, ball, view), ball.center.norm(),
-                           instance_of(look, snapshot.bodies[i], view, i)};
+        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, ball.center.norm(),
+                           instance_of(look, snapshot.bodies[i], view, atlas.places[i])};
         if (in_view) visible.push_back(item);
         if (casts) casters.push_back(item);
     }

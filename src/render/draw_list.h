@@ -4,6 +4,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_view.h"
+#include "render/occlusion_atlas.h"
 #include "sim/snapshot.h"
 
 #include <glm/vec4.hpp>
@@ -16,9 +17,10 @@ namespace tumble {
 struct Instance {
     glm::vec4 position;      // of the body's origin, relative to the eye; w: bevel, m
     glm::vec4 orientation;   // x, y, z, w
-    glm::vec4 scale;         // of the mesh; w: occlusion reach, m
+    glm::vec4 scale;         // of the mesh; w: its pattern's cell, m
     glm::vec4 color;         // linear; w: roughness
-    glm::vec4 look;          // metallic, pattern, body number
+    glm::vec4 look;          // metallic, pattern; z, w: its place in the occlusion atlas, texels
+    float tile;              // and the edge of its tiles there
 };
 
 /// The meshes by number: the box, the balls from coarse to fine, the cylinder, then the scene's own.
@@ -27,6 +29,7 @@ inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, firs
 
 struct Batch {
     std::size_t mesh = 0;
+    bool patterned = false;
     std::size_t first = 0, count = 0;   // of the instances
 };
 
@@ -37,13 +40,6 @@ struct DrawList {
 };
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view);
-
-/// The ball around a body, relative to the eye.
-struct BoundingBall {
-    Vec3 center;
-    double radius;
-};
-BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view);
+                        const CameraView& view, const OcclusionAtlas& atlas);
 
 }  // namespace tumble

@@ -29,7 +29,7 @@ double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, cons
 }
 
 FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, const OccluderGrid& grid) {
+                                  const ShadowFit& shadows, int atlas_height) {
     FrameUniforms u{};
     u.clip_from_relative = view.clip_from_relative(near_distance);
     u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
@@ -43,8 +43,7 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraVie
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels), 0.0f);
     const double half_haze = haze_distance * view.target_distance();
     u.haze = glm::vec4(float(1.0 / (half_haze * half_haze)), float(view.pixel_size()), 0.0f, 0.0f);
-    u.occlusion_grid = glm::vec4(float(1.0 / grid.cell_size), float(grid.table_size - 1), float(grid.planes.size()), 0.0f);
-    std::copy(grid.planes.begin(), grid.planes.end(), u.occluding_planes);
+    u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "render/camera_view.h"
-#include "render/occluders.h"
 #include "render/shadow_fit.h"
 
 #include <glm/mat4x4.hpp>
@@ -16,13 +15,12 @@ struct FrameUniforms {
     glm::vec4 to_light;
     glm::vec4 shadow_x, shadow_y, shadow_z, shadow_far, shadow_texels;
     glm::vec4 haze;
-    glm::vec4 occlusion_grid;
-    glm::vec4 occluding_planes[most_occluding_planes];
+    glm::vec4 atlas;
 };
-static_assert(sizeof(FrameUniforms) == 4 * sizeof(glm::vec4) + (11 + most_occluding_planes) * sizeof(glm::vec4));
+static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
 FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, const OccluderGrid& grid);
+                                  const ShadowFit& shadows, int atlas_height);
 
 /// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
 /// movements do not round all depths anew.

@@ -38,7 +38,7 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const
     const GLsizei stored = samples > 1 ? samples : 0;
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
     gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
-    gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_SRGB8_ALPHA8, width_, height_);
+    gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height_);
     gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
     if (with_depth) {
         gl_->BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
@@ -55,7 +55,7 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const
 void Framebuffer::bind() const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn_.framebuffer.name());
     gl_->Viewport(0, 0, width_, height_);
-    gl_->Enable(GL_FRAMEBUFFER_SRGB);
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
 void Framebuffer::resolve() const {

@@ -37,7 +37,6 @@
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)  \
     X(PFNGLENABLEPROC, Enable)                                \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
-    X(PFNGLFINISHPROC, Finish)                                \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)    \
     X(PFNGLFRONTFACEPROC, FrontFace)                          \
@@ -57,21 +56,21 @@
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)        \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                      \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                      \
-    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                  \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                        \
     X(PFNGLREADPIXELSPROC, ReadPixels)                        \
     X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
     X(PFNGLSCISSORPROC, Scissor)                              \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                    \
-    X(PFNGLTEXBUFFERPROC, TexBuffer)                          \
     X(PFNGLTEXIMAGE2DPROC, TexImage2D)                        \
     X(PFNGLTEXPARAMETERIPROC, TexParameteri)                  \
+    X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                  \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                          \
     X(PFNGLUNIFORM1IPROC, Uniform1i)                          \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                        \
     X(PFNGLUNIFORMBLOCKBINDINGPROC, UniformBlockBinding)      \
-    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)            \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                        \
     X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)      \
+    X(PFNGLVERTEXATTRIBIPOINTERPROC, VertexAttribIPointer)    \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)      \
     X(PFNGLVIEWPORTPROC, Viewport)
 

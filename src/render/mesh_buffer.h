@@ -9,10 +9,16 @@
 
 namespace tumble {
 
+struct MeshData {
+    std::span<const MeshAsset::Vertex> vertices;
+    std::span<const std::uint32_t> indices;
+    std::span<const std::uint32_t> probe_of_vertex;   // may be empty: only the scene's own meshes have probes
+    bool closed = true;
+};
+
 class MeshBuffer {
 public:
-    MeshBuffer(const GlFunctions& gl, std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices,
-               bool closed);
+    MeshBuffer(const GlFunctions& gl, const MeshData& data);
 
     /// A closed mesh hides its back faces.
     bool closed() const { return closed_; }
@@ -22,7 +28,7 @@ public:
 
 private:
     const GlFunctions* gl_;
-    GlObject array_, vertices_, indices_;
+    GlObject array_, vertices_, indices_, probes_;
     GLsizei index_count_;
     bool closed_;
 };

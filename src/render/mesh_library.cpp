@@ -11,13 +11,14 @@ constexpr int cylinder_sides = 16;   // a cord is a few pixels wide
 
 MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks)
     : gl_(&gl), instances_(gl, GlKind::buffer) {
-    const auto add = [&](const DrawMesh& mesh) { meshes_.emplace_back(gl, mesh.vertices, mesh.indices, true); };
+    const auto add = [&](const DrawMesh& mesh) { meshes_.emplace_back(gl, MeshData{mesh.vertices, mesh.indices, {}, true}); };
     add(make_box());
     for (std::size_t level = 0; level < ball_levels; ++level) add(make_ball(int(level)));
     add(make_cylinder(cylinder_sides));
-    for (const MeshAsset* asset : looks.meshes) {
-        const Closedness form = closedness(asset->surface);
-        meshes_.emplace_back(gl, asset->vertices, asset->indices, form.closed() && form.signed_volume > 0.0);
+    for (const MeshLook& look : looks.meshes) {
+        const Closedness form = closedness(look.asset->surface);
+        meshes_.emplace_back(gl, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex,
+                                          form.closed() && form.signed_volume > 0.0});
     }
 }
 

@@ -1,35 +1,55 @@
-// The bodies as boxes, balls and planes that take sky light from each other, and a spatial hash to find the few within
-// reach of a point (Teschner et al. 2003). Collisions of the hash only cost time: every distance is exact.
+// The bodies as boxes and balls that take sky light from each other, and the search for the few near a place.
 #pragma once
 
 #include "render/body_looks.h"
-#include "render/draw_list.h"
+#include "render/camera_view.h"
 #include "sim/snapshot.h"
 
-#include <glm/vec4.hpp>
-
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace tumble {
 
-/// As shaders/occlusion.glsl reads it. A ball has its radius, negated, in half_size.x.
+/// A ball is a box of no size with a radius. Float: what is darkened is a picture.
 struct Occluder {
-    glm::vec4 center;        // relative to the eye; w: body number
-    glm::vec4 orientation;   // x, y, z, w
-    glm::vec4 half_size;     // m; w: reach, m
+    Eigen::Vector3f center;      // relative to the eye, m
+    Eigen::Matrix3f to_local;    // world axes -> the occluder's
+    Eigen::Vector3f half_size;   // m
+    float radius;                // m
+    float reach;                 // m
+    float bound_radius;          // of the ball around it, m
+    std::size_t body;
 };
 
-struct OccluderGrid {
-    std::vector<Occluder> occluders;
-    std::vector<std::int32_t> cells;      // a table of list starts, then the lists of indices, each ended by -1
-    std::uint32_t table_size = 1;         // a power of two
-    double cell_size = 1.0;               // m
-    std::vector<glm::vec4> planes;        // unit normal and the eye's height; at most most_occluding_planes
+/// The boxes and balls of all bodies that may darken something in the picture, in scene order.
+std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+
+/// Finds what is near: cells of a regular lattice, kept sorted. What spans too many cells is a candidate everywhere.
+class OccluderFinder {
+public:
+    explicit OccluderFinder(const std::vector<Occluder>& occluders);
+
+    /// The occluders whose bounding ball, grown by twice their reach, meets the ball given; in order, each once.
+    void find(const Eigen::Vector3f& center, float radius, std::vector<std::size_t>& found) const;
+
+private:
+    struct Cell {
+        int x, y, z;
+        auto operator<=>(const Cell&) const = default;
+    };
+    struct Entry {
+        Cell cell;
+        std::size_t occluder;
+        auto operator<=>(const Entry&) const = default;
+    };
+    template <class Visit>
+    bool for_each_cell(const Eigen::Vector3f& center, float radius, Visit visit) const;
+    bool meets(std::size_t occluder, const Eigen::Vector3f& center, float radius) const;
+
+    const std::vector<Occluder>* occluders_;
+    float cell_size_ = 1.0f;   // m
+    std::vector<Entry> entries_;
+    std::vector<std::size_t> everywhere_;
 };
-
-inline constexpr std::size_t most_occluding_planes = 4;
-
-OccluderGrid make_occluder_grid(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
 
 }  // namespace tumble

@@ -1,17 +1,56 @@
 #include "render/plane_painter.h"
 
 #include "render/glm_conversion.h"
+#include "render/plane_axes.h"
 #include "render/surface_programs.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 
-namespace tumble {
+#include <algorithm>
 
-PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders)
-    : gl_(&gl), plane_(gl, shaders, {"plane.vert", "plane.frag", {}}), sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
+namespace tumble {
+namespace {
+
+// Two planes that meet darken each other's corner this far, in parts of the bodies' typical reach.
+constexpr double corner_reach = 2.0;
+
+constexpr int most_other_planes = 6;   // of a box-shaped room, and one more
+
+int other_planes(const SceneLooks& looks) {
+    const auto planes = std::count_if(looks.bodies.begin(), looks.bodies.end(),
+                                      [](const BodyLook& look) { return look.kind == DrawKind::plane; });
+    return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, most_other_planes));
+}
+
+std::vector<std::string> defines(Pattern pattern, int others) {
+    std::vector<std::string> all;
+    if (pattern == Pattern::grid) all.emplace_back("GRID");
+    if (pattern == Pattern::checker) all.emplace_back("CHECKER");
+    if (others > 0) all.push_back(fmt::format("OTHER_PLANES {}", others));
+    return all;
+}
+
+std::vector<std::string> with(std::vector<std::string> all, const char* one_more) {
+    all.emplace_back(one_more);
+    return all;
+}
+
+}  // namespace
+
+PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks)
+    : gl_(&gl), other_planes_(other_planes(looks)), sky_(gl, shaders, {"plane.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array), corners_(gl, GlKind::buffer) {
-    connect(plane_);
     connect(sky_);
+    for (const BodyLook& look : looks.bodies) {
+        auto& programs = planes_[std::size_t(look.pattern)];
+        if (look.kind != DrawKind::plane || programs) continue;
+        const std::vector<std::string> all = defines(look.pattern, other_planes_);
+        programs.emplace(Programs{ShaderProgram(gl, shaders, {"plane.vert", "plane.frag", all}),
+                                  ShaderProgram(gl, shaders, {"plane.vert", "plane.frag", with(all, "OPEN")})});
+        connect(programs->touched);
+        connect(programs->open);
+    }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
     gl.EnableVertexAttribArray(0);
@@ -19,41 +58,80 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-void PlanePainter::draw(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
-                        double near_distance) const {
-    const double cell = pattern_cell(view.target_distance());
-    gl_->Disable(GL_CULL_FACE);
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        if (looks.bodies[i].kind != DrawKind::plane) continue;
-        if (const auto patch = make_plane_patch(looks.bodies[i], snapshot.bodies[i], i, view, near_distance, cell))
-            draw_patch(*patch, looks.bodies[i]);
+void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PixelArea>& areas, const SceneLooks& looks,
+                        const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const {
+    gl_->Enable(GL_SCISSOR_TEST);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
+        const auto draw_in = [&](int x0, int y0, int x1, int y1) {
+            if (x0 >= x1 || y0 >= y1) return;
+            gl_->Scissor(x0, y0, x1 - x0, y1 - y0);
+            draw_polygon(planes[i].corners);
+        };
+        const PixelArea area = areas[i].empty() ? PixelArea{0, 0, 0, 0} : areas[i];
+        const int width = view.width(), height = view.height();
+        set_uniforms(programs.open, planes[i], planes, looks);
+        draw_in(0, 0, width, area.y0);
+        draw_in(0, area.y0, area.x0, area.y1);
+        draw_in(area.x1, area.y0, width, area.y1);
+        draw_in(0, area.y1, width, height);
+        if (area.empty()) continue;
+        set_uniforms(programs.touched, planes[i], planes, looks);
+        set_window(programs.touched, planes[i], atlas, looks, snapshot, view);
+        draw_in(area.x0, area.y0, area.x1, area.y1);
     }
+    gl_->Disable(GL_SCISSOR_TEST);
 }
 
-void PlanePainter::draw_patch(const PlanePatch& patch, const BodyLook& look) const {
-    const auto set = [&](const char* name, const glm::vec4& value) {
-        gl_->Uniform4fv(plane_.uniform(name), 1, glm::value_ptr(value));
-    };
-    plane_.use();
-    set("plane_normal", to_glm(patch.normal, patch.height));
-    set("plane_u", patch.u);
-    set("plane_v", patch.v);
-    set("plane_color", glm::vec4(look.color, look.roughness));
-    const float pattern = look.pattern == Pattern::plain ? 0.0f : look.pattern == Pattern::grid ? 1.0f : 2.0f;
-    set("plane_look", glm::vec4(look.metallic, pattern, 0.0f, 0.0f));
+void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
+    const std::vector<glm::vec3> corners = sky_polygon(planes, view);
+    if (corners.size() < 3) return;
+    sky_.use();
+    draw_polygon(corners);
+}
+
+void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
+                                const SceneLooks& looks) const {
+    const BodyLook& look = looks.bodies[plane.body];
+    program.use();
+    program.set("plane_normal", to_glm(plane.normal, plane.height));
+    program.set("plane_u", plane.u);
+    program.set("plane_v", plane.v);
+    program.set("plane_color", glm::vec4(look.color, look.roughness));
+    program.set("plane_look", glm::vec4(look.metallic, 0.0f, 0.0f, 0.0f));
+    if (other_planes_ == 0) return;
+    std::vector<glm::vec4> others;   // those that are not in view lie far below: nothing comes near them
+    for (const PlanePatch& other : planes)
+        if (other.body != plane.body) others.push_back(to_glm(other.normal, other.height));
+    others.resize(std::size_t(other_planes_), glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
+    gl_->Uniform4fv(program.uniform("other_planes"), other_planes_, glm::value_ptr(others.front()));
+    gl_->Uniform1f(program.uniform("other_reach"), float(corner_reach * looks.typical_reach));
+}
+
+void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                              const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
+    const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
+                                     [&](const OcclusionWindow& w) { return w.body == plane.body; });
+    if (window == atlas.windows.end()) {   // texel 0, 0 is open
+        for (const char* name : {"window_u", "window_v", "window_rim"}) program.set(name, glm::vec4(0.0f));
+        return;
+    }
+    const BodyState& state = snapshot.bodies[plane.body];
+    const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
+    const Vec3 u = state.orientation * axes.u / window->cell, v = state.orientation * axes.v / window->cell;
+    const Vec3 eye = view.eye() - state.origin;
+    program.set("window_u", to_glm(u, u.dot(eye) - window->low_a + window->x));
+    program.set("window_v", to_glm(v, v.dot(eye) - window->low_b + window->y));
+    program.set("window_rim", glm::vec4(float(window->x), float(window->y), float(window->x + window->width - 1),
+                                        float(window->y + window->height - 1)));
+}
+
+void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
+    gl_->Disable(GL_CULL_FACE);
     gl_->BindVertexArray(array_.name());
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
-    gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(patch.corners.size() * sizeof(glm::vec3)), patch.corners.data(),
-                    GL_STREAM_DRAW);
-    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(patch.corners.size()));
-    gl_->BindVertexArray(0);
-}
-
-void PlanePainter::draw_sky() const {
-    gl_->Disable(GL_CULL_FACE);
-    sky_.use();
-    gl_->BindVertexArray(array_.name());
-    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(glm::vec3)), corners.data(), GL_STREAM_DRAW);
+    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
     gl_->BindVertexArray(0);
 }
 

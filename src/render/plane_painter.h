@@ -4,23 +4,38 @@
 #include "render/gl_object.h"
 #include "render/plane_patch.h"
 #include "render/shader_program.h"
+#include "render/touched_area.h"
 
+#include <array>
 #include <filesystem>
+#include <optional>
 
 namespace tumble {
 
 class PlanePainter {
 public:
-    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders);
+    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks);
 
-    void draw(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, double near_distance) const;
-    void draw_sky() const;
+    /// `areas[i]`: where shadows or bodies' darkening may touch planes[i].
+    void draw(const std::vector<PlanePatch>& planes, const std::vector<PixelArea>& areas, const SceneLooks& looks,
+              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const;
+
+    void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
 
 private:
-    void draw_patch(const PlanePatch& patch, const BodyLook& look) const;
+    struct Programs {
+        ShaderProgram touched, open;
+    };
+    void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
+                      const SceneLooks& looks) const;
+    void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                    const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
+    void draw_polygon(const std::vector<glm::vec3>& corners) const;
 
     const GlFunctions* gl_;
-    ShaderProgram plane_, sky_;
+    std::array<std::optional<Programs>, 3> planes_;   // by pattern: those that the scene uses
+    int other_planes_;
+    ShaderProgram sky_;
     GlObject array_, corners_;
 };
 

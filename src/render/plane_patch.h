@@ -10,7 +10,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -23,10 +22,12 @@ struct PlanePatch {
     std::size_t body;
 };
 
-/// The part in view; nothing when the eye is below the plane (one looks through walls from behind) or it is out of view.
-/// `cell` is the pattern's cell in m.
-std::optional<PlanePatch> make_plane_patch(const BodyLook& look, const BodyState& state, std::size_t body,
-                                           const CameraView& view, double near_distance, double cell);
+/// Those in view from their open side: one looks through walls from behind.
+std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                           double near_distance);
+
+/// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip space.
+std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view);
 
 /// A round length (1, 2 or 5 times a power of ten) near to a fifteenth of the viewing distance: 1 m at 15 m.
 double pattern_cell(double viewing_distance);

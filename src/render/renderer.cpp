@@ -8,7 +8,7 @@
 #include "render/framebuffer.h"
 #include "render/gl_context.h"
 #include "render/mesh_library.h"
-#include "render/occlusion_buffers.h"
+#include "render/occlusion_texture.h"
 #include "render/plane_painter.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
@@ -41,8 +41,8 @@ struct Renderer::State {
           meshes(gl, looks),
           occlusion(gl),
           shadow_map(gl, shaders, frame_block),
-          programs(gl, shaders),
-          planes(gl, shaders) {
+          programs(gl, shaders, looks, !scene.cords.empty()),
+          planes(gl, shaders, looks) {
         gl.FrontFace(GL_CW);          // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(GL_DEPTH_CLAMP);    // nothing is cut off in front of the near plane or in front of the sun's first depth
@@ -58,7 +58,7 @@ struct Renderer::State {
     Framebuffer framebuffer;
     GlObject uniforms;
     MeshLibrary meshes;
-    OcclusionBuffers occlusion;
+    OcclusionTexture occlusion;
     ShadowMap shadow_map;
     SurfacePrograms programs;
     PlanePainter planes;
@@ -74,27 +74,33 @@ Renderer::~Renderer() = default;
 void Renderer::render(const Snapshot& snapshot, Image& frame) {
     State& s = *state_;
     const double near_distance = near_distance_for(s.looks, snapshot, s.view);
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view);
-    const OccluderGrid grid = make_occluder_grid(s.looks, snapshot, s.view);
+    const OcclusionAtlas atlas = make_occlusion_atlas(s.looks, snapshot, s.view);
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, atlas);
     const ShadowFit shadows = s.stage.fit(s.looks, snapshot, s.view);
-    const FrameUniforms uniforms = make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, grid);
+    const std::vector<PlanePatch> planes = make_plane_patches(s.looks, snapshot, s.view, near_distance);
+    std::vector<PixelArea> touched;
+    for (const PlanePatch& plane : planes)
+        touched.push_back(touched_area(plane, s.scene, s.looks, snapshot, s.view, shadows));
 
+    s.occlusion.upload(atlas);
+    s.meshes.upload(list.instances);
+    const FrameUniforms uniforms =
+        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion.height());
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
-    s.meshes.upload(list.instances);
-    s.occlusion.upload(grid);
 
     if (s.scene.light.shadows) s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
 
     s.framebuffer.bind();
     s.gl.Clear(GL_DEPTH_BUFFER_BIT);   // colour is covered by the sky at the latest
-    s.occlusion.bind(occluders_unit, cells_unit);
+    s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
+    s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion.name());
     s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
-    s.planes.draw(s.looks, snapshot, s.view, near_distance);
-    s.planes.draw_sky();
+    s.planes.draw(planes, touched, s.looks, atlas, snapshot, s.view);
+    s.planes.draw_sky(planes, s.view);
 
     s.framebuffer.resolve();
     s.framebuffer.read(frame);

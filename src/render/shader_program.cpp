@@ -4,6 +4,9 @@
 #include "render/shader_source.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -49,6 +52,10 @@ ShaderProgram::ShaderProgram(const GlFunctions& gl, const std::filesystem::path&
         throw RunError(fmt::format("shaders {} and {} do not link:\n{}", (folder / files.vertex).string(),
                                    (folder / files.fragment).string(), log.c_str()));
     }
+}
+
+void ShaderProgram::set(const char* name, const glm::vec4& value) const {
+    gl_->Uniform4fv(uniform(name), 1, glm::value_ptr(value));
 }
 
 void ShaderProgram::set_sampler(const char* name, GLint unit) const {

@@ -3,6 +3,8 @@
 
 #include "render/gl_object.h"
 
+#include <glm/vec4.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +25,9 @@ public:
 
     /// The place of a uniform (-1, which OpenGL ignores, where the compiler dropped it).
     GLint uniform(const char* name) const { return gl_->GetUniformLocation(program_.name(), name); }
+
+    /// Sets a uniform of the program in use.
+    void set(const char* name, const glm::vec4& value) const;
 
     /// Ties a sampler to a texture unit, a uniform block to a binding point; the names may be absent.
     void set_sampler(const char* name, GLint unit) const;

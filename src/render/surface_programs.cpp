@@ -1,25 +1,45 @@
 #include "render/surface_programs.h"
 
 namespace tumble {
+namespace {
+
+std::size_t index_of(DrawKind kind, bool patterned) {
+    return (kind == DrawKind::box ? 0u : kind == DrawKind::ball ? 1u : 2u) + (patterned ? 3u : 0u);
+}
+
+}  // namespace
 
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
-    program.set_sampler("occluders", GLint(occluders_unit));
-    program.set_sampler("occluder_cells", GLint(cells_unit));
+    program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
 }
 
-SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders)
-    : box_(gl, shaders, {"body.vert", "box.frag", {}}),
-      ball_(gl, shaders, {"body.vert", "sphere.frag", {}}),
-      mesh_(gl, shaders, {"body.vert", "mesh.frag", {}}) {
-    for (const ShaderProgram* program : {&box_, &ball_, &mesh_}) connect(*program);
+SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                                 bool has_cords) {
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
+            add(gl, shaders, look.kind, look.pattern != Pattern::plain);
+    if (has_cords) add(gl, shaders, DrawKind::mesh, false);
+}
+
+void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned) {
+    auto& program = programs_[index_of(kind, patterned)];
+    if (program) return;
+    ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
+    if (kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
+    if (kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
+    if (patterned) files.defines.emplace_back("PATTERNED");
+    program.emplace(gl, shaders, files);
+    connect(*program);
 }
 
 void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const {
     for (const Batch& batch : batches) {
-        const ShaderProgram& program = batch.mesh == box_mesh ? box_ : batch.mesh < cylinder_mesh ? ball_ : mesh_;
-        program.use();
+        const DrawKind kind = batch.mesh == box_mesh        ? DrawKind::box
+                              : batch.mesh < cylinder_mesh ? DrawKind::ball
+                                                            : DrawKind::mesh;
+        programs_[index_of(kind, batch.patterned)]->use();
         meshes.draw(batch);
     }
 }

@@ -4,26 +4,31 @@
 #include "render/mesh_library.h"
 #include "render/shader_program.h"
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace tumble {
 
 /// The uniform block and the texture units of everything drawn.
 inline constexpr GLuint frame_block = 0;
-inline constexpr GLuint shadow_unit = 0, occluders_unit = 1, cells_unit = 2;
+inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1;
 
 /// Ties a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
 class SurfacePrograms {
 public:
-    SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders);
+    /// Compiles what the scene's bodies need.
+    SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks, bool has_cords);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
-    ShaderProgram box_, ball_, mesh_;
+    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned);
+
+    std::array<std::optional<ShaderProgram>, 6> programs_;   // box, ball, mesh; then the same with a pattern
 };
 
 }  // namespace tumble

@@ -109,10 +109,10 @@ SceneDescription heap_scene(int count) {
     SceneDescription scene = empty_scene();
     scene.output.width = 1280;
     scene.output.height = 720;
-    const double spread = 0.45 * std::sqrt(double(count));
-    const double far = spread / 4.5;
-    scene.camera.eye = Vec3(7.0, 5.5, 11.0) * far;
-    scene.camera.target = Vec3(0.0, 1.4, 0.0) * far;
+    const double spread = 0.6 * std::sqrt(double(count));
+    const double far = spread / 6.0;
+    scene.camera.eye = Vec3(7.5, 5.5, 11.5) * far;
+    scene.camera.target = Vec3(0.0, 1.1, 0.0) * far;
     scene.bodies.push_back(ground_plane());
 
     Random random;
@@ -123,7 +123,7 @@ SceneDescription heap_scene(int count) {
         const double angle = random.between(0.0, 2.0 * pi), distance = spread * std::sqrt(random.between(0.0, 1.0)) * 0.85;
         const SinCos direction = sincos(angle);
         const double x = distance * direction.cos, z = distance * direction.sin;
-        const double radius = 0.42 * (size.x() + size.z()) * 0.5;
+        const double radius = 0.36 * (size.x() + size.z()) * 0.5;
         double base = 0.0;
         for (const Standing& other : pile)
             if (std::hypot(other.x - x, other.z - z) < other.radius + radius) base = std::max(base, other.top);

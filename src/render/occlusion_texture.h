@@ -1,0 +1,26 @@
+// The occlusion atlas on the graphics side.
+#pragma once
+
+#include "render/gl_object.h"
+#include "render/occlusion_atlas.h"
+
+namespace tumble {
+
+class OcclusionTexture {
+public:
+    explicit OcclusionTexture(const GlFunctions& gl);
+
+    void upload(const OcclusionAtlas& atlas);
+
+    GLuint name() const { return texture_.name(); }
+
+    /// Rows that the texture has: at least the last atlas' height.
+    int height() const { return height_; }
+
+private:
+    const GlFunctions* gl_;
+    GlObject texture_;
+    int height_ = 0;
+};
+
+}  // namespace tumble
