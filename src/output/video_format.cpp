@@ -25,7 +25,8 @@ void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.beg
 /// ffmpeg takes "name:rest" for a protocol and a leading "-" for an option; this form is always a file.
 std::string file_argument(const fs::path& path) { return "file:" + path.string(); }
 
-Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-y"}; }
+/// Without -xerror, ffmpeg 5.1 ends with exit code 0 when the disk was full at the end of the clip.
+Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
 
 Arguments codec(VideoKind kind) {
     switch (kind) {

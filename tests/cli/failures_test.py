@@ -1,0 +1,160 @@
+"""What the environment does to a run: no ffmpeg, no room, no folder, Ctrl-C, a kill. Nothing half-written may be left
+under its final name, and the exit code is 1."""
+
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import time
+
+import program
+
+
+class Failures(program.ProgramTest):
+    def without_ffmpeg(self):
+        (self.folder / "bin").mkdir(exist_ok=True)
+        return {**os.environ, "PATH": str(self.folder / "bin")}
+
+    def with_ffmpeg(self, script):
+        environment = self.without_ffmpeg()
+        fake = self.folder / "bin/ffmpeg"
+        fake.write_text("#!/bin/sh\n" + script + "\n")
+        fake.chmod(0o755)
+        return environment
+
+    def left(self):
+        return [name for name in self.names() if not name.startswith("bin")]
+
+    def test_no_ffmpeg(self):
+        for command in (["render", "scene.toml", "-o", "a.mp4", "--frames", "out"], ["render", "scene.toml"]):
+            run = self.check(1, *command, env=self.without_ffmpeg())
+            self.assertIn("apt-get install ffmpeg", run.stderr)
+            self.assertEqual(self.left(), [])
+        self.check(0, "render", "scene.toml", "--frames", "out", env=self.without_ffmpeg())
+
+    def test_ffmpeg_dies(self):
+        for script in ("echo 'Unknown encoder' >&2; exit 4", "exec <&-; echo 'Unknown encoder' >&2; exit 4",
+                       "/bin/cat >/dev/null; echo 'Unknown encoder' >&2; exit 4",
+                       "/usr/bin/head -c 9000 >/dev/null; echo 'Unknown encoder' >&2; exit 4"):
+            run = self.check(1, "render", "scene.toml", "-o", "a.mp4", env=self.with_ffmpeg(script))
+            self.assertIn("cannot write 'a.mp4': ffmpeg failed (exit code 4):\nUnknown encoder", run.stderr)
+            self.assertEqual(self.left(), [])
+
+    def test_folders_that_cannot_be(self):
+        self.write("file", "")
+        for arguments, named in ((["render", "scene.toml", "--frames", "file/out"], "file/out"),
+                                 (["render", "scene.toml", "--frames", "file"], "file"),
+                                 (["render", "scene.toml", "--frames", "/proc/out"], "/proc/out"),
+                                 (["render", "scene.toml", "-o", "file/a.mp4"], "file/a.mp4"),
+                                 (["render", "scene.toml", "-o", "no/a.mp4", "--frames", "out"], "no/a.mp4"),
+                                 (["simulate", "scene.toml", "--trajectory", "file/t.csv"], "file/t.csv"),
+                                 (["simulate", "scene.toml", "--energy", "no/e.csv", "--trajectory", "t.csv"], "no/e.csv")):
+            run = self.check(1, *arguments)
+            self.assertIn(f"'{named}'", run.stderr)
+            self.assertTrue(run.stderr.startswith("error: cannot"), run.stderr)
+            self.assertEqual(self.names(), ["file"])
+
+    def test_the_old_clip_stays_when_the_new_one_fails(self):
+        self.write("a.mp4", "old")
+        self.check(1, "render", "scene.toml", "-o", "a.mp4", env=self.with_ffmpeg("exit 1"))
+        self.assertEqual((self.folder / "a.mp4").read_text(), "old")
+        self.assertEqual(self.left(), ["a.mp4"])
+
+    def test_full_disk(self):
+        run = self.check(1, "simulate", "scene.toml", "--energy", "/dev/full")
+        self.assertIn("'/dev/full': No space left", run.stderr)
+
+    def limited(self, size):
+        """No file may grow beyond so many bytes."""
+        return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    def test_no_room_for_frames(self):
+        run = self.check(1, "render", "scene.toml", "--frames", "out", "--size", "320x240", preexec_fn=self.limited(2000))
+        self.assertRegex(run.stderr, r"^error: cannot write 'out/frame_\d{6}\.png': File too large\n$")
+        self.assertEqual(self.names(), [])
+
+    def test_no_room_for_the_table(self):
+        run = self.check(1, "simulate", "scene.toml", "--trajectory", "t.csv", "--fps", "1000",
+                         preexec_fn=self.limited(20000))
+        self.assertEqual(run.stderr, "error: cannot write 't.csv': File too large\n")
+        self.assertEqual(self.names(), [])
+
+    def test_no_room_for_the_clip(self):
+        for name in ("a.mp4", "a.mkv", "a.mov", "a.webm", "a.gif"):
+            self.check(0, "render", "scene.toml", "-o", name, "--size", "64x48", "--duration", "1")
+            whole = (self.folder / name).stat().st_size
+            (self.folder / name).unlink()
+            for size in (100, whole // 2, whole - 1):
+                run = self.check(1, "render", "scene.toml", "-o", name, "--size", "64x48", "--duration", "1",
+                                 preexec_fn=self.limited(size))
+                self.assertIn(f"cannot write '{name}': ffmpeg failed", run.stderr)
+                self.assertEqual(self.names(), [])
+
+    def started(self, *arguments):
+        """A run that would take minutes, once its first frames are there."""
+        run = subprocess.Popen([program.TUMBLE, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.kill)
+        deadline = time.monotonic() + 60
+        while not (self.folder / "out/frame_000003.png").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertIsNone(run.poll(), "it ended early")
+        return run
+
+    def check_whole_frames(self):
+        frames = sorted((self.folder / "out").glob("frame_*.png"))
+        self.assertEqual([p.name for p in frames], program.frame_names(len(frames)))
+        for path in frames:
+            self.assertEqual(program.png_size(path), (160, 120))
+
+    LONG = ("render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--duration", "5000", "--size", "160x120")
+
+    def test_interrupts(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            run = self.started(*self.LONG)
+            run.send_signal(number)
+            error = run.communicate(timeout=60)[1]
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("error: interrupted", error)
+            self.check_whole_frames()
+            self.assertEqual([name for name in self.names() if "frame_0" not in name], ["out"])
+            self.assertFalse([name for name in self.names() if ".part" in name])
+            for path in (self.folder / "out").iterdir():
+                path.unlink()
+
+    def test_an_interrupted_table_is_not_there(self):
+        run = subprocess.Popen([program.TUMBLE, "simulate", "scene.toml", "--trajectory", "t.csv", "--duration", "1e5"],
+                               cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.kill)
+        deadline = time.monotonic() + 60
+        while not self.names() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        self.assertIn("interrupted", run.communicate(timeout=60)[1])
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(self.names(), [])
+
+    def test_a_kill_leaves_nothing_half_written(self):
+        run = self.started(*self.LONG)
+        run.kill()
+        run.communicate(timeout=60)
+        self.check_whole_frames()
+        self.assertFalse((self.folder / "a.mp4").exists())
+        # ffmpeg sees the end of its input and stops by itself; it must not outlive the test's folder.
+        deadline = time.monotonic() + 30
+        while self.ffmpeg_runs() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.assertFalse((self.folder / "a.mp4").exists())
+
+    def ffmpeg_runs(self):
+        for path in pathlib.Path("/proc").glob("[0-9]*/cwd"):
+            try:
+                if os.readlink(path) == str(self.folder):
+                    return True
+            except OSError:
+                pass
+        return False
+
+
+if __name__ == "__main__":
+    program.main()

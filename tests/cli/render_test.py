@@ -1,0 +1,107 @@
+"""`render`: frames and clips, of any size and rate."""
+
+import os
+import pty
+import subprocess
+
+import program
+
+
+class Render(program.ProgramTest):
+    def test_frames(self):
+        run = self.check(0, "render", "scene.toml", "--frames", "out/deep")
+        self.assertEqual(sorted(p.name for p in (self.folder / "out/deep").iterdir()), program.frame_names(6))
+        for name in program.frame_names(6):
+            self.assertEqual(program.png_size(self.folder / "out/deep" / name), (48, 32))
+        self.assertIn("wrote out/deep/frame_000000.png to frame_000005.png", run.stderr)
+        self.assertIn("simulation", run.stderr)
+        self.assertEqual(run.stdout, "")
+
+    def test_the_picture_moves(self):
+        self.check(0, "render", "scene.toml", "--frames", "out")
+        frames = [(self.folder / "out" / name).read_bytes() for name in program.frame_names(6)]
+        self.assertNotEqual(frames[0], frames[3])
+
+    def test_a_clip_by_default(self):
+        self.check(0, "render", "scene.toml")
+        self.assertEqual(self.names(), ["scene.mp4"])
+        self.assertEqual(program.probe(self.folder / "scene.mp4", "codec_name,width,height,pix_fmt,avg_frame_rate,nb_read_frames"),
+                         ["h264", "48", "32", "yuv420p", "10/1", "6"])
+
+    def test_both_from_one_run(self):
+        self.check(0, "render", "scene.toml", "-o", "a.mkv", "--frames", "out")
+        self.assertEqual(program.probe(self.folder / "a.mkv", "nb_read_frames"), ["6"])
+        self.assertEqual(self.names(), ["a.mkv", "out"] + ["out/" + name for name in program.frame_names(6)])
+
+    def test_other_formats(self):
+        for name, codec in (("a.webm", "vp9"), ("a.gif", "gif"), ("a.mov", "h264")):
+            self.check(0, "render", "scene.toml", "-o", name)
+            self.assertEqual(program.probe(self.folder / name, "codec_name,width,height,nb_read_frames"),
+                             [codec, "48", "32", "6"])
+
+    def test_rates(self):
+        for fps, rate, count in (("29.97", "2997/100", 3), ("0.5", "1/2", 1), ("1e6", "1000000/1", 100001)):
+            duration = "0.1" if fps != "1e6" else "0.000003"
+            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration)
+            expected = count if fps != "1e6" else 4
+            self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), [rate, str(expected)])
+
+    def test_duration_0_is_one_frame(self):
+        self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--duration", "0")
+        self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["1"])
+        self.assertEqual(self.names(), ["a.mp4", "out", "out/frame_000000.png"])
+
+    def test_odd_sizes(self):
+        self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--size", "49x33", "--duration", "0")
+        self.assertEqual(program.png_size(self.folder / "out/frame_000000.png"), (49, 33))
+        self.assertEqual(program.probe(self.folder / "a.mp4", "width,height"), ["50", "34"])
+
+    def test_threads_and_repetition_change_no_byte(self):
+        for name, threads in (("a", 1), ("b", 4), ("c", 4)):
+            self.check(0, "render", "scene.toml", "-o", name + ".mp4", "--frames", name, "--threads", threads)
+        for name in program.frame_names(6):
+            a = (self.folder / "a" / name).read_bytes()
+            self.assertEqual(a, (self.folder / "b" / name).read_bytes())
+            self.assertEqual(a, (self.folder / "c" / name).read_bytes())
+        self.assertEqual((self.folder / "a.mp4").read_bytes(), (self.folder / "b.mp4").read_bytes())
+
+    def test_frame_n_shows_time_n(self):
+        # Frame 2 at 10 frames/s and frame 4 at 20 show the same moment, with the same fixed step.
+        self.check(0, "render", "scene.toml", "--frames", "a")
+        self.write("fast.toml", program.SCENE.replace("fps = 10", "fps = 20").replace("per_frame = 4", "per_frame = 2"))
+        self.check(0, "render", "fast.toml", "--frames", "b")
+        self.assertEqual((self.folder / "a/frame_000002.png").read_bytes(), (self.folder / "b/frame_000004.png").read_bytes())
+
+    def test_scenes_of_nearly_nothing(self):
+        self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")
+        self.check(0, "render", "empty.toml", "--frames", "out")
+        self.assertEqual(len(list((self.folder / "out").iterdir())), 7)
+
+    def test_quiet_is_silent(self):
+        run = self.check(0, "render", "scene.toml", "--frames", "out", "--quiet")
+        self.assertEqual(run.stdout + run.stderr, "")
+
+    def test_older_frames_are_noted(self):
+        self.check(0, "render", "scene.toml", "--frames", "out")
+        run = self.check(0, "render", "scene.toml", "--frames", "out", "--duration", "0.2")
+        self.assertIn("3 older frames are still in the folder, from out/frame_000003.png on", run.stderr)
+
+    def test_a_bar_on_a_terminal(self):
+        ours, its = pty.openpty()
+        run = subprocess.Popen([program.TUMBLE, "render", "scene.toml", "--frames", "out", "--duration", "3", "--fps", "60"],
+                               cwd=self.folder, stderr=its)
+        os.close(its)
+        said = b""
+        try:
+            while part := os.read(ours, 4096):
+                said += part
+        except OSError:   # what the end of a terminal looks like
+            pass
+        os.close(ours)
+        self.assertEqual(run.wait(timeout=60), 0)
+        self.assertRegex(said.decode(), r"\r\[#*\.*\] +\d+ %  \d+ of 181 frames, \d+\.\d frames/s")
+        self.assertIn("wrote out/frame_000000.png", said.decode())
+
+
+if __name__ == "__main__":
+    program.main()

@@ -1,0 +1,126 @@
+"""Help, versions, wrong usage, bad scenes; `info` and `doctor`."""
+
+import os
+import pathlib
+
+import program
+
+COMMANDS = ["render", "simulate", "encode", "compare", "info", "doctor"]
+
+
+class Help(program.ProgramTest):
+    def test_version(self):
+        self.assertRegex(self.check(0, "--version").stdout, r"^tumble \d+\.\d+\.\d+\n$")
+
+    def test_help_names_every_command(self):
+        text = self.check(0, "--help").stdout
+        for command in COMMANDS:
+            self.assertIn(command, text)
+        self.assertIn("Exit codes: 0 done", text)
+
+    def test_help_of_every_command(self):
+        for command in COMMANDS:
+            text = self.check(0, command, "--help").stdout
+            self.assertIn("Usage: tumble " + command, text)
+            if command != "doctor":
+                self.assertIn("Example", text)
+            for line in text.splitlines():
+                self.assertLessEqual(len(line), 120, line)
+
+    def test_help_teaches_the_options_of_the_contract(self):
+        options = {"render": ["-o", "--frames", "--size", "--fps", "--duration", "--samples", "--threads", "--gl", "--quiet"],
+                   "simulate": ["--trajectory", "--energy", "--step", "--steps-per-frame", "--integrator", "--impacts",
+                                "--duration", "--fps", "--threads"],
+                   "encode": ["-o", "--fps"], "compare": ["--diff", "--tolerance", "--fraction"]}
+        for command, names in options.items():
+            text = self.check(0, command, "--help").stdout
+            for name in names:
+                self.assertIn(name, text)
+
+
+class WrongUsage(program.ProgramTest):
+    def test_exit_code_2_and_nothing_written(self):
+        for arguments in ([], ["paint"], ["render"], ["render", "scene.toml", "--colour"], ["render", "scene.toml", "more"],
+                          ["render", "none.toml"], ["simulate", "."], ["render", "scene.toml", "--size", "48"],
+                          ["render", "scene.toml", "--size", "48x"], ["render", "scene.toml", "--size", "48x32x2"],
+                          ["render", "scene.toml", "--size=-48x32"], ["render", "scene.toml", "--size", "0x0"],
+                          ["render", "scene.toml", "--size", "1000000x1000000"],
+                          ["render", "scene.toml", "--fps", "0"], ["render", "scene.toml", "--fps", "nan"],
+                          ["render", "scene.toml", "--fps", "fast"], ["render", "scene.toml", "--duration=-1"],
+                          ["render", "scene.toml", "--duration", "inf"],
+                          ["render", "scene.toml", "--threads", "0"], ["render", "scene.toml", "--threads", "two"],
+                          ["render", "scene.toml", "--samples", "0"], ["render", "scene.toml", "--gl", "vulkan"],
+                          ["render", "scene.toml", "-o", "clip.avi"], ["render", "scene.toml", "-o", "clip"],
+                          ["render", "scene.toml", "-o", "clip.webm", "--fps", "1e6"],
+                          ["simulate", "scene.toml", "--step", "0.025", "--steps-per-frame", "4"],
+                          ["simulate", "scene.toml", "--step", "0.03"], ["simulate", "scene.toml", "--steps-per-frame", "0"],
+                          ["simulate", "scene.toml", "--integrator", "magic"],
+                          ["simulate", "scene.toml", "--impacts", "magic"], ["simulate", "scene.toml", "--fps", "1.1e6"],
+                          ["simulate", "scene.toml", "--trajectory", "t.csv", "--energy", "t.csv"],
+                          ["encode"], ["encode", "."], ["encode", ".", "-o", "clip.mp4"], ["encode", ".", "-o", "clip.txt"],
+                          ["compare"], ["compare", "a.png"], ["compare", "a.png", "b.png"], ["info"], ["info", "none.toml"]):
+            with self.subTest(arguments=arguments):
+                run = self.check(2, *arguments)
+                self.assertIn("error", run.stderr)
+                self.assertEqual(run.stdout, "")
+                self.assertEqual(self.names(), [])
+
+    def test_options_are_named(self):
+        for option, value in (("--fps", "0"), ("--duration", "-1"), ("--size", "48by32"), ("--samples", "-3"),
+                              ("--threads", "-1")):
+            self.assertIn(option, self.check(2, "render", "scene.toml", f"{option}={value}").stderr)
+
+    def test_an_error_in_the_scene_has_file_line_and_column(self):
+        for old, new, line in (("duration = 0.5", "duration = nan", 4), ("fps = 10", "fsp = 10", 8),
+                               ('type = "plane"', 'type = "plain"', 16), ("format = 1", "format = 9", 1),
+                               ("density = 600.0", "density = 0.0", 12), ("[0.0, 3.0, 0.0]", "[0.0, 3.0]", 21),
+                               ('title = "Two bodies"', "title = ", 2)):
+            with self.subTest(new=new):
+                self.write("bad.toml", program.SCENE.replace(old, new))
+                for command in (["render", "bad.toml", "-o", "a.mp4", "--frames", "f"],
+                                ["simulate", "bad.toml", "--trajectory", "t.csv"], ["info", "bad.toml"]):
+                    run = self.check(2, *command)
+                    self.assertTrue(program.located(run.stderr), run.stderr)
+                    self.assertTrue(run.stderr.startswith(f"bad.toml:{line}:"), run.stderr)
+                self.assertEqual(self.names(), ["bad.toml"])
+
+
+class Info(program.ProgramTest):
+    def test_tells_of_bodies_and_cost(self):
+        text = self.check(0, "info", "scene.toml").stdout
+        for part in ("Two bodies", "6 frames", "3 bodies", "1 dynamic box, 600 kg", "1 dynamic sphere", "1 fixed plane",
+                     "crate", "100 100 100", "48 x 32"):
+            self.assertIn(part, text)
+        self.assertEqual(self.names(), [])
+
+    def test_large_scenes_are_summarised(self):
+        bodies = "".join(f'[[body]]\nshape = {{ type = "sphere", radius = 0.1 }}\nposition = [{n}.0, 1.0, 0.0]\n'
+                         for n in range(300))
+        self.write("many.toml", "format = 1\n" + bodies)
+        text = self.check(0, "info", "many.toml").stdout
+        self.assertIn("300 dynamic sphere", text)
+        self.assertIn("more\n", text)
+        self.assertLess(len(text.splitlines()), 60)
+
+    def test_an_empty_scene(self):
+        self.write("empty.toml", "format = 1\n")
+        self.assertIn("0 bodies", self.check(0, "info", "empty.toml").stdout)
+
+
+class Doctor(program.ProgramTest):
+    def test_all_there(self):
+        text = self.check(0, "doctor").stdout
+        for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "Everything is there"):
+            self.assertIn(part, text)
+
+    def test_no_ffmpeg(self):
+        run = self.check(1, "doctor", env={**os.environ, "PATH": str(self.folder)})
+        self.assertIn("apt-get install ffmpeg", run.stdout)
+
+    def test_no_shaders(self):
+        run = self.check(1, "doctor", env={**os.environ, "TUMBLE_SHADERS": str(self.folder / "none")})
+        self.assertIn("MISSING", run.stdout)
+
+
+if __name__ == "__main__":
+    program.main()
