@@ -2,6 +2,8 @@
 #include "sim/collision/feature_contact.h"
 #include "sim/collision/separating_axis.h"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -10,21 +12,15 @@ void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std:
     for (const std::uint32_t v : shape.faces[face].vertices) out.push_back(pose.to_world(shape.vertices[v]));
 }
 
-}  // namespace
-
-void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
-                       CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const double reach = a.radius + b.radius + margin;
-    if ((pose_b.position - pose_a.position).squaredNorm() > reach * reach) return;
-    // In A's frame, which keeps the digits of scenes far from the origin.
-    const Pose b_in_a{pose_a.to_body(pose_b.position), pose_a.rotation.transpose() * pose_b.rotation};
-    const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, scratch);
+void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
+                  const SeparatingAxis& axis, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Pose identity;
     const bool overlapping = axis.separation < 0.0;
+    const double level = axis_preference(std::min(a.radius, b.radius));
     switch (axis.kind) {
         case SeparatingAxis::Kind::none: return;
         case SeparatingAxis::Kind::face_a: {
-            const std::uint32_t incident = b.face_towards(-(b_in_a.rotation.transpose() * axis.normal));
+            const std::uint32_t incident = b.face_at_support(-(b_in_a.rotation.transpose() * axis.normal), level);
             corners(a, axis.feature_a, identity, scratch.reference);
             corners(b, incident, b_in_a, scratch.incident);
             scratch.labels = b.faces[incident].vertices;
@@ -32,7 +28,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
             return;
         }
         case SeparatingAxis::Kind::face_b: {
-            const std::uint32_t incident = a.face_towards(axis.normal);
+            const std::uint32_t incident = a.face_at_support(axis.normal, level);
             corners(b, axis.feature_b, b_in_a, scratch.reference);
             corners(a, incident, identity, scratch.incident);
             scratch.labels = a.faces[incident].vertices;
@@ -47,6 +43,38 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
             return;
         }
     }
+}
+
+bool contains(const Polyhedron& shape, const Vec3& p, double slack) {
+    return std::all_of(shape.faces.begin(), shape.faces.end(),
+                       [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + slack; });
+}
+
+// Whether some contact point lies in both shapes: proof that they do overlap.
+bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
+    const double slack = axis_preference(std::min(a.radius, b.radius));
+    return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
+        return contains(a, pose_a.to_body(p.position), slack) && contains(b, pose_b.to_body(p.position), slack);
+    });
+}
+
+}  // namespace
+
+void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                       CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const double reach = a.radius + b.radius + margin;
+    if ((pose_b.position - pose_a.position).squaredNorm() > reach * reach) return;
+    // In A's frame, which keeps the digits of scenes far from the origin.
+    const Pose b_in_a{pose_a.to_body(pose_b.position), pose_a.rotation.transpose() * pose_b.rotation};
+    const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, EdgeSearch::nearby, scratch);
+    const std::size_t first = out.size();
+    add_manifold(a, pose_a, b, b_in_a, axis, margin, scratch, out);
+    const bool exact = a.is_box && b.is_box;   // their nine edge axes are all looked at
+    if (exact || axis.separation >= 0.0 || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
+    // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
+    out.resize(first);
+    add_manifold(a, pose_a, b, b_in_a, find_separating_axis(a, b, b_in_a, margin, EdgeSearch::all, scratch), margin,
+                 scratch, out);
 }
 
 }  // namespace tumble

@@ -186,7 +186,7 @@ void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, co
                               axis.separation, std::uint64_t(axis.edge), axis.feature, pose_b, out);
         } else {
             const bool on_body = axis.kind == TriangleAxis::Kind::face;
-            const std::uint32_t face = on_body ? axis.feature : b.face_towards(-n);
+            const std::uint32_t face = on_body ? axis.feature : b.face_at_support(-n, axis_preference(b.radius));
             std::vector<Vec3>& of_triangle = on_body ? scratch.incident : scratch.reference;
             std::vector<Vec3>& of_body = on_body ? scratch.reference : scratch.incident;
             of_triangle.assign(t, t + 3);

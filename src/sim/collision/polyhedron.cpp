@@ -55,14 +55,23 @@ std::uint32_t Polyhedron::support(const Vec3& direction) const {
     return best;
 }
 
-std::uint32_t Polyhedron::face_towards(const Vec3& direction) const {
+std::uint32_t Polyhedron::face_at_support(const Vec3& direction, double depth) const {
+    const std::uint32_t farthest = support(direction);
+    const double level = direction.dot(vertices[farthest]) - depth;
     std::uint32_t best = 0;
-    double most = direction.dot(faces[0].normal);
-    for (std::uint32_t i = 1; i < faces.size(); ++i) {
+    std::ptrdiff_t best_count = 0;
+    double most = 0.0;
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        const std::vector<std::uint32_t>& loop = faces[i].vertices;
+        if (std::find(loop.begin(), loop.end(), farthest) == loop.end()) continue;
+        const auto count = std::count_if(loop.begin(), loop.end(), [&](std::uint32_t v) {
+            return direction.dot(vertices[v]) >= level;
+        });
         const double d = direction.dot(faces[i].normal);
-        if (d > most) {
-            most = d;
+        if (count > best_count || (count == best_count && d > most)) {
             best = i;
+            best_count = count;
+            most = d;
         }
     }
     return best;

@@ -31,8 +31,10 @@ struct Polyhedron {
 
     /// The vertex farthest along a direction (body frame); the lowest index on ties.
     std::uint32_t support(const Vec3& direction) const;
-    /// The face that looks most along a direction.
-    std::uint32_t face_towards(const Vec3& direction) const;
+    /// The face that meets a plane across a direction (unit): of those at the farthest vertex, the one with most vertices
+    /// no farther than `depth` (m) behind it, then the one that looks most that way. The face that looks most along a
+    /// direction without regard to the vertex need not touch the plane at all.
+    std::uint32_t face_at_support(const Vec3& direction, double depth) const;
     double surface_area() const;
 
     /// Derives planes, edges, bounds and radius from vertices and face loops.

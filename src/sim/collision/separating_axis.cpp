@@ -39,8 +39,7 @@ Bounds turned(const Bounds& b, const Pose& pose) {
 
 Pose inverse(const Pose& p) { return {-(p.rotation.transpose() * p.position), p.rotation.transpose()}; }
 
-// Edges of a shape that reach into a region. The two edges of an edge contact meet inside both shapes' bounds (each
-// one's nearest point lies in, or within the separation of, the other body), so no other edge needs a look.
+// Edges of a shape that reach into a region.
 void edges_in(const Polyhedron& shape, const Bounds& region, std::vector<std::uint32_t>& edges) {
     edges.clear();
     for (std::uint32_t e = 0; e < shape.edges.size(); ++e) {
@@ -59,9 +58,13 @@ bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0;
 }
 
-void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
+// The edges of a contact have points a and b = a + s n with s the separation: a lies within |s| of B, b of A. The best
+// face bounds s from below, the margin from above; edges farther than both from the other shape's bounds are left out.
+void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, EdgeSearch search,
                   CollisionScratch& scratch, double& best, SeparatingAxis& axis) {
-    const Bounds in_a = turned(b.bounds, b_in_a).grown(margin), in_b = turned(a.bounds, inverse(b_in_a)).grown(margin);
+    const double way = search == EdgeSearch::all ? std::numeric_limits<double>::infinity()
+                                                 : std::max(margin, -axis.separation);
+    const Bounds in_a = turned(b.bounds, b_in_a).grown(way), in_b = turned(a.bounds, inverse(b_in_a)).grown(way);
     edges_in(a, in_a, scratch.edges_a);
     edges_in(b, in_b, scratch.edges_b);
     for (const std::uint32_t ib : scratch.edges_b) {
@@ -140,7 +143,7 @@ void search_box_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in
 double axis_preference(double smaller_radius) { return 1e-3 * smaller_radius; }
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    CollisionScratch& scratch) {
+                                    EdgeSearch search, CollisionScratch& scratch) {
     const FaceAxis face_a = best_face(a, b, b_in_a, margin);
     if (face_a.separation > margin) return {};
     const FaceAxis face_b = best_face(b, a, inverse(b_in_a), margin);
@@ -156,7 +159,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     }
     double best = axis.separation + preference;
     if (a.is_box && b.is_box) search_box_edges(a, b, b_in_a, margin, best, axis);
-    else search_edges(a, b, b_in_a, margin, scratch, best, axis);
+    else search_edges(a, b, b_in_a, margin, search, scratch, best, axis);
     if (axis.separation > margin) return {};
     return axis;
 }

@@ -16,10 +16,14 @@ struct SeparatingAxis {
     Vec3 normal = Vec3::Zero();      // away from A, in A's frame
 };
 
-/// `b_in_a` is B's pose in A's frame. Exact for all vertex counts: edges are left out of the search only where they
-/// cannot take part in a contact.
+/// Which edges are looked at. nearby: those that can be the edges of a contact, and so all that matter when the shapes
+/// overlap or are nearer than the margin; shapes farther apart than it may pass for overlapping. all: no such mistake, in
+/// the time of all pairs of edges.
+enum class EdgeSearch { nearby, all };
+
+/// `b_in_a` is B's pose in A's frame.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    CollisionScratch& scratch);
+                                    EdgeSearch search, CollisionScratch& scratch);
 
 /// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's: for shapes of this
 /// size the choice then stays the same from step to step.
