@@ -49,7 +49,8 @@ void add_mesh(const aiMesh& mesh, const Transform& transform, bool with_normals,
     const auto first = static_cast<std::uint32_t>(result.positions.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& v = mesh.mVertices[i];
-        result.add_position(transform.linear * Vec3(as_written(v.x), as_written(v.y), as_written(v.z)) + transform.offset);
+        result.add_position(transform.linear * Vec3(as_written(v.x), as_written(v.y), as_written(v.z)) +
+                            transform.offset);
     }
     const bool mirrored = transform.linear.determinant() < 0.0;
     const Mat3 turn = (mirrored ? -1.0 : 1.0) * normal_transform(transform.linear);

@@ -29,7 +29,8 @@ public:
         const std::string name = value.text();
         if (const auto found = index_.find(name); found != index_.end()) return found->second;
         if (index_.count(name + ".0")) {
-            value.origin().fail(fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", name));
+            value.origin().fail(
+                fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", name));
         }
         std::vector<std::string_view> known;
         for (const auto& [other, i] : index_) known.push_back(other);

@@ -60,7 +60,8 @@ public:
             }
             if (are_copies) bodies[i].name = fmt::format("{}.{}", bodies[i].name, i);
             if (!taken_.insert(bodies[i].name).second) {
-                given->origin().fail(fmt::format("must be unique, and another body is called so (given \"{}\")", bodies[i].name));
+                given->origin().fail(
+                    fmt::format("must be unique, and another body is called so (given \"{}\")", bodies[i].name));
             }
         }
     }
@@ -83,7 +84,8 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
         table.set_title("[[body]]");
         table.expect_keys({"name", "type", "shape", "material", "color", "roughness", "metallic", "pattern", "visible",
                            "density", "mass", "restitution", "friction", "position", "rotation", "velocity",
-                           "angular_velocity", "keyframes", "interpolation", "integrator", "grid", "scatter", "scale", "colors"});
+                           "angular_velocity", "keyframes", "interpolation", "integrator", "grid", "scatter", "scale",
+                           "colors"});
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, body_types);
         const ShapeRequest shape = read_shape(table.require("shape"), type, folder, meshes);
@@ -92,8 +94,9 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
 
         const std::int64_t total = static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1);
         if (total > limits::bodies) {
-            (copies ? copies->origin : table.origin()).fail(
-                fmt::format("makes too many bodies: the limit of a scene is {} (given {} so far)", limits::bodies, total));
+            (copies ? copies->origin : table.origin())
+                .fail(fmt::format("makes too many bodies: the limit of a scene is {} (given {} so far)", limits::bodies,
+                                  total));
         }
         std::vector<BodyDescription> made{model};
         if (copies) made = make_copies(*copies, model, shape, meshes, seed, number);

@@ -63,7 +63,8 @@ void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest&
     if (request.min_scale > request.max_scale) value->fail("must have the smaller factor first");
     const Vec3 extent = local_bounds(shape.shape).extent();
     if (!limits::size.contains(request.max_scale * extent.maxCoeff()) ||
-        (!std::holds_alternative<MeshShape>(shape.shape) && !limits::size.contains(request.min_scale * extent.minCoeff()))) {
+        (!std::holds_alternative<MeshShape>(shape.shape) &&
+         !limits::size.contains(request.min_scale * extent.minCoeff()))) {
         value->fail(fmt::format("makes copies of unusable size (a length {})", limits::size.requirement()));
     }
 }
@@ -108,13 +109,14 @@ void place_scattered(const ScatterRequest& scatter, const Origin& origin, Random
         sphere.center = copy.rotation * sphere.center;
         spheres.push_back(sphere);
     }
-    const ScatterPlaces places = scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, place);
+    const ScatterPlaces places =
+        scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, place);
     if (places.offsets.size() < copies.size()) {
-        origin.fail(fmt::format("is too crowded: only {} of {} copies found a place without touching another (given a box "
-                                "of {} x {} x {} m, clearance {} m); make the box larger or the count smaller",
-                                places.offsets.size(), copies.size(), number_text(scatter.size.x()),
-                                number_text(scatter.size.y()), number_text(scatter.size.z()),
-                                number_text(scatter.clearance)));
+        origin.fail(
+            fmt::format("is too crowded: only {} of {} copies found a place without touching another (given a box "
+                        "of {} x {} x {} m, clearance {} m); make the box larger or the count smaller",
+                        places.offsets.size(), copies.size(), number_text(scatter.size.x()),
+                        number_text(scatter.size.y()), number_text(scatter.size.z()), number_text(scatter.clearance)));
     }
     for (std::size_t i = 0; i < copies.size(); ++i) copies[i].position += places.offsets[i];
 }
@@ -131,7 +133,8 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     }
     if (grid && scatter) scatter->origin().fail("and grid exclude each other: give one of them");
     const TomlValue& arrangement = grid ? *grid : *scatter;
-    if (type == BodyType::kinematic) arrangement.origin().fail("is for dynamic and fixed bodies (given a kinematic one)");
+    if (type == BodyType::kinematic)
+        arrangement.origin().fail("is for dynamic and fixed bodies (given a kinematic one)");
     if (std::holds_alternative<PlaneShape>(shape.shape)) {
         arrangement.origin().fail("is for bodies of a size (given a plane, which is endless)");
     }

@@ -19,7 +19,7 @@ inline constexpr std::int64_t polygon_corners = 2000;     // cutting one takes t
 // -- Time
 inline constexpr Range duration{0.0, 1e9, "s"};           // thirty years
 inline constexpr Range fps{1e-9, 1e6, "frames per second"};   // 1e6: the contract's; below: 1/fps stays a time
-inline constexpr std::int64_t frames = 10'000'000;        // two days of film at 60 fps; frame numbers have 6 to 7 digits
+inline constexpr std::int64_t frames = 10'000'000;        // two days of film at 60 fps, 7 digits of frame number
 inline constexpr std::int64_t steps_per_frame = 1'000'000;
 inline constexpr Range step{0.0, 1e9, "s", true};
 inline constexpr double step_tolerance = 1e-9;            // s: how closely a step must divide a frame (the contract)

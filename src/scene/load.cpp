@@ -21,7 +21,8 @@ void check_format(const TomlTable& root) {
     constexpr std::int64_t readable = 1;
     const auto format = root.find("format");
     if (!format) throw InputError(root.origin().where, "a scene starts with \"format = 1\" (not given)");
-    const std::int64_t number = format->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
+    const std::int64_t number =
+        format->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
     if (number != readable) format->fail(fmt::format("must be {}, the only one there is", readable));
 }
 
@@ -46,11 +47,13 @@ std::string read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file, const SceneOverrides& overrides) {
+SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
+                             const SceneOverrides& overrides) {
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body", "force", "cord"});
+    root.expect_keys(
+        {"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body", "force", "cord"});
 
     SceneDescription scene;
     scene.file = file.string();

@@ -23,7 +23,8 @@ std::string lower_extension(const std::filesystem::path& file) {
 }
 
 void check_file(const std::filesystem::path& file, const std::string& extension) {
-    if (extension != ".obj" && extension != ".stl" && extension != ".ply" && extension != ".gltf" && extension != ".glb") {
+    if (extension != ".obj" && extension != ".stl" && extension != ".ply" && extension != ".gltf" &&
+        extension != ".glb") {
         throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf and .glb can be read");
     }
     std::error_code error;

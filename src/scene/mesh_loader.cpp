@@ -72,7 +72,8 @@ void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
             const Vec3& n = own.dot(face) > 0.0 ? own : made[t][i];
             const std::uint32_t v = mesh.triangles[t][i];
             const std::array<float, 3> normal{float(n.x()), float(n.y()), float(n.z())};
-            const auto [entry, is_new] = drawn.try_emplace({v, normal}, static_cast<std::uint32_t>(asset.vertices.size()));
+            const auto [entry, is_new] =
+                drawn.try_emplace({v, normal}, static_cast<std::uint32_t>(asset.vertices.size()));
             asset.indices.push_back(entry->second);
             if (!is_new) continue;
             const Vec3& p = mesh.vertices[v];

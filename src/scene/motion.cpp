@@ -28,7 +28,8 @@ Quat rotation_about_axis(const TomlTable& table) {
 Quat rotation_from_numbers(const TomlValue& value) {
     constexpr Range component{-1e6, 1e6, ""};   // far from a unit quaternion, and its square is still a number
     const auto item = value.items(4, "numbers w, x, y, z (or a table with axis and angle)");
-    const Quat q(item[0].number(component), item[1].number(component), item[2].number(component), item[3].number(component));
+    const Quat q(item[0].number(component), item[1].number(component), item[2].number(component),
+                 item[3].number(component));
     const double norm = q.norm();
     if (std::fabs(norm - 1.0) > limits::quaternion_tolerance) {
         value.origin().fail(fmt::format("must be a quaternion of length 1 (given one of length {:.6g})", norm));

@@ -70,7 +70,8 @@ Header read_header(std::istream& stream) {
             header.encoding = named<Encoding>(word, encodings, "format");
         } else if (word == "element") {
             Element element;
-            if (!(words >> element.name >> element.count)) throw MeshError("has a header with an element without a count");
+            if (!(words >> element.name >> element.count))
+                throw MeshError("has a header with an element without a count");
             header.elements.push_back(element);
         } else if (word == "property") {
             Property property{};
@@ -81,7 +82,8 @@ Header read_header(std::istream& stream) {
                 words >> word;
             }
             property.type = named<Type>(word, types, "type");
-            if (!(words >> property.name) || header.elements.empty()) throw MeshError("has a header with a misplaced property");
+            if (!(words >> property.name) || header.elements.empty())
+                throw MeshError("has a header with a misplaced property");
             header.elements.back().properties.push_back(property);
         }
     }
@@ -100,11 +102,13 @@ public:
 private:
     double next_word() {
         while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
+        if (at_ < data_.size() && data_[at_] == '+') ++at_;   // from_chars takes no plus
         if (at_ == data_.size()) throw MeshError("ends early");
         const char* first = data_.data() + at_;
         double value = 0.0;
         const auto [end, error] = std::from_chars(first, data_.data() + data_.size(), value);
-        if (error != std::errc()) throw MeshError(fmt::format("holds something that is not a number, at byte {} after its header", at_));
+        if (error != std::errc())
+            throw MeshError(fmt::format("holds something that is not a number, at byte {} after its header", at_));
         at_ += static_cast<std::size_t>(end - first);
         return value;
     }
@@ -149,14 +153,16 @@ std::size_t whole(double value, double limit, const char* what) {
 }
 
 /// Reads one row of an element: single numbers to `scalars`, the numbers of its lists to `lists`, by property.
-void read_row(Body& body, const Element& element, std::vector<double>& scalars, std::vector<std::vector<double>>& lists) {
+void read_row(Body& body, const Element& element, std::vector<double>& scalars,
+              std::vector<std::vector<double>>& lists) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const Property& property = element.properties[i];
         if (!property.list_count) {
             scalars[i] = body.next(property.type);
             continue;
         }
-        lists[i].resize(whole(body.next(*property.list_count), double(body.bytes_left()) + 1.0, "a list with a length"));
+        lists[i].resize(
+            whole(body.next(*property.list_count), double(body.bytes_left()) + 1.0, "a list with a length"));
         for (double& value : lists[i]) value = body.next(property.type);
     }
 }
@@ -208,12 +214,14 @@ MeshFile read_ply(const std::filesystem::path& file) {
             if (is_vertex) {
                 const auto& [x, y, z] = *position;
                 mesh.add_position({scalar[x], scalar[y], scalar[z]});
-                if (normal) normals.push_back(unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
+                if (normal)
+                    normals.push_back(unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
             } else if (is_face) {
                 polygon.clear();
                 for (const double index : list[*corners]) {
                     const std::size_t v = whole(index, double(mesh.positions.size()), "a face with a vertex");
-                    polygon.push_back({static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]});
+                    polygon.push_back(
+                        {static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]});
                 }
                 mesh.add_polygon(polygon);
             }

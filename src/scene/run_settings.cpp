@@ -46,7 +46,8 @@ void override_number(const std::optional<double>& given, const char* option, std
 }
 
 void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
-    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "rotation", "sleep", "seed"});
+    table.expect_keys(
+        {"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "rotation", "sleep", "seed"});
     read_time(table, "duration", time.duration, limits::duration);
     read_time(table, "step", time.step, limits::step);
     if (const auto value = table.find("steps_per_frame")) {
@@ -139,7 +140,8 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
     const double frames = std::floor(duration * fps) + 1.0;
     if (frames <= static_cast<double>(limits::frames)) return;
     // The defaults alone never get here, so one of the two was given; an option outranks the file.
-    const bool blame_fps = !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
+    const bool blame_fps =
+        !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
     (blame_fps ? time.fps : time.duration)->origin.fail(
         fmt::format("makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
                     number_text(duration), number_text(fps), frames, limits::frames,

@@ -30,12 +30,16 @@ PlaneShape read_plane(const TomlTable& table) {
 void require_solid(const LoadedMesh& mesh, const TomlValue& file) {
     const Closedness& c = mesh.closedness;
     if (c.open_edges > 0) {
-        file.fail(fmt::format("is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
-                              "has no mass; close it, or use it with type = \"fixed\"", c.open_edges));
+        file.fail(
+            fmt::format("is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
+                        "has no mass; close it, or use it with type = \"fixed\"",
+                        c.open_edges));
     }
     if (c.crowded_edges > 0) {
-        file.fail(fmt::format("is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
-                              "on which side is out; repair it, or use it with type = \"fixed\"", c.crowded_edges));
+        file.fail(
+            fmt::format("is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
+                        "on which side is out; repair it, or use it with type = \"fixed\"",
+                        c.crowded_edges));
     }
     const double extent = mesh.asset->surface.bounds().extent().norm();
     constexpr double rounding = 1e-12;   // of the bounds' diagonal cubed; a closed sheet has less, a hair has more
@@ -47,9 +51,10 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
     const double extent = bounds.extent().maxCoeff();
     const double reach = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
     if (!limits::size.contains(extent) || !limits::coordinate.contains(reach)) {
-        origin.origin().fail(fmt::format("makes a mesh of unusable size: it reaches {} m from its origin and is {} m long "
-                                         "(its length {})", number_text(reach), number_text(extent),
-                                         limits::size.requirement()));
+        origin.origin().fail(
+            fmt::format("makes a mesh of unusable size: it reaches {} m from its origin and is {} m long "
+                        "(its length {})",
+                        number_text(reach), number_text(extent), limits::size.requirement()));
     }
 }
 

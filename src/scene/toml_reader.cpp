@@ -112,7 +112,8 @@ std::vector<TomlValue> TomlValue::items() const {
 }
 
 std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind) const {
-    if (!node_->is_array() || node_->as_array()->size() != count) fail(fmt::format("must be an array of {} {}", count, kind));
+    if (!node_->is_array() || node_->as_array()->size() != count)
+        fail(fmt::format("must be an array of {} {}", count, kind));
     return items();
 }
 

@@ -49,8 +49,9 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
         // The default camera never does this, so one of the three was given.
         const auto up = table->find("up");
         const TomlValue& given = up ? *up : eye ? *eye : *target;
-        given.origin().fail("does not fit: the camera looks along its up direction, so there is no telling which way is up; "
-                    "choose another up");
+        given.origin().fail(
+            "does not fit: the camera looks along its up direction, so there is no telling which way is up; "
+            "choose another up");
     }
     return camera;
 }

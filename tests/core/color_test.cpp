@@ -40,7 +40,8 @@ TEST(Color, TextIsReadInEitherCaseAndWrittenInLower) {
 }
 
 TEST(Color, OtherTextIsNone) {
-    for (const char* text : {"", "#", "c8853c", "#c8853", "#c8853c0", "#c8853g", "#-18000", "# 18000", "#+18000", "red"}) {
+    for (const char* text :
+         {"", "#", "c8853c", "#c8853", "#c8853c0", "#c8853g", "#-18000", "# 18000", "#+18000", "red"}) {
         EXPECT_FALSE(parse_color(text)) << text;
     }
 }

@@ -25,13 +25,16 @@ const std::map<std::string, Street> streets = {
     {"core", {{"core/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"scene", {{"core/", "scene/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/"}}},
-    {"render", {{"core/", "scene/description.h", "sim/snapshot.h", "render/"}, {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
+    {"render",
+     {{"core/", "scene/description.h", "sim/snapshot.h", "render/"},
+      {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
     {"app", {{"core/", "scene/", "sim/", "render/", "output/", "app/"}, {}}},
 };
 
 bool starts_with_any(const std::string& text, const std::vector<std::string>& beginnings) {
-    return std::any_of(beginnings.begin(), beginnings.end(), [&](const std::string& b) { return text.rfind(b, 0) == 0; });
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&](const std::string& b) { return text.rfind(b, 0) == 0; });
 }
 
 /// The includes of a text that its folder does not know.
@@ -75,7 +78,8 @@ TEST(Street, NoIncludeGoesUpTheStreet) {
 }
 
 TEST(Street, TheTestItselfSeesAWrongInclude) {
-    std::istringstream upwards("#include \"sim/world.h\"\n#include <vector>\n  # include \"core/color.h\"\n#include <GL/gl.h>\n");
+    std::istringstream upwards(
+        "#include \"sim/world.h\"\n#include <vector>\n  # include \"core/color.h\"\n#include <GL/gl.h>\n");
     EXPECT_EQ(wrong_includes("scene", upwards), (std::vector<std::string>{"sim/world.h", "GL/gl.h"}));
     std::istringstream bridge("#include \"sim/snapshot.h\"\n#include \"sim/world.h\"\n");
     EXPECT_EQ(wrong_includes("render", bridge), (std::vector<std::string>{"sim/world.h"}));

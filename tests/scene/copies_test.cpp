@@ -15,8 +15,10 @@ namespace {
 
 std::vector<BodyDescription> bodies(const std::string& lines, int seed = 1,
                                     const std::string& shape = "{ type = \"box\", size = [1, 2, 3] }") {
-    return parse_scene("format = 1\n[simulation]\nseed = " + std::to_string(seed) + "\n[[body]]\nshape = " + shape + "\n" + lines,
-                       "scene.toml").bodies;
+    return parse_scene("format = 1\n[simulation]\nseed = " + std::to_string(seed) + "\n[[body]]\nshape = " + shape +
+                           "\n" + lines,
+                       "scene.toml")
+        .bodies;
 }
 
 std::vector<double> numbers(const std::vector<BodyDescription>& list) {
@@ -30,7 +32,8 @@ std::vector<double> numbers(const std::vector<BodyDescription>& list) {
 }
 
 TEST(Grid, IsCentredAndGrowsUpwards) {
-    const auto list = bodies("position = [10, 20, 30]\ngrid = { count = [3, 2, 2], spacing = [2, 5, 4] }\nname = \"crate\"");
+    const auto list =
+        bodies("position = [10, 20, 30]\ngrid = { count = [3, 2, 2], spacing = [2, 5, 4] }\nname = \"crate\"");
     ASSERT_EQ(list.size(), 12u);
     EXPECT_EQ(list[0].position, Vec3(8, 20, 28));
     EXPECT_EQ(list[1].position, Vec3(10, 20, 28));   // x runs fastest
@@ -43,8 +46,10 @@ TEST(Grid, IsCentredAndGrowsUpwards) {
 }
 
 TEST(Grid, CopiesWithoutANameHaveTheirIndex) {
-    const auto scene = parse_scene("format = 1\n[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\" }\n[[body]]\n"
-                                   "shape = { type = \"sphere\", radius = 1 }\ngrid = { count = [2, 1, 1], spacing = 3 }", "a.toml");
+    const auto scene = parse_scene(
+        "format = 1\n[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\" }\n[[body]]\n"
+        "shape = { type = \"sphere\", radius = 1 }\ngrid = { count = [2, 1, 1], spacing = 3 }",
+        "a.toml");
     ASSERT_EQ(scene.bodies.size(), 3u);
     EXPECT_EQ(scene.bodies[1].name, "1");
     EXPECT_EQ(scene.bodies[2].name, "2");
@@ -87,8 +92,13 @@ TEST(Grid, APaletteChangesNothingButColours) {
 }
 
 TEST(Grid, TwoTablesOfOneSceneDiffer) {
-    const auto list = parse_scene("format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\ngrid = { count = [1, 1, 1], spacing = 1, jitter = 1 }\n"
-                                  "[[body]]\nshape = { type = \"sphere\", radius = 1 }\ngrid = { count = [1, 1, 1], spacing = 1, jitter = 1 }", "a.toml").bodies;
+    const auto list = parse_scene(
+                          "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\ngrid = { count = [1, 1, "
+                          "1], spacing = 1, jitter = 1 }\n"
+                          "[[body]]\nshape = { type = \"sphere\", radius = 1 }\ngrid = { count = [1, 1, 1], spacing = "
+                          "1, jitter = 1 }",
+                          "a.toml")
+                          .bodies;
     EXPECT_NE(list[0].position, list[1].position);
 }
 
@@ -122,9 +132,12 @@ TEST(Copies, MeshesOfOneSizeAreShared) {
 }
 
 TEST(Scatter, StaysInItsBoxAndApart) {
-    for (const std::string shape : {"{ type = \"box\", size = [0.3, 0.2, 0.5] }", "{ type = \"sphere\", radius = 0.3 }",
-                                    "{ type = \"mesh\", file = \"" TUMBLE_SOURCE_DIR "/assets/meshes/egg.gltf\", scale = 0.5 }"}) {
-        const auto list = bodies("position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3, shape);
+    for (const std::string shape :
+         {"{ type = \"box\", size = [0.3, 0.2, 0.5] }", "{ type = \"sphere\", radius = 0.3 }",
+          "{ type = \"mesh\", file = \"" TUMBLE_SOURCE_DIR "/assets/meshes/egg.gltf\", scale = 0.5 }"}) {
+        const auto list = bodies(
+            "position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3,
+            shape);
         ASSERT_EQ(list.size(), 300u);
         double nearest = 1e9;
         for (std::size_t i = 0; i < list.size(); ++i) {
@@ -135,7 +148,8 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             const BoundingSphere a = bounding_sphere(list[i].shape);
             for (std::size_t j = 0; j < i; ++j) {
                 const BoundingSphere b = bounding_sphere(list[j].shape);
-                const Vec3 between = list[i].position + list[i].rotation * a.center - list[j].position - list[j].rotation * b.center;
+                const Vec3 between =
+                    list[i].position + list[i].rotation * a.center - list[j].position - list[j].rotation * b.center;
                 nearest = std::min(nearest, between.norm() - a.radius - b.radius);
             }
         }
@@ -149,7 +163,8 @@ TEST(Scatter, TurnsItsCopiesUnlessAskedNotTo) {
     Vec3 mean = Vec3::Zero();
     for (const BodyDescription& b : turned) mean += b.rotation * Vec3(0, 1, 0) / 200.0;
     EXPECT_LT(mean.norm(), 0.2);
-    for (const BodyDescription& b : bodies("scatter = { count = 20, size = [90, 90, 90], rotation = \"none\" }\nrotation = [0, 1, 0, 0]")) {
+    for (const BodyDescription& b :
+         bodies("scatter = { count = 20, size = [90, 90, 90], rotation = \"none\" }\nrotation = [0, 1, 0, 0]")) {
         EXPECT_EQ(b.rotation.coeffs(), Quat(0, 1, 0, 0).coeffs());
     }
 }

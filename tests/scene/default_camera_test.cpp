@@ -41,7 +41,8 @@ double used(const SceneDescription& scene, const CameraDescription& camera) {
         if (std::holds_alternative<PlaneShape>(body.shape)) continue;
         const Bounds b = local_bounds(body.shape);
         for (int i = 0; i < 8; ++i) {
-            const Vec3 corner(i & 1 ? b.max.x() : b.min.x(), i & 2 ? b.max.y() : b.min.y(), i & 4 ? b.max.z() : b.min.z());
+            const Vec3 corner(i & 1 ? b.max.x() : b.min.x(), i & 2 ? b.max.y() : b.min.y(),
+                              i & 4 ? b.max.z() : b.min.z());
             const Vec3 at = in_picture(scene, camera, body.position + body.rotation * corner);
             EXPECT_GT(at.z(), 0.0);
             most = std::max({most, std::fabs(at.x()), std::fabs(at.y())});

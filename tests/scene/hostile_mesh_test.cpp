@@ -73,23 +73,33 @@ TEST_F(HostileMesh, Ply) {
     expect_error("a.ply", start + points + faces + "0 0 0\n1 0 zero\n0 0 0\n3 0 1 2\n", "not a number");
     expect_error("a.ply", start + "element vertex 3\nproperty half x\nend_header\n", "unknown type");
     expect_error("a.ply", start + "element vertex 3\nproperty float x\nend_header\n", "without x, y and z");
-    expect_error("a.ply", start + points + "element face 1\nproperty int x\nend_header\n0 0 0\n1 0 0\n0 1 0\n", "without vertex_indices");
+    expect_error("a.ply", start + points + "element face 1\nproperty int x\nend_header\n0 0 0\n1 0 0\n0 1 0\n",
+                 "without vertex_indices");
     expect_error("a.ply", start + "property float x\nend_header\n", "misplaced");
     expect_error("a.ply", "ply\nformat base64 1.0\nend_header\n", "unknown format");
-    expect_error("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nproperty float x\n"
-                          "property float y\nproperty float z\nend_header\n1234", "ends early");
-    expect_error("a.ply", start + "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "no triangles");
+    expect_error("a.ply",
+                 "ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\nproperty float x\n"
+                 "property float y\nproperty float z\nend_header\n1234",
+                 "ends early");
+    expect_error("a.ply",
+                 start + "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+                 "no triangles");
     expect_error("a.ply", start + "element nothing 18446744073709551615\nend_header\n", "no triangles");   // at once
 }
 
 TEST_F(HostileMesh, StlAndGltf) {
     expect_error("a.stl", "solid x\nendsolid x\n", "");
     expect_error("a.stl", std::string(84, '\xff'), "");
-    expect_error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex a b c\n" + std::string(5000, 'y'), "cannot be read");
+    expect_error("a.stl",
+                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex a b c\n" + std::string(5000, 'y'),
+                 "cannot be read");
     expect_error("a.gltf", "{", "cannot be read");
     expect_error("a.gltf", "{\"asset\":{\"version\":\"2.0\"}}", "");
     expect_error("a.glb", "glTF", "cannot be read");
-    expect_error("a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[0]}]}", "");
+    expect_error(
+        "a.gltf",
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[0]}]}",
+        "");
 }
 
 TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {

@@ -19,8 +19,10 @@ void expect_drawable(const MeshAsset& mesh) {
         ASSERT_LT(mesh.indices[i], mesh.vertices.size());
         const auto& t = mesh.surface.triangles[i / 3];
         const MeshAsset::Vertex& drawn = mesh.vertices[mesh.indices[i]];
-        const Vec3 p(drawn.position[0], drawn.position[1], drawn.position[2]), n(drawn.normal[0], drawn.normal[1], drawn.normal[2]);
-        EXPECT_TRUE(p.isApprox(mesh.surface.vertices[t[i % 3]], 1e-6) || (p - mesh.surface.vertices[t[i % 3]]).norm() < 1e-6);
+        const Vec3 p(drawn.position[0], drawn.position[1], drawn.position[2]),
+            n(drawn.normal[0], drawn.normal[1], drawn.normal[2]);
+        EXPECT_TRUE(p.isApprox(mesh.surface.vertices[t[i % 3]], 1e-6) ||
+                    (p - mesh.surface.vertices[t[i % 3]]).norm() < 1e-6);
         EXPECT_NEAR(n.norm(), 1.0, 1e-6);
         const Vec3 &a = mesh.surface.vertices[t[0]], &b = mesh.surface.vertices[t[1]], &c = mesh.surface.vertices[t[2]];
         EXPECT_GT((b - a).cross(c - a).dot(n), 0.0);
@@ -104,7 +106,8 @@ TEST_F(MeshLoader, AGemKeepsItsFlatFacets) {
     const auto gem = load_mesh(asset("gem.obj"));
     const TriangleMesh& s = gem.asset->surface;
     for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-        const Vec3 &a = s.vertices[s.triangles[t][0]], &b = s.vertices[s.triangles[t][1]], &c = s.vertices[s.triangles[t][2]];
+        const Vec3 &a = s.vertices[s.triangles[t][0]], &b = s.vertices[s.triangles[t][1]],
+                   &c = s.vertices[s.triangles[t][2]];
         const Vec3 face = (b - a).cross(c - a).normalized();
         for (int i = 0; i < 3; ++i) {
             const float* n = gem.asset->vertices[gem.asset->indices[3 * t + i]].normal;
@@ -134,7 +137,8 @@ TEST_F(MeshLoader, StlFacetsOfARoundTubeAreSmoothed) {
 }
 
 TEST_F(MeshLoader, AnInsideOutMeshIsTurned) {
-    const auto mesh = load_mesh(write("a.obj", cube_points() + "f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"));
+    const auto mesh =
+        load_mesh(write("a.obj", cube_points() + "f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"));
     EXPECT_TRUE(mesh.closedness.closed());
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
     EXPECT_DOUBLE_EQ(closedness(mesh.asset->surface).signed_volume, 8.0);
@@ -142,13 +146,15 @@ TEST_F(MeshLoader, AnInsideOutMeshIsTurned) {
 }
 
 TEST_F(MeshLoader, AnOpenMeshSaysHowManyEdgesAreOpen) {
-    const auto mesh = load_mesh(write("a.obj", cube_points() + "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+    const auto mesh =
+        load_mesh(write("a.obj", cube_points() + "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
     EXPECT_EQ(mesh.closedness.open_edges, 4u);
     EXPECT_FALSE(mesh.closedness.closed());
 }
 
 TEST_F(MeshLoader, PointsThatNoFaceUsesAndFacesWithoutAreaAreLeftOut) {
-    const auto mesh = load_mesh(write("a.obj", "v 99 99 99\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0 0\nf 2 3 4\nf 2 5 3\nf 2 2 3\n"));
+    const auto mesh =
+        load_mesh(write("a.obj", "v 99 99 99\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0 0\nf 2 3 4\nf 2 5 3\nf 2 2 3\n"));
     EXPECT_EQ(mesh.asset->surface.triangles.size(), 1u);
     EXPECT_EQ(mesh.asset->surface.vertices.size(), 3u);
     EXPECT_EQ(mesh.asset->surface.bounds().max, Vec3(1, 1, 0));
@@ -191,9 +197,11 @@ TEST_F(MeshLoader, NodesOfAGltfMoveTurnAndMirrorTheirMeshes) {
 }
 
 TEST_F(MeshLoader, PlyInItsThreeEncodingsIsTheSame) {
-    const std::string header = " 1.0\ncomment x\nelement vertex 4\nproperty double x\nproperty float y\nproperty short z\n"
-                               "property uchar red\nelement face 4\nproperty list uchar int vertex_index\nend_header\n";
-    const std::string text = "ply\nformat ascii" + header + "0 0 0 9\n1 0 0 9\n0 0.1 0 9\n0 0 1 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    const std::string header =
+        " 1.0\ncomment x\nelement vertex 4\nproperty double x\nproperty float y\nproperty short z\n"
+        "property uchar red\nelement face 4\nproperty list uchar int vertex_index\nend_header\n";
+    const std::string text =
+        "ply\nformat ascii" + header + "0 0 0 9\n1 0 0 9\n0 0.1 0 9\n0 0 1 9\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
     const auto binary = [&](bool big) {
         std::string data;
         const auto put = [&](auto value) {
@@ -211,7 +219,8 @@ TEST_F(MeshLoader, PlyInItsThreeEncodingsIsTheSame) {
         }
         return std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian" + header + data;
     };
-    const auto a = load_mesh(write("a.ply", text)), b = load_mesh(write("b.ply", binary(false))), c = load_mesh(write("c.ply", binary(true)));
+    const auto a = load_mesh(write("a.ply", text)), b = load_mesh(write("b.ply", binary(false))),
+               c = load_mesh(write("c.ply", binary(true)));
     for (const LoadedMesh& mesh : {a, b, c}) {
         EXPECT_TRUE(mesh.closedness.closed());
         EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 0.1 / 6.0);
@@ -234,7 +243,8 @@ TEST_F(MeshLoader, TheCacheSharesEqualScales) {
     EXPECT_NE(one, two);
     EXPECT_EQ(two, cache.load(asset("gem.obj"), 2.0).asset);
     EXPECT_TRUE(two->surface.bounds().max.isApprox(2.0 * one->surface.bounds().max));
-    EXPECT_NEAR(cache.load(asset("gem.obj"), 2.0).closedness.signed_volume, 8.0 * cache.load(asset("gem.obj"), 1.0).closedness.signed_volume, 1e-12);
+    EXPECT_NEAR(cache.load(asset("gem.obj"), 2.0).closedness.signed_volume,
+                8.0 * cache.load(asset("gem.obj"), 1.0).closedness.signed_volume, 1e-12);
 }
 
 }  // namespace

@@ -23,9 +23,10 @@ protected:
 TEST_F(MeshUse, FilesAreFoundFromTheScenesFolder) {
     std::filesystem::create_directory(folder() / "scenes");
     write("cube.obj", cube_points() + cube_faces());
-    const auto scene = parse_scene("format = 1\n[[body]]\nshape = { type = \"mesh\", file = \"../cube.obj\", scale = 3 }\n"
-                                   "[[body]]\ntype = \"fixed\"\nshape = { type = \"mesh\", file = \"../cube.obj\", scale = 3 }",
-                                   folder() / "scenes" / "scene.toml");
+    const auto scene = parse_scene(
+        "format = 1\n[[body]]\nshape = { type = \"mesh\", file = \"../cube.obj\", scale = 3 }\n"
+        "[[body]]\ntype = \"fixed\"\nshape = { type = \"mesh\", file = \"../cube.obj\", scale = 3 }",
+        folder() / "scenes" / "scene.toml");
     const auto& mesh = std::get<MeshShape>(scene.bodies[0].shape).asset;
     EXPECT_EQ(mesh->file, (folder() / "cube.obj").string());
     EXPECT_EQ(mesh->surface.bounds().max, Vec3(3, 3, 3));
@@ -36,36 +37,42 @@ TEST_F(MeshUse, AMissingOrBrokenFileIsAnErrorAtItsName) {
     EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"none.obj\" }"),
               ":3:33: error: mesh \"none.obj\" does not exist (looked at " + (folder() / "none.obj").string() + ")");
     write("bad.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"bad.obj\" }").find(":3:33: error: mesh \"bad.obj\" has no triangle with any area"),
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"bad.obj\" }")
+                  .find(":3:33: error: mesh \"bad.obj\" has no triangle with any area"),
               std::string::npos);
     EXPECT_EQ(error_of("shape = { type = \"mesh\" }"), ":3:9: error: a mesh needs \"file\" (not given)");
-    EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"\" }"), ":3:33: error: file must not be empty (given \"\")");
+    EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"\" }"),
+              ":3:33: error: file must not be empty (given \"\")");
 }
 
 TEST_F(MeshUse, AnOpenMeshMayBeFixedButNotDynamic) {
     write("open.obj", cube_points() + "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
     const std::string shape = "shape = { type = \"mesh\", file = \"open.obj\" }";
-    EXPECT_EQ(error_of(shape), ":3:33: error: file is an open mesh: 4 of its edges belong to one triangle only, so it encloses no "
-                               "volume and has no mass; close it, or use it with type = \"fixed\" (given \"open.obj\")");
+    EXPECT_EQ(error_of(shape),
+              ":3:33: error: file is an open mesh: 4 of its edges belong to one triangle only, so it encloses no "
+              "volume and has no mass; close it, or use it with type = \"fixed\" (given \"open.obj\")");
     EXPECT_EQ(error_of("type = \"fixed\"\n" + shape), "no error");
     EXPECT_EQ(error_of("type = \"kinematic\"\n" + shape), "no error");
 }
 
 TEST_F(MeshUse, FacesThatDisagreeAreNoSolid) {
     write("turned.obj", cube_points() + "f 1 4 3 2\nf 8 7 6 5\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"turned.obj\" }").find("disagree on which side is out"), std::string::npos);
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"turned.obj\" }").find("disagree on which side is out"),
+              std::string::npos);
 }
 
 TEST_F(MeshUse, AClosedSheetIsNoSolid) {
     write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"sheet.obj\" }").find("encloses no volume"), std::string::npos);
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"sheet.obj\" }").find("encloses no volume"),
+              std::string::npos);
 }
 
 TEST_F(MeshUse, ScaleIsLimited) {
     write("cube.obj", cube_points() + cube_faces());
     EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"cube.obj\", scale = 0 }"),
               ":3:53: error: scale must be from 1e-09 to 1000000000 (given 0)");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"cube.obj\", scale = 9e8 }").find(":3:53: error: scale makes a mesh of unusable size"),
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"cube.obj\", scale = 9e8 }")
+                  .find(":3:53: error: scale makes a mesh of unusable size"),
               std::string::npos);
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace tumble {
 namespace {
 
@@ -49,7 +51,8 @@ TEST(Overrides, AStepOrACountReplacesBothKeysOfTheFile) {
     step.step = 0.01;
     EXPECT_EQ(parse(with_step, count).simulation.steps_per_frame, 10);
     EXPECT_EQ(parse(with_step, step).simulation.steps_per_frame, 2);
-    EXPECT_EQ(parse("format = 1\n[simulation]\nsteps_per_frame = 3\n[output]\nfps = 50", step).simulation.steps_per_frame, 2);
+    EXPECT_EQ(
+        parse("format = 1\n[simulation]\nsteps_per_frame = 3\n[output]\nfps = 50", step).simulation.steps_per_frame, 2);
 }
 
 TEST(Overrides, AnotherFrameRateChecksTheFilesStepAgain) {
@@ -74,11 +77,15 @@ TEST(Overrides, ErrorsNameTheOption) {
         set(overrides);
         return error_of(with_count, overrides);
     };
-    EXPECT_EQ(error([](auto& o) { o.fps = -1.0; }), "error: --fps: must be from 1e-09 to 1000000 frames per second (given -1)");
+    EXPECT_EQ(error([](auto& o) { o.fps = -1.0; }),
+              "error: --fps: must be from 1e-09 to 1000000 frames per second (given -1)");
     EXPECT_EQ(error([](auto& o) { o.fps = std::nan(""); }), "error: --fps: must be a finite number (given nan)");
-    EXPECT_EQ(error([](auto& o) { o.duration = -0.5; }), "error: --duration: must be from 0 to 1000000000 s (given -0.5)");
-    EXPECT_EQ(error([](auto& o) { o.steps_per_frame = 0; }), "error: --steps-per-frame: must be from 1 to 1000000 (given 0)");
-    EXPECT_EQ(error([](auto& o) { o.step = 0.0; }), "error: --step: must be above 0 and at most 1000000000 s (given 0)");
+    EXPECT_EQ(error([](auto& o) { o.duration = -0.5; }),
+              "error: --duration: must be from 0 to 1000000000 s (given -0.5)");
+    EXPECT_EQ(error([](auto& o) { o.steps_per_frame = 0; }),
+              "error: --steps-per-frame: must be from 1 to 1000000 (given 0)");
+    EXPECT_EQ(error([](auto& o) { o.step = 0.0; }),
+              "error: --step: must be above 0 and at most 1000000000 s (given 0)");
     EXPECT_EQ(error([](auto& o) { o.step = 0.01; }),
               "error: --step: does not fit: a step must divide the frame's 1/60 s; the nearest that does is "
               "0.008333333333333333 s (given a step of 0.01 s)");
@@ -89,10 +96,21 @@ TEST(Overrides, ErrorsNameTheOption) {
     EXPECT_EQ(error([](auto& o) { o.samples = 3; }), "error: --samples: must be 1, 2 or 4 (given 3)");
     EXPECT_EQ(error([](auto& o) { o.integrator = "exact"; }),
               "error: --integrator: must be one of \"symplectic-euler\", \"explicit-euler\" (given \"exact\")");
-    EXPECT_EQ(error([](auto& o) { o.impacts = "exact"; }), "error: --impacts: must be one of \"stepped\" (given \"exact\")");
+    EXPECT_EQ(error([](auto& o) { o.impacts = "exact"; }),
+              "error: --impacts: must be one of \"stepped\" (given \"exact\")");
     EXPECT_EQ(error([](auto& o) { o.duration = 1e6; }),
-              "error: --duration: makes too many frames: 1000000 s at 60 frames a second are 6e+07, and the limit is 10000000 "
+              "error: --duration: makes too many frames: 1000000 s at 60 frames a second are 6e+07, and the limit is "
+              "10000000 "
               "(given 1000000)");
+}
+
+TEST(Overrides, TheIntegratorIsThatOfEveryBody) {
+    const std::string text =
+        "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\nintegrator = \"explicit-euler\"\n";
+    SceneOverrides overrides;
+    EXPECT_EQ(parse(text, overrides).bodies[0].integrator, IntegratorKind::explicit_euler);
+    overrides.integrator = "symplectic-euler";
+    EXPECT_FALSE(parse(text, overrides).bodies[0].integrator.has_value());
 }
 
 TEST(Overrides, TheFilesOwnMistakesStayMistakes) {

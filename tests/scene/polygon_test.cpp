@@ -33,7 +33,8 @@ TEST(Polygon, ConvexOnesAndOnesWithDentsKeepTheirAreaInEveryPlane) {
         expect_cut(placed({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
         expect_cut(placed({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}));
         expect_cut(placed({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}));                          // an arrow head
-        expect_cut(placed({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}));   // U
+        expect_cut(
+            placed({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}));  // U
         expect_cut(placed({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}));               // a corner on a side
         std::vector<Vec3> star;
         for (int k = 0; k < 40; ++k) {

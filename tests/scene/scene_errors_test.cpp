@@ -33,7 +33,8 @@ void expect_errors(const std::vector<Mistake>& mistakes) {
         const std::string before = mistake.text.substr(0, mark), after = mistake.text.substr(mark + 1);
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t column = mark - (before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1) + 1;
-        const std::string expected = "dir/scene.toml:" + std::to_string(line) + ":" + std::to_string(column) + ": error: ";
+        const std::string expected =
+            "dir/scene.toml:" + std::to_string(line) + ":" + std::to_string(column) + ": error: ";
         const std::string error = error_of(before + after);
         EXPECT_EQ(error.substr(0, expected.size()), expected) << mistake.text << "\n" << error;
         EXPECT_NE(error.find(mistake.phrase), std::string::npos) << mistake.text << "\n" << error;
@@ -42,7 +43,8 @@ void expect_errors(const std::vector<Mistake>& mistakes) {
 
 /// A scene with one body, of whose table these are further lines.
 std::string body(const std::string& lines) {
-    return "format = 1\n[materials.wood]\n[materials.steel]\n[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\n" + lines;
+    return "format = 1\n[materials.wood]\n[materials.steel]\n[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\n" +
+           lines;
 }
 std::string shape(const std::string& inside) { return "format = 1\n[[body]]\ntype = \"fixed\"\nshape = " + inside; }
 
@@ -62,12 +64,14 @@ TEST(SceneErrors, OfTheTextItself) {
 TEST(SceneErrors, UnknownKeysNameTheNearest) {
     expect_errors({
         {"format = 1\n@titel = \"x\"", "unknown key \"titel\" in a scene (did you mean \"title\"?)"},
-        {"format = 1\n[simulation]\ngravity = [0, 0, 0]\n  @duratoin = 5", "unknown key \"duratoin\" in [simulation] (did you mean \"duration\"?)"},
+        {"format = 1\n[simulation]\ngravity = [0, 0, 0]\n  @duratoin = 5",
+         "unknown key \"duratoin\" in [simulation] (did you mean \"duration\"?)"},
         {"format = 1\n[output]\n@xyz = 5", "unknown key \"xyz\" in [output] (known: \"size\", \"fps\", \"samples\")"},
         {"format = 1\n[camera]\n@fov = 5", "(known: \"eye\", \"target\", \"up\", \"vertical_fov\")"},
         {"format = 1\n[light]\n@shadow = true", "did you mean \"shadows\""},
         {"format = 1\n[wind]\n@speed = 1", "unknown key \"speed\" in [wind]"},
-        {"format = 1\n[materials.wood]\n@colour = \"#ffffff\"", "unknown key \"colour\" in [materials.wood] (did you mean \"color\"?)"},
+        {"format = 1\n[materials.wood]\n@colour = \"#ffffff\"",
+         "unknown key \"colour\" in [materials.wood] (did you mean \"color\"?)"},
         {body("@velocty = [0, 0, 0]"), "unknown key \"velocty\" in [[body]] (did you mean \"velocity\"?)"},
         {shape("{ type = \"box\", size = [1, 1, 1], @radius = 1 }"), "unknown key \"radius\" in a box"},
         {shape("{ type = \"sphere\", radius = 1, @size = 1 }"), "unknown key \"size\" in a sphere"},
@@ -87,14 +91,16 @@ TEST(SceneErrors, OfTheSimulation) {
         {"format = 1\n[simulation]\nsteps_per_frame = @2.5", "steps_per_frame must be a whole number (given 2.5)"},
         {"format = 1\n[simulation]\nsteps_per_frame = @1000001", "(given 1000001)"},
         {"format = 1\n[simulation]\nstep = 0.01\nsteps_per_frame = @2", "exclude each other"},
-        {"format = 1\n[simulation]\nstep = @0.0005", "the nearest that does is 0.000505050505050505 s (given a step of 0.0005 s)"},
+        {"format = 1\n[simulation]\nstep = @0.0005",
+         "the nearest that does is 0.000505050505050505 s (given a step of 0.0005 s)"},
         {"format = 1\n[simulation]\nstep = @1", "the nearest that does is 0.016666666666666666 s"},
         {"format = 1\n[simulation]\nstep = @0", "step must be above 0"},
         {"format = 1\n[simulation]\nstep = @1e-9", "more than 1000000 steps a frame"},
         {"format = 1\n[simulation]\ngravity = @[0, -9.81]", "gravity must be an array of 3 numbers (given [0, -9.81])"},
         {"format = 1\n[simulation]\ngravity = [0, @inf, 0]", "gravity must be a finite number"},
         {"format = 1\n[simulation]\ngravity = [0, @\"g\", 0]", "gravity must be a number (given \"g\")"},
-        {"format = 1\n[simulation]\nintegrator = @\"exact\"", "integrator must be one of \"symplectic-euler\", \"explicit-euler\" (given \"exact\")"},
+        {"format = 1\n[simulation]\nintegrator = @\"exact\"",
+         "integrator must be one of \"symplectic-euler\", \"explicit-euler\" (given \"exact\")"},
         {"format = 1\n[simulation]\nimpacts = @\"exact\"", "impacts must be one of \"stepped\" (given \"exact\")"},
         {"format = 1\n[simulation]\nrotation = @\"euler\"", "rotation must be one of \"quaternion\", \"matrix\""},
         {"format = 1\n[simulation]\nsleep = @1", "sleep must be true or false (given 1)"},
@@ -113,7 +119,8 @@ TEST(SceneErrors, OfThePicture) {
         {"format = 1\n[output]\nsize = [@0, 100]", "size must be from 1 to 16384 (given 0)"},
         {"format = 1\n[output]\nsize = [100, @99999]", "(given 99999)"},
         {"format = 1\n[output]\nsize = [@1.5, 100]", "whole number"},
-        {"format = 1\n[output]\nsize = @[100]", "size must be an array of 2 whole numbers, width and height (given [100])"},
+        {"format = 1\n[output]\nsize = @[100]",
+         "size must be an array of 2 whole numbers, width and height (given [100])"},
         {"format = 1\n[camera]\neye = @[1, 2, 3]\ntarget = [1, 2, 3]", "eye must not be at the target"},
         {"format = 1\n[camera]\neye = @[0, 9, 0]\ntarget = [0, 0, 0]", "looks along its up direction"},
         {"format = 1\n[camera]\neye = [0, 0, 9]\ntarget = [0, 0, 0]\nup = @[0, 0, 1]", "looks along its up direction"},
@@ -132,7 +139,8 @@ TEST(SceneErrors, OfMaterials) {
         {"format = 1\n[materials.wood]\nfriction = @-0.1", "friction must be from 0 to 1000000 (given -0.1)"},
         {"format = 1\n[materials.wood]\ncolor = @\"red\"", "color must be a colour \"#rrggbb\" (given \"red\")"},
         {"format = 1\n[materials.wood]\ncolor = @[1, 0, 0]", "color must be a colour"},
-        {"format = 1\n[materials.wood]\npattern = @\"dots\"", "pattern must be one of \"plain\", \"grid\", \"checker\""},
+        {"format = 1\n[materials.wood]\npattern = @\"dots\"",
+         "pattern must be one of \"plain\", \"grid\", \"checker\""},
         {"format = 1\n[materials]\nwood = @3", "wood must be a table"},
         {body("material = @\"wod\""), "material \"wod\" is not among the materials (did you mean \"wood\"?)"},
         {body("material = @\"rubber\""), "material \"rubber\" is not among the materials (known: \"steel\", \"wood\")"},
@@ -144,7 +152,8 @@ TEST(SceneErrors, OfShapes) {
     expect_errors({
         {"format = 1\n@[[body]]\nname = \"a\"\n[[body]]\nname = \"b\"", "[[body]] needs \"shape\" (not given)"},
         {shape("@{ size = [1, 1, 1] }"), "a shape needs \"type\" (not given)"},
-        {shape("{ type = @\"cube\", size = [1, 1, 1] }"), "type must be one of \"plane\", \"box\", \"sphere\", \"mesh\" (given \"cube\")"},
+        {shape("{ type = @\"cube\", size = [1, 1, 1] }"),
+         "type must be one of \"plane\", \"box\", \"sphere\", \"mesh\" (given \"cube\")"},
         {shape("{ type = \"box\", size = [1, @0, 1] }"), "size must be from 1e-09 to 1000000000 m (given 0)"},
         {shape("{ type = \"box\", size = [1, 1, @nan] }"), "size must be a finite number (given nan)"},
         {shape("{ type = \"box\", size = [1, 1, @2e9] }"), "size must be"},
@@ -165,7 +174,8 @@ TEST(SceneErrors, OfBodies) {
         {body("mass = @0"), "mass must be above 0"},
         {body("mass = 1\ndensity = @1"), "density and mass exclude each other"},
         {body("name = @\"\""), "name must not be empty"},
-        {body("name = \"a\"\n[[body]]\nname = @\"a\"\nshape = { type = \"sphere\", radius = 1 }"), "name must be unique, and another body is called so (given \"a\")"},
+        {body("name = \"a\"\n[[body]]\nname = @\"a\"\nshape = { type = \"sphere\", radius = 1 }"),
+         "name must be unique, and another body is called so (given \"a\")"},
         {body("position = [0, @1e10, 0]"), "position must be"},
         {body("rotation = @[1, 0.1, 0, 0]"), "rotation must be a quaternion of length 1 (given one of length 1.00499)"},
         {body("rotation = @[0, 0, 0, 0]"), "(given one of length 0)"},
@@ -186,7 +196,8 @@ TEST(SceneErrors, OfKeyframes) {
         {body("interpolation = @\"linear\""), "interpolation is for bodies of type \"kinematic\""},
         {body("type = \"kinematic\"\nkeyframes = @[]"), "at least one keyframe"},
         {body("type = \"kinematic\"\nkeyframes = [@{ position = [0, 0, 0] }]"), "a keyframe needs \"time\""},
-        {body("type = \"kinematic\"\nkeyframes = [{ time = 1 }, { time = @1 }]"), "time must come after the keyframe before, at 1 s (given 1)"},
+        {body("type = \"kinematic\"\nkeyframes = [{ time = 1 }, { time = @1 }]"),
+         "time must come after the keyframe before, at 1 s (given 1)"},
         {body("type = \"kinematic\"\nkeyframes = [{ time = @-1 }]"), "time must be from 0"},
         {body("type = \"kinematic\"\nkeyframes = [{ time = 0, @pos = 1 }]"), "unknown key \"pos\" in a keyframe"},
         {body("type = \"kinematic\"\ninterpolation = @\"cubic\""), "\"smooth\", \"linear\""},
@@ -205,7 +216,8 @@ TEST(SceneErrors, OfCopies) {
         {body("grid = { count = [1, 1, 1], spacing = @0 }"), "spacing must be"},
         {body("grid = { count = [1, 1, 1], spacing = 1, jitter = [0, @-1, 0] }"), "jitter must be"},
         {body("grid = { count = [1, 1, 1], spacing = 1, tilt = @181 }"), "tilt must be from 0 to 180 degrees"},
-        {body("grid = { count = [1, 1, 1], spacing = 1 }\nscatter = @{ count = 1, size = [1, 1, 1] }"), "exclude each other"},
+        {body("grid = { count = [1, 1, 1], spacing = 1 }\nscatter = @{ count = 1, size = [1, 1, 1] }"),
+         "exclude each other"},
         {body("type = \"kinematic\"\ngrid = @{ count = [1, 1, 1], spacing = 1 }"), "for dynamic and fixed bodies"},
         {shape("{ type = \"plane\" }\ngrid = @{ count = [1, 1, 1], spacing = 1 }"), "endless"},
         {body("scatter = { count = 2, size = [1, 1, 1], rotation = @\"some\" }"), "\"random\", \"none\""},
@@ -214,19 +226,27 @@ TEST(SceneErrors, OfCopies) {
         {body("grid = { count = [1, 1, 1], spacing = 1 }\nscale = @2"), "scale must be an array of 2 numbers"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\ncolors = @[]"), "at least one colour"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\ncolors = [\"#ffffff\", @\"blue\"]"), "(given \"blue\")"},
-        {body("grid = { count = [1, 1, 1], spacing = 1 }\nname = \"a\"\n[[body]]\nname = @\"a.0\"\nshape = { type = \"sphere\", radius = 1 }"), "(given \"a.0\")"},
-        {body("[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\ngrid = @{ count = [1000, 1000, 1], spacing = 1 }"), "too many bodies"},
+        {body("grid = { count = [1, 1, 1], spacing = 1 }\nname = \"a\"\n[[body]]\nname = @\"a.0\"\nshape = { type = "
+              "\"sphere\", radius = 1 }"),
+         "(given \"a.0\")"},
+        {body("[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\ngrid = @{ count = [1000, 1000, 1], spacing = 1 "
+              "}"),
+         "too many bodies"},
     });
 }
 
 TEST(SceneErrors, OfForcesAndCords) {
     expect_errors({
-        {body("name = \"crate\"\n[[force]]\nbody = @\"crat\"\nforce = [1, 0, 0]"), "body \"crat\" is not the name of a body (did you mean \"crate\"?)"},
-        {body("name = \"crate\"\ngrid = { count = [2, 1, 1], spacing = 2 }\n[[force]]\nbody = @\"crate\"\nforce = [1, 0, 0]"), "\"crate.0\" for the first"},
+        {body("name = \"crate\"\n[[force]]\nbody = @\"crat\"\nforce = [1, 0, 0]"),
+         "body \"crat\" is not the name of a body (did you mean \"crate\"?)"},
+        {body("name = \"crate\"\ngrid = { count = [2, 1, 1], spacing = 2 }\n[[force]]\nbody = @\"crate\"\nforce = [1, "
+              "0, 0]"),
+         "\"crate.0\" for the first"},
         {body("name = \"a\"\ntype = \"fixed\"\n[[force]]\nbody = @\"a\"\nforce = [1, 0, 0]"), "must be a dynamic body"},
         {body("name = \"a\"\n@[[force]]\nbody = \"a\""), "[[force]] needs \"force\""},
         {body("name = \"a\"\n@[[force]]\nforce = [1, 0, 0]"), "[[force]] needs \"body\""},
-        {body("name = \"a\"\n[[force]]\nbody = \"a\"\nforce = [1, 0, 0]\nstart = 2\nend = @2"), "makes the force end before it starts, at 2 s (given 2)"},
+        {body("name = \"a\"\n[[force]]\nbody = \"a\"\nforce = [1, 0, 0]\nstart = 2\nend = @2"),
+         "makes the force end before it starts, at 2 s (given 2)"},
         {body("name = \"a\"\n[[force]]\nbody = \"a\"\nforce = [1, 0, 0]\nframe = @\"local\""), "\"world\", \"body\""},
         {body("name = \"a\"\n@[[cord]]\nbody = \"a\""), "[[cord]] needs \"anchor\""},
         {body("name = \"a\"\n[[cord]]\nbody = \"a\"\nanchor = [0, 0, 0]\nradius = @0"), "radius must be"},
@@ -234,7 +254,8 @@ TEST(SceneErrors, OfForcesAndCords) {
 }
 
 TEST(SceneErrors, ShowTheGivenTextInReadableLength) {
-    const std::string error = error_of("format = 1\n[simulation]\nintegrator = 3\ngravity = \"" + std::string(500, 'x') + "\\n\"");
+    const std::string error =
+        error_of("format = 1\n[simulation]\nintegrator = 3\ngravity = \"" + std::string(500, 'x') + "\\n\"");
     EXPECT_LT(error.size(), 200u);
     EXPECT_EQ(error.find('\n'), std::string::npos);
 }

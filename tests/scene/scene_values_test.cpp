@@ -71,6 +71,7 @@ density = 500
 roughness = 0.9
 metallic = 0.25
 pattern = "grid"
+integrator = "symplectic-euler"
 rotation = [0.7071, 0.7071, 0, 0]
 [[body]]
 name = "paddle"
@@ -162,6 +163,8 @@ TEST(SceneValues, BodiesTakeFromTheirMaterialWhatTheyDoNotSayThemselves) {
     EXPECT_EQ(box.surface.roughness, 0.9);
     EXPECT_EQ(box.surface.metallic, 0.25);
     EXPECT_EQ(box.surface.pattern, Pattern::grid);
+    EXPECT_EQ(box.integrator, IntegratorKind::symplectic_euler);
+    EXPECT_FALSE(ball.integrator.has_value());   // the simulation's
     EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);   // 0.7071 is near enough to be made unit
 }
 
