@@ -66,7 +66,8 @@ vec3 shade(Surface s) {
     light += fresnel * sun_light * (sun * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0));
 
     vec2 environment = environment_scale(roughness, n_v);
-    light += blurred_sky(reflect(-s.to_eye, s.normal), roughness) * (f0 * environment.x + environment.y) * s.open;
+    light += blurred_sky(reflect(-s.to_eye, s.normal), roughness) * (f0 * environment.x + environment.y) *
+             (s.open * mix(1.0, mix(veil_of_rough, 1.0, s.metallic), roughness));
 
     return displayed(light * s.haze.w + s.haze.rgb);
 }

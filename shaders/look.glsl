@@ -3,16 +3,17 @@
 
 // Sun and sky give a face turned to the sun about 1, so that its colour on the screen is the scene file's.
 const vec3 sun_light = vec3(0.80, 0.745, 0.655);          // what a surface facing the sun receives: a warm late morning
-const vec3 sky_light = vec3(0.385, 0.425, 0.500);         // from straight above, without the sun
-const vec3 bounce_light = vec3(0.250, 0.235, 0.220);      // from below: the sunlit ground, seen dimly
+const vec3 sky_light = vec3(0.325, 0.365, 0.435);         // from straight above, without the sun
+const vec3 bounce_light = vec3(0.195, 0.185, 0.170);      // from below: the sunlit ground, seen dimly
 
 const vec3 sky_horizon = vec3(0.80, 0.86, 0.92);          // radiance: the backdrop and what shiny things mirror
 const vec3 sky_zenith = vec3(0.20, 0.38, 0.66);
-const vec3 sky_nadir = vec3(0.46, 0.49, 0.53);
+const vec3 sky_nadir = vec3(0.33, 0.39, 0.48);
 const float sky_haze = 5.0;                               // how fast the horizon's haze thins with height (1 / sine)
 const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky around the sun
 
 const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone
+const float veil_of_rough = 0.2;                          // what is left of the sky's mirror image on chalk: colours stay rich
 
 const float corner_darkness = 0.5;                        // sky light lost where two planes meet
 const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels: contact seen in the sun

@@ -24,5 +24,6 @@ vec3 blurred_sky(vec3 direction, float roughness) {
 // Distance haze: the share of light from `squared` (distance squared) that the air has replaced by the sky's.
 float haze_share(float squared) {
     float relative = squared * haze.x;
+    relative *= relative;   // the fourth power of the distance: what one looks at stays clear
     return relative / (1.0 + relative);
 }

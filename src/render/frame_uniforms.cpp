@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 // Half of a thing's light is haze at this many viewing distances: the ground ends softly, the bodies stay clear.
-constexpr double haze_distance = 7.0;
+constexpr double haze_distance = 5.0;
 
 // The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
 constexpr double nearest_part = 1e-4;

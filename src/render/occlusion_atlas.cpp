@@ -88,24 +88,20 @@ private:
         return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)];
     }
 
-    // Darkens points_ by all but the body itself.
-    void darken_by_all(std::size_t body, double reach) {
-        for (const std::size_t i : found_)
-            if (occluders_[i].body != body) darken(points_, occluders_[i], float(reach));
+    void darken_by(const std::vector<std::size_t>& near, double reach) {
+        for (const std::size_t i : near) darken(points_, occluders_[i], float(reach));
         for (const PlaneInView& plane : near_planes_) darken(points_, plane.normal, plane.height, float(reach));
     }
 
     void add_body(std::size_t body, const BoundingBall& ball) {
         const BodyLook& look = looks_.bodies[body];
         const Eigen::Vector3f center = ball.center.cast<float>();
-        finder_.find(center, float(ball.radius), found_);
+        finder_.find(center, float(ball.radius), near_);
+        std::erase_if(near_, [&](std::size_t i) { return occluders_[i].body == body; });   // not by itself
         near_planes_.clear();
         for (const PlaneInView& plane : planes_)
             if (plane.normal.dot(center) + plane.height < ball.radius + 2.0 * look.reach) near_planes_.push_back(plane);
-        const bool alone = near_planes_.empty() && std::all_of(found_.begin(), found_.end(), [&](std::size_t i) {
-            return occluders_[i].body == body;
-        });
-        if (alone) return;
+        if (near_.empty() && near_planes_.empty()) return;
         if (look.kind == DrawKind::box) add_box(body, ball.center);
         if (look.kind == DrawKind::ball) add_ball(body, center);
         if (look.kind == DrawKind::mesh) add_mesh(body);
@@ -135,7 +131,12 @@ private:
                     const double s = 2.0 * i / (size - 1) - 1.0, t = 2.0 * j / (size - 1) - 1.0;
                     points_.add((middle + s * u + t * v).cast<float>(), normal.cast<float>());
                 }
-            darken_by_all(body, look.reach);
+            const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
+            near_face_.clear();
+            for (const std::size_t i : near_)
+                if (may_darken(occluders_[i], middle.cast<float>(), normal.cast<float>(), radius, float(look.reach)))
+                    near_face_.push_back(i);
+            darken_by(near_face_, look.reach);
             for (int j = 0; j < size; ++j) store(place.x + face * size, place.y + j, size, j * size);
         }
     }
@@ -154,7 +155,7 @@ private:
                 const Eigen::Vector3f normal = axes * octahedral(s, t);
                 points_.add(center + normal * float(look.half_size.x()), normal);
             }
-        darken_by_all(body, look.reach);
+        darken_by(near_, look.reach);
         for (int j = 0; j < ball_tile; ++j) store(place.x, place.y + j, ball_tile, j * ball_tile);
     }
 
@@ -173,7 +174,7 @@ private:
         points_.clear();
         for (const MeshProbe& probe : probes)
             points_.add((origin + axes * probe.position).cast<float>(), (axes * probe.normal).cast<float>());
-        darken_by_all(body, look.reach);
+        darken_by(near_, look.reach);
         for (int row = 0; row < rows; ++row)
             store(place.x, place.y + row, std::min(OcclusionAtlas::width, count - row * OcclusionAtlas::width),
                   row * OcclusionAtlas::width);
@@ -190,7 +191,7 @@ private:
     OcclusionAtlas atlas_;
     int row_ = 0, shelf_x_ = 0, shelf_height_ = 0;
     SurfacePoints points_;                // of the tile at hand
-    std::vector<std::size_t> found_;      // near it
+    std::vector<std::size_t> near_, near_face_;   // what may darken it
 };
 
 // Every occluder near the plane darkens the texels around its foot; they multiply, as everywhere.

@@ -12,6 +12,10 @@ namespace {
 // Bodies roll a little out of the place where they start and land.
 constexpr double near_margin = 1.3;
 
+// A shadow's edge is about three texels wide. Around few bodies the map could be so fine that the edge looks cut with
+// scissors: a texel is at least this part of the bodies' typical reach (their half edge).
+constexpr double least_texel_of_reach = 0.02;
+
 // A body this many times as far away as the middle one does not widen the near map: it is small in the picture.
 constexpr double far_away = 4.0;
 
@@ -88,7 +92,8 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
         x.add(x_axis_.dot(target), 0.5 * view.target_distance());
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
     }
-    size_ = near_margin * std::max({x.size(), y.size(), 1e-9});
+    const double softest = least_texel_of_reach * looks.typical_reach * texels;
+    size_ = std::max(near_margin * std::max(x.size(), y.size()), softest);
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }

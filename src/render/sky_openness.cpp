@@ -6,10 +6,10 @@
 namespace tumble {
 namespace {
 
-float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
+inline float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 // Quilez 2008, Distance functions: a box's distance is exact outside, and that to the nearest face inside.
-float box_distance(float x, float y, float z, float half_x, float half_y, float half_z) {
+inline float box_distance(float x, float y, float z, float half_x, float half_y, float half_z) {
     const float qx = std::abs(x) - half_x, qy = std::abs(y) - half_y, qz = std::abs(z) - half_z;
     const float ox = std::max(qx, 0.0f), oy = std::max(qy, 0.0f), oz = std::max(qz, 0.0f);
     return std::sqrt(ox * ox + oy * oy + oz * oz) + std::min(std::max(qx, std::max(qy, qz)), 0.0f);
@@ -55,6 +55,18 @@ void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
         const float closed = 0.5f * (clamped(1.0f - near * per_near) + clamped(1.0f - far * per_far));
         open[i] *= 1.0f - occlusion_strength * closed;
     }
+}
+
+bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
+                float reach) {
+    const float far_step = std::min(reach, occluder.reach);
+    for (const float step : {near_probe * far_step, far_step}) {
+        const Eigen::Vector3f p = occluder.to_local * (center + normal * step - occluder.center);
+        const Eigen::Vector3f& half = occluder.half_size;
+        const float distance = box_distance(p.x(), p.y(), p.z(), half.x(), half.y(), half.z()) - occluder.radius;
+        if (distance < radius + step) return true;   // a distance changes no faster than the point moves
+    }
+    return false;
 }
 
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach) {

@@ -26,6 +26,11 @@ struct SurfacePoints {
 /// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller counts.
 void darken(SurfacePoints& points, const Occluder& occluder, float reach);
 
+/// False when the body can darken no point within `radius` of `center` whose normal is `normal`: most pairs of a face and
+/// a neighbour need not be looked at point by point.
+bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
+                float reach);
+
 /// The same for a plane: points q with normal . q + height = 0.
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);
 
