@@ -17,6 +17,9 @@ constexpr double elevation = 17.0;     // degrees above the horizon: ground fill
 constexpr double used_part = 0.86;     // of the picture's half width and height; the rest is a margin
 constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all that moves is ground
 
+constexpr double least_distance = 0.2; // of the scene's diagonal, between the eye and what is nearest
+constexpr int centring_passes = 4;     // each leaves a small part of the error: near points move more than far ones
+
 constexpr double degrees = pi / 180.0;
 
 struct Axes {
@@ -131,13 +134,25 @@ std::vector<Vec3> points_of_note(const SceneDescription& scene) {
     return points;
 }
 
+/// The middle of the points' extent in the picture, as tangents to the right and up.
+Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& axes) {
+    Bounds seen;
+    for (const Vec3& p : points) {
+        const Vec3 d = p - eye;
+        seen.add(Vec3(d.dot(axes.right), d.dot(axes.up), 0.0) / d.dot(axes.forward));
+    }
+    return seen.center();
+}
+
 }  // namespace
 
 CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens) {
     CameraDescription camera = lens;
     const Axes axes = view_axes(lens.up.normalized());
     std::vector<Vec3> points = points_of_note(scene);
-    if (points.empty()) points = {Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)};   // a stage of usual size, at the origin
+    if (points.empty()) {   // a stage of usual size, at the origin
+        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
+    }
 
     const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
     const double tangent_y = used_part * half.sin / half.cos;
@@ -156,9 +171,16 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
         nearest = std::min(nearest, z);
         farthest = std::max(farthest, z);
     }
-    const double depth = std::min(-(right + left) / (2.0 * tangent_x), -(top + bottom) / (2.0 * tangent_y));
+    const double depth = std::min({-(right + left) / (2.0 * tangent_x), -(top + bottom) / (2.0 * tangent_y),
+                                   nearest - least_distance * bounds_of(points).extent().norm()});
+    const double middle = 0.5 * (nearest + farthest) - depth;
     camera.eye = axes.right * (0.5 * (right - left)) + axes.up * (0.5 * (top - bottom)) + axes.forward * depth;
-    camera.target = camera.eye + axes.forward * (0.5 * (nearest + farthest) - depth);
+    // The direction with room to spare: move along it until as much is free on one side as on the other.
+    for (int pass = 0; pass < centring_passes; ++pass) {
+        const Vec3 shift = off_center(points, camera.eye, axes) * middle;
+        camera.eye += shift.x() * axes.right + shift.y() * axes.up;
+    }
+    camera.target = camera.eye + axes.forward * middle;
     return camera;
 }
 

@@ -66,6 +66,24 @@ TEST(DefaultCamera, FillsThePictureAtAnyScale) {
     }
 }
 
+TEST(DefaultCamera, LeavesAsMuchRoomAboveAsBelow) {
+    SceneDescription scene;   // a long row: its width decides the distance, and its height has room to spare
+    for (int i = -20; i <= 20; ++i) scene.bodies.push_back(box_at(Vec3(i, 0.5, -0.3 * i), {1, 1, 1}));
+    const CameraDescription camera = default_camera(scene, {});
+    double top = -1e9, bottom = 1e9, left = 1e9, right = -1e9;
+    for (const BodyDescription& body : scene.bodies) {
+        for (int i = 0; i < 8; ++i) {
+            const Vec3 corner(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+            const Vec3 at = in_picture(scene, camera, body.position + corner);
+            top = std::max(top, at.y()), bottom = std::min(bottom, at.y());
+            right = std::max(right, at.x()), left = std::min(left, at.x());
+        }
+    }
+    EXPECT_NEAR(top + bottom, 0.0, 0.02);
+    EXPECT_NEAR(left + right, 0.0, 0.02);
+    EXPECT_LE(right, 0.9);
+}
+
 TEST(DefaultCamera, LooksDownAtTheScene) {
     SceneDescription scene;
     scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
