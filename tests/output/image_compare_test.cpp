@@ -58,7 +58,7 @@ TEST(Compare, ABoxMovedByOnePixelFails) {
 
 TEST(Compare, ALostSoftShadowFails) {
     // A blur of few levels: darkest in the middle, nowhere beyond the tolerance for a single pixel when weak.
-    for (const double depth : {4.0, 10.0, 40.0}) {
+    for (const double depth : {3.0, 10.0, 40.0}) {
         const Image a = landscape(width, height);
         Image b = a;
         for (int y = 0; y < height; ++y)
