@@ -25,17 +25,16 @@ public:
         if (!file) throw RunError(fmt::format("cannot read shader {}{}", path.string(), wanted_by));
         const std::size_t number = source_.files.size();
         source_.files.push_back(path);
-        if (number > 0) mark(1, number);
 
         int line_number = 0;
         for (std::string line; std::getline(file, line);) {
             ++line_number;
             if (const std::string included = included_name(line); !included.empty()) {
                 read(included, fmt::format(" (included by {}:{})", path.string(), line_number));
-                mark(line_number + 1, number);
             } else {
-                source_.text += line + '\n';
-                if (number == 0 && line_number == 1) add_defines();
+                add(line, number, line_number);
+                if (number == 0 && line_number == 1)
+                    for (const std::string& define : defines_) add("#define " + define, number, line_number);
             }
         }
     }
@@ -43,12 +42,9 @@ public:
     ShaderSource take() { return std::move(source_); }
 
 private:
-    // GLSL counts source strings by number, not by name.
-    void mark(int line, std::size_t number) { source_.text += fmt::format("#line {} {}\n", line, number); }
-
-    void add_defines() {
-        for (const std::string& define : defines_) source_.text += "#define " + define + '\n';
-        mark(2, 0);
+    void add(const std::string& line, std::size_t file, int number) {
+        source_.text += line + '\n';
+        source_.lines.push_back({file, number});
     }
 
     static std::string included_name(const std::string& line) {
@@ -66,13 +62,17 @@ private:
 }  // namespace
 
 std::string ShaderSource::with_file_names(const std::string& log) const {
-    const std::regex place(R"(^(\d+)[:(](\d+)\)?)");   // Mesa writes 0:12(5), others 0(12)
-    std::istringstream lines(log);
+    const std::regex place(R"(^\d+[:(](\d+)\)?)");   // Mesa writes 0:12(5), others 0(12)
+    std::istringstream words(log);
     std::string result;
-    for (std::string line; std::getline(lines, line);) {
+    for (std::string line; std::getline(words, line);) {
         std::smatch match;
-        if (std::regex_search(line, match, place) && std::stoul(match[1]) < files.size()) {
-            line = fmt::format("{}:{}{}", files[std::stoul(match[1])].string(), match[2].str(), match.suffix().str());
+        if (std::regex_search(line, match, place) && match[1].length() < 9) {
+            const std::size_t number = std::stoul(match[1]);
+            if (number >= 1 && number <= lines.size()) {
+                const Origin& origin = lines[number - 1];
+                line = fmt::format("{}:{}{}", files[origin.file].string(), origin.line, match.suffix().str());
+            }
         }
         result += line + '\n';
     }

@@ -1,18 +1,25 @@
 // Shader text from files, with `#include "file"` lines resolved and every line's origin kept for the compiler's words.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace tumble {
 
-/// One shader ready for the compiler. `#line` directives number the files: source string number i is files[i].
+/// One shader ready for the compiler. Where each line came from is kept here, not in #line directives: Mesa's compiler
+/// forgets their file numbers.
 struct ShaderSource {
+    struct Origin {
+        std::size_t file;   // index into files
+        int line;
+    };
     std::string text;
     std::vector<std::filesystem::path> files;
+    std::vector<Origin> lines;   // of each line of the text
 
-    /// A compiler log in which "N:LINE" or "N(LINE)" at the start of a line reads "FILE:LINE".
+    /// A compiler log in which "0:LINE" or "0(LINE)" at the start of a line reads "FILE:LINE".
     std::string with_file_names(const std::string& log) const;
 };
 

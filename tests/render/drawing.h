@@ -1,0 +1,44 @@
+// Helpers for tests that look at pixels.
+#pragma once
+
+#include "core/image.h"
+#include "render/camera_view.h"
+#include "render/renderer.h"
+
+#include <filesystem>
+#include <string>
+
+namespace tumble {
+
+Image drawn(const SceneDescription& scene, const RenderOptions& options = {});
+Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options = {});
+
+/// The pixel that a point of the world lands in.
+struct Pixel {
+    int x, y;
+};
+Pixel pixel_of(const SceneDescription& scene, const Vec3& point);
+
+/// Mean of the three channels, 0 .. 255.
+double brightness(const Image& image, Pixel at);
+double brightness_at(const Image& image, const SceneDescription& scene, const Vec3& point);
+
+/// A copy of the shaders with changes, gone at the end of the test.
+class ShaderCopy {
+public:
+    ShaderCopy();
+    ~ShaderCopy();
+    ShaderCopy(const ShaderCopy&) = delete;
+    ShaderCopy& operator=(const ShaderCopy&) = delete;
+
+    /// Replaces a text that must be there; returns the number of its line.
+    int replace(const std::string& file, const std::string& text, const std::string& by);
+    void remove(const std::string& file);
+    const std::filesystem::path& folder() const { return folder_; }
+    RenderOptions options() const { return {GlBackend::osmesa, folder_}; }
+
+private:
+    std::filesystem::path folder_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,223 @@
+// The parts of drawing that need no OpenGL, against closed forms and slower ways.
+#include "example_scenes.h"
+
+#include "render/body_looks.h"
+#include "render/camera_view.h"
+#include "render/draw_list.h"
+#include "render/mesh_occluders.h"
+#include "render/plane_patch.h"
+#include "render/primitives.h"
+#include "render/shadow_fit.h"
+#include "render/sky_openness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace tumble {
+namespace {
+
+Vec3 position(const DrawMesh& mesh, std::uint32_t i) {
+    const float* p = mesh.vertices[i].position;
+    return {double(p[0]), double(p[1]), double(p[2])};
+}
+
+double volume(const DrawMesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        sum += position(mesh, mesh.indices[i])
+                   .dot(position(mesh, mesh.indices[i + 1]).cross(position(mesh, mesh.indices[i + 2]))) / 6.0;
+    return sum;
+}
+
+TEST(Primitives, FaceOutwardAndFillTheirVolume) {
+    EXPECT_NEAR(volume(make_box()), 8.0, 1e-6);
+    EXPECT_NEAR(volume(make_ball(0)), 2.53615, 1e-4);   // icosahedron of circumradius 1
+    EXPECT_NEAR(volume(make_ball(4)), 4.18879, 0.02);   // 4 pi / 3
+    EXPECT_EQ(make_ball(3).indices.size(), 3u * 20u * 64u);
+    EXPECT_NEAR(volume(make_cylinder(256)), 4.0 * 3.14159265 / 3.0, 1e-3);   // the mantle's share: two thirds of 2 pi
+}
+
+TEST(SkyOpenness, AWallTakesTheShareOfTheFormula) {
+    // Ground point at distance x from a wall much higher than the reach h: d(p + n h_k) = x.
+    Occluder wall{};
+    wall.center.setZero();
+    wall.to_local.setIdentity();
+    wall.half_size = {1.0f, 50.0f, 50.0f};
+    wall.reach = 0.5f;
+    SurfacePoints points;
+    for (const float x : {0.0f, 0.05f, 0.3f, 0.6f}) points.add({1.0f + x, 0.0f, 0.0f}, Eigen::Vector3f::UnitY());
+    darken(points, wall, 1e9f);
+    std::size_t i = 0;
+    for (const float x : {0.0f, 0.05f, 0.3f, 0.6f}) {
+        const auto share = [&](float h) { return std::max(0.0f, 1.0f - x / h); };
+        const float closed = 0.5f * (share(near_probe * 0.5f) + share(0.5f));
+        EXPECT_NEAR(points.open[i++], 1.0f - occlusion_strength * closed, 1e-6f) << x;
+    }
+}
+
+TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
+    Occluder box{};
+    box.center.setZero();
+    box.to_local.setIdentity();
+    box.half_size = {0.5f, 0.5f, 0.5f};
+    box.reach = 0.5f;
+    SurfacePoints points;
+    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());    // the top of a neighbour of the same height
+    points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());     // turned away
+    darken(points, box, 0.5f);
+    EXPECT_NEAR(points.open[0], 1.0f, 0.01f);
+    EXPECT_EQ(points.open[1], 1.0f);
+}
+
+TEST(SkyOpenness, FarPairsAreRejectedOnlyWhenNothingIsLost) {
+    std::mt19937 engine(3);
+    const auto random = [&](float low, float high) { return low + (high - low) * float(double(engine()) / 4294967296.0); };
+    int rejected = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        Occluder box{};
+        box.to_local = Quat(Eigen::AngleAxisd(random(0, 6), Vec3(0.3, 0.5, 0.8).normalized())).toRotationMatrix().cast<float>();
+        box.half_size = {random(0.1f, 1.0f), random(0.1f, 1.0f), random(0.1f, 1.0f)};
+        box.reach = random(0.1f, 1.0f);
+        box.center = {random(-3, 3), random(-3, 3), random(-3, 3)};
+        const float radius = random(0.1f, 1.0f), reach = random(0.1f, 1.0f);
+        if (may_darken(box, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), radius, reach)) continue;
+        ++rejected;
+        SurfacePoints points;
+        for (int i = 0; i < 30; ++i) {
+            const float angle = random(0, 6.2831853f);
+            points.add(Eigen::Vector3f(std::cos(angle), std::sin(angle), 0) * random(0, radius), Eigen::Vector3f::UnitZ());
+        }
+        darken(points, box, reach);
+        for (const float open : points.open) EXPECT_EQ(open, 1.0f);
+    }
+    EXPECT_GT(rejected, 200);
+}
+
+TEST(OccluderFinder, FindsWhatComparingAllFinds) {
+    std::mt19937 engine(5);
+    const auto random = [&](float low, float high) { return low + (high - low) * float(double(engine()) / 4294967296.0); };
+    std::vector<Occluder> occluders(300);
+    for (std::size_t i = 0; i < occluders.size(); ++i) {
+        occluders[i].center = {random(-20, 20), random(0, 5), random(-20, 20)};
+        occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);   // some plates among the crates
+        occluders[i].reach = random(0.1f, 0.6f);
+        occluders[i].body = i;
+    }
+    const OccluderFinder finder(occluders);
+    std::vector<std::size_t> found;
+    for (int trial = 0; trial < 200; ++trial) {
+        const Eigen::Vector3f center(random(-25, 25), random(-2, 8), random(-25, 25));
+        const float radius = trial % 20 == 0 ? 60.0f : random(0.0f, 2.0f);
+        finder.find(center, radius, found);
+        std::vector<std::size_t> expected;
+        for (std::size_t i = 0; i < occluders.size(); ++i) {
+            const float near = occluders[i].bound_radius + 2.0f * occluders[i].reach + radius;
+            if ((occluders[i].center - center).squaredNorm() < near * near) expected.push_back(i);
+        }
+        EXPECT_EQ(found, expected);
+    }
+}
+
+TEST(MeshOccluders, StayInsideAndLeaveTheHoleFree) {
+    const auto torus = torus_asset(1.0, 0.3);
+    const std::vector<OccluderBox> boxes = make_mesh_occluders(torus->surface);
+    ASSERT_FALSE(boxes.empty());
+    EXPECT_LE(boxes.size(), 16u);
+    double volume = 0.0;
+    for (const OccluderBox& box : boxes) {
+        volume += 8.0 * box.half_size.prod();
+        EXPECT_GT(std::hypot(box.center.x(), box.center.z()), 0.6) << "in the hole";
+        EXPECT_LT(std::hypot(box.center.x(), box.center.z()), 1.4) << "outside";
+    }
+    const double solid = 2.0 * 3.14159265 * 3.14159265 * 1.0 * 0.3 * 0.3;   // 2 pi^2 R r^2
+    EXPECT_GT(volume, 0.4 * solid);
+    EXPECT_LT(volume, 1.2 * solid);
+
+    TriangleMesh open = torus->surface;
+    open.triangles.pop_back();
+    EXPECT_TRUE(make_mesh_occluders(open).empty());
+}
+
+TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {ground_plane()};
+    const SceneLooks looks = make_scene_looks(scene);
+    const CameraView view(scene.camera, 320, 180);   // level, eye at height 1: the horizon is the middle row
+    const std::vector<PlanePatch> patches = make_plane_patches(looks, first_snapshot(scene), view, 0.01);
+    ASSERT_EQ(patches.size(), 1u);
+    EXPECT_DOUBLE_EQ(patches[0].height, 1.0);
+    for (const glm::vec3& corner : patches[0].corners) {
+        EXPECT_GE(corner.y, -1e-6f);   // the picture's lower half, drawn with the first row at -1
+        // z = 1 - 2 near / depth; the lowest row sees the ground at depth 1 / tan(20 degrees)
+        const double depth = corner.y > 0.5f ? 1.0 / std::tan(20.0 * 3.14159265358979 / 180.0) : INFINITY;
+        EXPECT_NEAR(corner.z, 1.0 - 0.02 / depth, 1e-6);
+    }
+    scene.camera.eye.y() = scene.camera.target.y() = -1.0;   // from below one looks through
+    EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), CameraView(scene.camera, 320, 180), 0.01).empty());
+}
+
+TEST(PlanePatch, CellsAreRoundNumbers) {
+    EXPECT_DOUBLE_EQ(pattern_cell(15.0), 1.0);
+    EXPECT_NEAR(pattern_cell(0.015), 1e-3, 1e-12);
+    EXPECT_DOUBLE_EQ(pattern_cell(30.0), 2.0);
+    EXPECT_DOUBLE_EQ(pattern_cell(80.0), 5.0);
+    EXPECT_DOUBLE_EQ(pattern_cell(15000.0), 1000.0);
+}
+
+TEST(ShadowFit, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
+    const SceneDescription scene = heap_scene(50);
+    const SceneLooks looks = make_scene_looks(scene);
+    const CameraView view(scene.camera, 1280, 720);
+    const ShadowStage stage(scene, looks, view, 1024);
+    Snapshot snapshot = first_snapshot(scene);
+    const ShadowFit rest = stage.fit(looks, snapshot, view);
+    EXPECT_FALSE(rest.has_far);
+    snapshot.bodies[3].origin += Vec3(0.3, 0.2, -0.1);
+    const ShadowFit moved_a_little = stage.fit(looks, snapshot, view);
+    EXPECT_EQ(rest.x, moved_a_little.x);
+    EXPECT_EQ(rest.y, moved_a_little.y);
+    EXPECT_EQ(rest.z, moved_a_little.z);
+    snapshot.bodies[3].origin = Vec3(-25.0, 1.0, -30.0);
+    const ShadowFit flown = stage.fit(looks, snapshot, view);
+    EXPECT_EQ(rest.x, flown.x);
+    EXPECT_EQ(rest.y, flown.y);
+    ASSERT_TRUE(flown.has_far);
+    const double growth = flown.far_texel / flown.near_texel;
+    EXPECT_EQ(growth, std::exp2(std::round(std::log2(growth))));
+    // every body lies in one of the two maps
+    for (std::size_t i = 1; i < snapshot.bodies.size(); ++i) {
+        const Vec3 p = view.relative(snapshot.bodies[i].origin);
+        const glm::vec4 at(float(p.x()), float(p.y()), float(p.z()), 1.0f);
+        const auto row = [&](const glm::vec4& r) { return r.x * at.x + r.y * at.y + r.z * at.z + r.w; };
+        for (const float value : {row(flown.x), row(flown.y)}) {
+            const float far = value * flown.far.x + flown.far.y;
+            EXPECT_TRUE(far > 0.0f && far < 1.0f) << i;
+        }
+        EXPECT_TRUE(row(flown.z) > 0.0f && row(flown.z) < 1.0f) << i;
+    }
+}
+
+TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
+    SceneDescription scene = heap_scene(30);
+    scene.bodies.push_back(box_body(scene.camera.eye + Vec3(0.0, 0.0, 30.0), Vec3::Ones(), {1, 2, 3}));
+    const SceneLooks looks = make_scene_looks(scene);
+    const CameraView view(scene.camera, 1280, 720);
+    OcclusionAtlas atlas;
+    atlas.places.resize(scene.bodies.size());
+    const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view, atlas);
+    ASSERT_EQ(list.visible.size(), 1u);
+    EXPECT_EQ(list.visible[0].mesh, box_mesh);
+    EXPECT_EQ(list.visible[0].count, 30u);
+    for (std::size_t i = 1; i < list.visible[0].count; ++i) {
+        const auto distance = [&](std::size_t k) {
+            const glm::vec4& p = list.instances[list.visible[0].first + k].position;
+            return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+        };
+        EXPECT_LE(distance(i - 1), distance(i) + 1e-4f);
+    }
+}
+
+}  // namespace
+}  // namespace tumble

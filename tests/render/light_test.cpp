@@ -1,0 +1,151 @@
+// Light: colours come out as they were given, shadows lie where geometry puts them, contact is dark.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+SceneDescription shadow_scene() {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.camera.eye = Vec3(0.0, 5.0, 9.0);
+    scene.camera.target = Vec3(0.0, 0.5, 0.0);
+    scene.light.direction = Vec3(-0.5, -1.0, 0.0);
+    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain),
+                    box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {200, 133, 60})};
+    return scene;
+}
+
+// With the shading left out, what is on the screen is the scene file's colour: decoded and encoded exactly once.
+TEST(Light, UnlitColorsComeBackAsGiven) {
+    ShaderCopy shaders;
+    shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_color.rgb), 1.0); // ");
+    for (const Color color : {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
+        SceneDescription scene = empty_scene();
+        scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), color)};
+        const Image image = drawn(scene, shaders.options());
+        const std::uint8_t* pixel = image.at(160, 90);
+        EXPECT_NEAR(pixel[0], color.r, 1);
+        EXPECT_NEAR(pixel[1], color.g, 1);
+        EXPECT_NEAR(pixel[2], color.b, 1);
+    }
+}
+
+TEST(Light, AFaceInTheSunLooksLikeItsColor) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(0.0, 4.0, 4.0);
+    scene.camera.target = Vec3(0.0, 0.0, 0.0);
+    scene.light.direction = Vec3(0.3, -1.0, -0.2);
+    scene.bodies = {box_body(Vec3(0.0, -0.5, 0.0), Vec3(3.0, 1.0, 3.0), {0xc8, 0x85, 0x3c})};
+    const Image image = drawn(scene);
+    const std::uint8_t* pixel = image.at(160, 80);
+    EXPECT_NEAR(pixel[0], 0xc8, 20);
+    EXPECT_NEAR(pixel[1], 0x85, 20);
+    EXPECT_NEAR(pixel[2], 0x3c, 32);
+}
+
+// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) takes a point at height y to x - y / 2. Its shadow on
+// the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
+TEST(Light, AShadowLiesWhereGeometryPutsIt) {
+    const SceneDescription scene = shadow_scene();
+    const Image image = drawn(scene);
+    const double bright = brightness_at(image, scene, Vec3(1.5, 0.0, 1.5));
+    for (const Vec3& inside : {Vec3(-1.0, 0, 0), Vec3(-1.69, 0, 0), Vec3(-0.31, 0, 0), Vec3(-1.0, 0, 0.44)})
+        EXPECT_LT(brightness_at(image, scene, inside), 0.75 * bright) << inside.transpose();
+    for (const Vec3& outside : {Vec3(-1.81, 0, 0), Vec3(-0.19, 0, 0), Vec3(-1.0, 0, 0.56), Vec3(-1.0, 0, -0.56)})
+        EXPECT_GT(brightness_at(image, scene, outside), 0.97 * bright) << outside.transpose();
+}
+
+TEST(Light, ShadowsCanBeTurnedOff) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    const Image image = drawn(scene);
+    EXPECT_NEAR(brightness_at(image, scene, Vec3(-1.0, 0, 0)), brightness_at(image, scene, Vec3(1.0, 0, 1.0)), 2.0);
+}
+
+TEST(Light, AFlyingBodyKeepsItsShadow) {
+    SceneDescription scene = shadow_scene();
+    scene.camera.eye = Vec3(0.0, 30.0, 60.0);
+    Snapshot snapshot = first_snapshot(scene);
+    snapshot.bodies[1].origin = Vec3(20.0, 6.0, -10.0);   // far outside of what the near map was fitted to
+    const Image image = drawn(scene, snapshot);
+    const double bright = brightness_at(image, scene, Vec3(20.0, 0.0, -10.0));
+    EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
+}
+
+// No acne: a ball and a box in full sun have no dark speckles on the sides turned to it.
+TEST(Light, LitFacesAreNotShadowedByThemselves) {
+    SceneDescription scene = shadow_scene();
+    scene.light.direction = Vec3(0.2, -0.5, -1.0);
+    scene.bodies[1] = box_body(Vec3(0.0, 0.5, 0.0), Vec3(3.0, 1.0, 1.0), {200, 200, 200});
+    const Image with = drawn(scene);
+    scene.light.shadows = false;
+    const Image without = drawn(scene);
+    for (double x = -1.35; x <= 1.35; x += 0.03)
+        for (double z = -0.4; z <= 0.4; z += 0.05)
+            EXPECT_NEAR(brightness_at(with, scene, Vec3(x, 1.0, z)), brightness_at(without, scene, Vec3(x, 1.0, z)), 1.0);
+}
+
+TEST(Light, ContactIsDarkAndItsDarknessEnds) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    scene.bodies[1].position.y() = 0.5;
+    const Image image = drawn(scene);
+    const double open = brightness_at(image, scene, Vec3(3.0, 0.0, 1.0));
+    double last = 0.0;
+    for (const double gap : {0.05, 0.2, 0.4}) {
+        const double here = brightness_at(image, scene, Vec3(0.0, 0.0, 0.5 + gap));
+        EXPECT_GT(here, last);
+        last = here;
+    }
+    EXPECT_LT(brightness_at(image, scene, Vec3(0.0, 0.0, 0.55)), 0.92 * open);
+    EXPECT_NEAR(brightness_at(image, scene, Vec3(0.0, 0.0, 1.2)), open, 2.0);
+}
+
+// Where nothing changes, no pixel changes: neither shadow texels nor depths nor darkening follow a body elsewhere.
+TEST(Light, RestingThingsStayStillWhileOthersFly) {
+    SceneDescription scene = shadow_scene();
+    scene.bodies[1].position.y() = 0.5;
+    scene.bodies.push_back(ball_body(Vec3(3.0, 0.4, -1.0), 0.4, {80, 180, 90}));
+    Snapshot snapshot = first_snapshot(scene);
+    const Image before = drawn(scene, snapshot);
+    for (const Vec3& place : {Vec3(2.73, 0.61, -1.4), Vec3(4.6, 2.9, 0.3), Vec3(40.0, 9.0, -30.0)}) {
+        snapshot.bodies[2].origin = place;
+        const Image after = drawn(scene, snapshot);
+        int changed = 0;
+        for (int y = 100; y < 330; ++y)
+            for (int x = 200; x < 390; ++x)
+                for (int channel = 0; channel < 3; ++channel)
+                    changed += before.at(x, y)[channel] != after.at(x, y)[channel] ? 1 : 0;
+        EXPECT_EQ(changed, 0) << "with the ball at " << place.transpose();
+    }
+}
+
+// The plane's cheap shader takes over where neither shadow nor darkening reaches: to the same result.
+TEST(Light, ThePlaneHasNoSeamWhereNothingTouchesIt) {
+    SceneDescription scene = shadow_scene();
+    const Image with = drawn(scene);
+    scene.bodies.pop_back();
+    const Image without = drawn(scene);
+    int least_x = 640, most_x = -1, faint = 0;
+    for (int y = 0; y < with.height; ++y)
+        for (int x = 0; x < with.width; ++x) {
+            int difference = 0;
+            for (int channel = 0; channel < 3; ++channel)
+                difference = std::max(difference, std::abs(with.at(x, y)[channel] - without.at(x, y)[channel]));
+            if (difference == 0) continue;
+            least_x = std::min(least_x, x);
+            most_x = std::max(most_x, x);
+            faint += x < 140 || x > 420 ? 1 : 0;
+        }
+    EXPECT_GT(most_x, least_x) << "the box and its shadow must show";
+    EXPECT_EQ(faint, 0) << "columns " << least_x << " to " << most_x << " changed";
+}
+
+}  // namespace
+}  // namespace tumble

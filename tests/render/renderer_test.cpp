@@ -1,0 +1,173 @@
+// Where things land in the picture, and that the same picture comes out every time and by either way in.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace tumble {
+namespace {
+
+SceneDescription mixed_scene() {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(2.0, 2.0, 6.0);
+    scene.camera.target = Vec3(0.0, 0.5, 0.0);
+    const Quat tilt(Eigen::AngleAxisd(0.4, Vec3(1.0, 1.0, 0.0).normalized()));
+    scene.bodies = {ground_plane(), box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 133, 60}),
+                    box_body(Vec3(-0.2, 1.4, 0.1), Vec3(0.8, 0.6, 0.7), {60, 133, 200}, tilt),
+                    ball_body(Vec3(1.2, 0.4, 0.8), 0.4, {80, 180, 90}, tilt),
+                    mesh_body(Vec3(-1.4, 0.25, 1.0), torus_asset(0.5, 0.2), {210, 80, 90})};
+    scene.cords.push_back({3, Vec3::Zero(), Vec3(1.2, 3.0, 0.8), 0.02, {60, 60, 60}});
+    return scene;
+}
+
+TEST(Renderer, DrawsTheSameBytesTwice) {
+    const SceneDescription scene = mixed_scene();
+    const Snapshot snapshot = first_snapshot(scene);
+    Renderer first(scene, {});
+    Image once, again;
+    first.render(snapshot, once);
+    first.render(snapshot, again);
+    EXPECT_EQ(once, again) << "a frame depends on the one before";
+    EXPECT_EQ(once, drawn(scene)) << "a renderer depends on the one before";
+}
+
+TEST(Renderer, DoesNotRememberOtherFrames) {
+    const SceneDescription scene = mixed_scene();
+    Snapshot away = first_snapshot(scene);
+    for (std::size_t i = 1; i < away.bodies.size(); ++i) away.bodies[i].origin += Vec3(3.0, 40.0, 2.0) * double(i);
+    Renderer renderer(scene, {});
+    Image image;
+    renderer.render(away, image);
+    renderer.render(first_snapshot(scene), image);
+    EXPECT_EQ(image, drawn(scene));
+}
+
+TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
+    for (const int samples : {1, 4}) {
+        SceneDescription scene = mixed_scene();
+        scene.output.samples = samples;
+        std::unique_ptr<Renderer> egl;
+        try {
+            egl = std::make_unique<Renderer>(scene, RenderOptions{GlBackend::egl, {}});
+        } catch (const RunError& failure) {
+            GTEST_SKIP() << "no EGL here: " << failure.what();
+        }
+        if (egl->driver().find("llvmpipe") == std::string::npos) GTEST_SKIP() << "EGL draws with " << egl->driver();
+        Image image;
+        egl->render(first_snapshot(scene), image);
+        egl.reset();
+        EXPECT_EQ(image, drawn(scene)) << samples << " samples";
+    }
+}
+
+TEST(Renderer, NamesItsDriver) {
+    Renderer renderer(empty_scene(), {});
+    EXPECT_NE(renderer.driver().find("OpenGL"), std::string::npos) << renderer.driver();
+}
+
+TEST(Renderer, HasTheSkyAboveTheGroundAndTopRowFirst) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {220, 30, 30}),
+                    box_body(Vec3(0.0, 0.0, 0.0), Vec3::Ones(), {30, 30, 220}),
+                    box_body(Vec3(1.5, 1.0, 0.0), Vec3::Ones(), {30, 220, 30})};
+    const Image image = drawn(scene);
+    ASSERT_EQ(image.width, 320);
+    ASSERT_EQ(image.height, 180);
+    const std::uint8_t *above = image.at(160, 90 - 31), *below = image.at(160, 90 + 31), *right = image.at(160 + 46, 90);
+    EXPECT_GT(above[0], above[2] + 40);
+    EXPECT_GT(below[2], below[0] + 40);
+    EXPECT_GT(right[1], right[0] + 40);
+    EXPECT_EQ(above[3], 255);
+}
+
+// The pinhole formula of camera_view.h: a small ball's middle is where it says, to a pixel.
+TEST(Renderer, PutsThingsWhereThePinholeFormulaSays) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(3.0, 2.5, 5.0);
+    scene.camera.target = Vec3(0.2, 0.4, -0.3);
+    scene.light.shadows = false;
+    const Vec3 f = (scene.camera.target - scene.camera.eye).normalized(), r = f.cross(Vec3::UnitY()).normalized();
+    const Vec3 u = r.cross(f);
+    const double t = std::tan(0.5 * scene.camera.vertical_fov * 3.14159265358979 / 180.0), aspect = 320.0 / 180.0;
+    for (const Vec3& p : {Vec3(0.0, 0.0, 0.0), Vec3(-1.5, 1.2, -0.5), Vec3(1.0, -0.4, 1.0), Vec3(-3.0, 0.0, -4.0)}) {
+        scene.bodies = {ball_body(p, 0.06, {250, 0, 0})};
+        const Image image = drawn(scene);
+        double sum = 0.0, x = 0.0, y = 0.0;
+        for (int row = 0; row < image.height; ++row)
+            for (int column = 0; column < image.width; ++column) {
+                const std::uint8_t* c = image.at(column, row);
+                const double redness = std::max(0.0, double(c[0]) - double(c[2]));
+                sum += redness;
+                x += redness * (column + 0.5);
+                y += redness * (row + 0.5);
+            }
+        ASSERT_GT(sum, 100.0);
+        const Vec3 d = p - scene.camera.eye;
+        EXPECT_NEAR(x / sum, 160.0 * (1.0 + d.dot(r) / (aspect * t * d.dot(f))), 1.0);
+        EXPECT_NEAR(y / sum, 90.0 * (1.0 - d.dot(u) / (t * d.dot(f))), 1.0);
+    }
+}
+
+TEST(Renderer, FarFromTheOriginDrawsTheSame) {
+    SceneDescription scene = mixed_scene();
+    scene.cords.clear();
+    const Image here = drawn(scene), there = drawn(moved(scene, Vec3(4e6, 0.0, -2e6)));   // even cells of the grid
+    int different = 0;
+    for (std::size_t i = 0; i < here.pixels.size(); ++i)
+        different += std::abs(int(here.pixels[i]) - int(there.pixels[i])) > 8 ? 1 : 0;
+    EXPECT_LT(different, 150) << "of " << here.pixels.size();
+}
+
+// With everything white before black, a pixel is the share of its samples that are covered.
+TEST(Renderer, AveragesTheSamplesOfAPixel) {
+    ShaderCopy shaders;
+    shaders.replace("box.frag", "pixel = ", "pixel = vec4(1.0); // ");
+    shaders.replace("sky.frag", "pixel = ", "pixel = vec4(0.0, 0.0, 0.0, 1.0); // ");
+    SceneDescription scene = empty_scene();
+    scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3(2.0, 2.0, 2.0), {255, 255, 255},
+                             Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
+    for (const int samples : {1, 4}) {   // llvmpipe has no other numbers: 2 are drawn as 4
+        scene.output.samples = samples;
+        const Image image = drawn(scene, shaders.options());
+        std::set<int> values;
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4) values.insert(image.pixels[i]);
+        EXPECT_EQ(int(values.size()), samples + 1);
+        for (const int value : values) {
+            const double covered = value * samples / 255.0;
+            EXPECT_NEAR(covered, std::round(covered), 0.02) << value;
+        }
+    }
+}
+
+TEST(Renderer, HidesInvisibleBodiesAndDrawsNothingBehindTheEye) {
+    SceneDescription scene = empty_scene();
+    const Image nothing = drawn(scene);
+    scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {200, 30, 30}),
+                    box_body(Vec3(0.0, 1.0, 16.0), Vec3::Ones(), {200, 30, 30})};
+    scene.bodies[0].surface.visible = false;
+    EXPECT_EQ(drawn(scene), nothing);
+}
+
+TEST(Renderer, TurnsWithTheBody) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3(4.0, 0.4, 0.4), {220, 30, 30},
+                             Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ())))};
+    const Image image = drawn(scene);
+    const auto red = [&](int x, int y) { return image.at(x, y)[0] > image.at(x, y)[2] + 60; };
+    EXPECT_TRUE(red(160, 90 - 45));
+    EXPECT_TRUE(red(160, 90 + 45));
+    EXPECT_FALSE(red(160 - 45, 90));
+}
+
+TEST(Renderer, RefusesAPictureThatTheDriverCannotHold) {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 1 << 20;
+    EXPECT_THROW(Renderer(scene, {}), RunError);
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,86 @@
+// Shaders as files: found, put together, and complained about by name.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include "core/error.h"
+#include "render/shader_source.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace tumble {
+namespace {
+
+std::string failure(const RenderOptions& options) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {box_body(Vec3::Zero(), Vec3::Ones(), {200, 200, 200})};
+    try {
+        Renderer renderer(scene, options);
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Shaders, ABrokenOneIsNamedWithItsLine) {
+    ShaderCopy shaders;
+    const int line = shaders.replace("box.frag", "vec3 albedo = v_color.rgb;", "vec3 albedo = nonsense;");
+    const std::string message = failure(shaders.options());
+    EXPECT_NE(message.find((shaders.folder() / "box.frag").string() + ":" + std::to_string(line)), std::string::npos)
+        << message;
+    EXPECT_NE(message.find("nonsense"), std::string::npos) << message;
+}
+
+TEST(Shaders, ABrokenIncludedFileIsNamedToo) {
+    ShaderCopy shaders;
+    const int line = shaders.replace("lighting.glsl", "float a2 = a * a;", "float a2 = missing_name;");
+    const std::string message = failure(shaders.options());
+    EXPECT_NE(message.find("lighting.glsl:" + std::to_string(line)), std::string::npos) << message;
+}
+
+TEST(Shaders, AMissingOneIsNamedWithWhoWantedIt) {
+    ShaderCopy shaders;
+    shaders.remove("shadow.glsl");
+    const std::string message = failure(shaders.options());
+    EXPECT_NE(message.find("shadow.glsl"), std::string::npos) << message;
+    EXPECT_NE(message.find("lighting.glsl"), std::string::npos) << message;
+}
+
+TEST(Shaders, AMissingFolderIsNamed) {
+    const std::string message = failure({GlBackend::osmesa, "/nowhere/at/all"});
+    EXPECT_NE(message.find("/nowhere/at/all"), std::string::npos) << message;
+}
+
+TEST(Shaders, AreFoundInTheSourceTreeOrWhereTheVariableSays) {
+    unsetenv("TUMBLE_SHADERS");
+    EXPECT_TRUE(std::filesystem::exists(find_shader_folder() / "look.glsl"));
+    ShaderCopy shaders;
+    setenv("TUMBLE_SHADERS", shaders.folder().c_str(), 1);
+    EXPECT_EQ(find_shader_folder(), shaders.folder());
+    setenv("TUMBLE_SHADERS", "/nowhere/at/all", 1);
+    try {
+        find_shader_folder();
+        ADD_FAILURE() << "a folder that is not there was accepted";
+    } catch (const RunError& error) {
+        EXPECT_NE(std::string(error.what()).find("/nowhere/at/all"), std::string::npos);
+    }
+    unsetenv("TUMBLE_SHADERS");
+}
+
+TEST(Shaders, DefinesComeAfterTheVersionAndFilesOnce) {
+    ShaderCopy shaders;
+    const ShaderSource source = read_shader(shaders.folder(), "box.frag", {"NUMBER 5"});
+    EXPECT_EQ(source.text.rfind("#version", 0), 0u);
+    EXPECT_EQ(source.text.find("#define NUMBER 5"), source.text.find('\n') + 1);
+    std::size_t times = 0;
+    for (std::size_t at = source.text.find("layout(std140)"); at != std::string::npos;
+         at = source.text.find("layout(std140)", at + 1))
+        ++times;
+    EXPECT_EQ(times, 1u);
+    EXPECT_EQ(source.with_file_names("0:3(3): error: x\n"), source.files[1].string() + ":1(3): error: x\n");
+    EXPECT_EQ(source.with_file_names("note 0:7\n"), "note 0:7\n");
+}
+
+}  // namespace
+}  // namespace tumble
