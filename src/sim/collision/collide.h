@@ -5,6 +5,7 @@
 #include "sim/collision/collider.h"
 #include "sim/collision/manifold.h"
 
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -22,6 +23,7 @@ struct CollisionScratch {
         Vec3 point;
     };
     std::vector<SurfaceHit> hits;
+    std::vector<std::pair<std::uint32_t, double>> at_edges, at_vertices;
     std::vector<std::uint32_t> used_vertices, used_edges;
 };
 

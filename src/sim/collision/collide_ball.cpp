@@ -15,27 +15,30 @@ void add_point(const Vec3& normal, const Vec3& position, double separation, std:
     out.push_back(m);
 }
 
+struct Nearest {
+    Vec3 point = Vec3::Zero();
+    bool inside = false;   // the face; else on its border
+};
+
 // The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
-Vec3 nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, const Vec3& p) {
+Nearest nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, const Vec3& p) {
     const Vec3 foot = p - (face.normal.dot(p) - face.offset) * face.normal;
-    bool inside = true;
     double best = std::numeric_limits<double>::infinity();
-    Vec3 nearest = foot;
+    Nearest nearest{foot, true};
     const std::size_t n = face.vertices.size();
     for (std::size_t i = 0; i < n; ++i) {
         const Vec3 &a = shape.vertices[face.vertices[i]], &b = shape.vertices[face.vertices[(i + 1) % n]];
         const Vec3 edge = b - a;
         if (edge.cross(face.normal).dot(foot - a) <= 0.0) continue;
-        inside = false;
         const double t = std::clamp(edge.dot(foot - a) / edge.squaredNorm(), 0.0, 1.0);
         const Vec3 candidate = a + t * edge;
         const double d = (candidate - p).squaredNorm();
         if (d < best) {
             best = d;
-            nearest = candidate;
+            nearest = {candidate, false};
         }
     }
-    return inside ? foot : nearest;
+    return nearest;
 }
 
 }  // namespace
@@ -55,7 +58,8 @@ void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose&
     const double reach = a.radius + b.radius + margin;
     if (d.squaredNorm() > reach * reach) return;
     const double distance = d.norm();
-    const Vec3 normal = distance > 0.0 ? Vec3(d / distance) : Vec3::UnitY();   // same centre: any way is as good
+    // Same centre, or so near that the squares underflow: any way is as good.
+    const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
     add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
 }
@@ -83,22 +87,25 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     }
     // Only faces seen from the centre can hold the nearest point.
     double best = std::numeric_limits<double>::infinity();
-    Vec3 nearest = Vec3::Zero();
+    Nearest nearest;
     for (const Polyhedron::Face& f : a.faces) {
         const double d = f.normal.dot(center) - f.offset;
         if (d <= 0.0 || d * d >= best) continue;
-        const Vec3 p = nearest_on_face(a, f, center);
-        const double square = (center - p).squaredNorm();
+        const Nearest candidate = nearest_on_face(a, f, center);
+        const double square = candidate.inside ? d * d : (center - candidate.point).squaredNorm();
         if (square < best) {
             best = square;
-            nearest = p;
+            nearest = candidate;
+            face = &f;
         }
     }
     const double distance = std::sqrt(best);
     if (distance > reach) return;
-    const Vec3 normal = pose_a.rotation * ((center - nearest) / distance);
+    // Over a face its own normal, and so on its border too when rounding has left no direction.
+    const bool of_face = nearest.inside || distance <= 1e-12 * a.radius;
+    const Vec3 normal = pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
     const double separation = distance - b.radius;
-    add_point(normal, pose_a.to_world(nearest) + 0.5 * separation * normal, separation, out);
+    add_point(normal, pose_a.to_world(nearest.point) + 0.5 * separation * normal, separation, out);
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,

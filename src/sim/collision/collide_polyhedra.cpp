@@ -45,11 +45,6 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
     }
 }
 
-bool contains(const Polyhedron& shape, const Vec3& p, double slack) {
-    return std::all_of(shape.faces.begin(), shape.faces.end(),
-                       [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + slack; });
-}
-
 // Whether some contact point lies in both shapes: proof that they do overlap.
 bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
     const double slack = axis_preference(std::min(a.radius, b.radius));

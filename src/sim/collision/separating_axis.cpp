@@ -58,12 +58,9 @@ bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0;
 }
 
-// The edges of a contact have points a and b = a + s n with s the separation: a lies within |s| of B, b of A. The best
-// face bounds s from below, the margin from above; edges farther than both from the other shape's bounds are left out.
 void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, EdgeSearch search,
                   CollisionScratch& scratch, double& best, SeparatingAxis& axis) {
-    const double way = search == EdgeSearch::all ? std::numeric_limits<double>::infinity()
-                                                 : std::max(margin, -axis.separation);
+    const double way = edge_reach(search, margin, axis.separation);
     const Bounds in_a = turned(b.bounds, b_in_a).grown(way), in_b = turned(a.bounds, inverse(b_in_a)).grown(way);
     edges_in(a, in_a, scratch.edges_a);
     edges_in(b, in_b, scratch.edges_b);
@@ -140,7 +137,16 @@ void search_box_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in
 
 }  // namespace
 
+double edge_reach(EdgeSearch search, double margin, double best_separation) {
+    return search == EdgeSearch::all ? std::numeric_limits<double>::infinity() : std::max(margin, -best_separation);
+}
+
 double axis_preference(double smaller_radius) { return 1e-3 * smaller_radius; }
+
+bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
+    return std::all_of(shape.faces.begin(), shape.faces.end(),
+                       [&](const Polyhedron::Face& f) { return f.normal.dot(point) <= f.offset + slack; });
+}
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch) {

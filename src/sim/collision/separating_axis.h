@@ -21,6 +21,11 @@ struct SeparatingAxis {
 /// the time of all pairs of edges.
 enum class EdgeSearch { nearby, all };
 
+/// How far (m) beyond the other shape's bounds edges are looked at, for the best separation known so far. The edges of a
+/// contact have points a and b = a + s n with s their separation: a lies within |s| of B, b of A. The best axis so far
+/// bounds s from below, the margin from above.
+double edge_reach(EdgeSearch search, double margin, double best_separation);
+
 /// `b_in_a` is B's pose in A's frame.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch);
@@ -28,5 +33,8 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
 /// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's: for shapes of this
 /// size the choice then stays the same from step to step.
 double axis_preference(double smaller_radius);
+
+/// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
+bool contains(const Polyhedron& shape, const Vec3& point, double slack);
 
 }  // namespace tumble

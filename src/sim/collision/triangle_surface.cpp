@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace tumble {
@@ -26,10 +27,8 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         triangle.normal = n.normalized();
         Bounds box;
         for (int i = 0; i < 3; ++i) {
-            const Vec3 &p = s.vertices[t[i]], &q = s.vertices[t[(i + 1) % 3]];
-            triangle.outward[i] = (q - p).cross(triangle.normal).normalized();
             users[std::minmax(t[i], t[(i + 1) % 3])].emplace_back(std::uint32_t(s.triangles.size()), i);
-            box.add(p);
+            box.add(s.vertices[t[i]]);
         }
         s.triangles.push_back(triangle);
         bounds.push_back(box);
@@ -39,26 +38,45 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         for (const auto& [t, i] : list) s.triangles[t].edge[i] = s.edge_count;
         ++s.edge_count;
         if (list.size() != 2) continue;
-        s.triangles[list[0].first].neighbour[list[0].second] = std::int32_t(list[1].first);
-        s.triangles[list[1].first].neighbour[list[1].second] = std::int32_t(list[0].first);
+        const auto opposite = [&](const std::pair<std::uint32_t, int>& user) {
+            return std::int32_t(s.triangles[user.first].vertices[(user.second + 2) % 3]);
+        };
+        s.triangles[list[0].first].across[list[0].second] = opposite(list[1]);
+        s.triangles[list[1].first].across[list[1].second] = opposite(list[0]);
+    }
+    s.ring_start.assign(s.vertices.size() + 1, 0);
+    for (const auto& [ends, list] : users)
+        for (const std::uint32_t v : {ends.first, ends.second}) ++s.ring_start[v + 1];
+    std::partial_sum(s.ring_start.begin(), s.ring_start.end(), s.ring_start.begin());
+    s.ring.resize(s.ring_start.back());
+    std::vector<std::uint32_t> next = s.ring_start;
+    for (const auto& [ends, list] : users) {
+        s.ring[next[ends.first]++] = ends.second;
+        s.ring[next[ends.second]++] = ends.first;
     }
     s.tree = BoundsTree(std::move(bounds));
     return s;
 }
 
-bool TriangleSurface::owns_normal(const Triangle& triangle, const Vec3& normal, double side) const {
+bool TriangleSurface::owns_normal(const Triangle& triangle, const Vec3& normal) const {
     constexpr double slack = 1e-9;   // sine of the angle forgiven to rounding
-    const double up = side * normal.dot(triangle.normal);
-    for (int i = 0; i < 3; ++i) {
-        const double lean = normal.dot(triangle.outward[i]);
-        if (lean <= slack) continue;
-        if (triangle.neighbour[i] < 0) continue;   // an open edge: any way over it
-        const Vec3 other = triangles[std::size_t(triangle.neighbour[i])].normal;
-        // Angles from this normal towards the edge, as (cosine, sine) pairs: ours must not pass the neighbour's.
-        const double other_up = other.dot(triangle.normal), other_lean = side * other.dot(triangle.outward[i]);
-        if (other_lean <= slack || lean * other_up > other_lean * up + slack) return false;
+    const auto farther = [&](std::uint32_t to, std::uint32_t from) {
+        const Vec3 way = vertices[to] - vertices[from];
+        return normal.dot(way) > slack * way.norm();
+    };
+    const auto& v = triangle.vertices;
+    std::size_t top = 0;
+    for (const std::size_t i : {1u, 2u})
+        if (farther(v[i], v[top])) top = i;
+    const std::size_t next = (top + 1) % 3, last = (top + 2) % 3;
+    const bool with_next = !farther(v[top], v[next]), with_last = !farther(v[top], v[last]);
+    if (with_next && with_last) return true;   // the triangle's own normal
+    if (with_next || with_last) {
+        const std::int32_t beyond = triangle.across[with_next ? top : last];
+        return beyond < 0 || !farther(std::uint32_t(beyond), v[top]);
     }
-    return true;
+    return std::none_of(ring.begin() + ring_start[v[top]], ring.begin() + ring_start[v[top] + 1],
+                        [&](std::uint32_t w) { return farther(w, v[top]); });
 }
 
 }  // namespace tumble

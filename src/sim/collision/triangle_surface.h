@@ -1,4 +1,4 @@
-// A fixed triangle mesh that collides as it is. Each triangle knows its neighbours' normals, so that a body sliding
+// A fixed triangle mesh that collides as it is. Each triangle knows what lies beyond its border, so that a body sliding
 // over a seam between two triangles is not caught by it.
 #pragma once
 
@@ -16,8 +16,8 @@ struct TriangleSurface {
     struct Triangle {
         std::array<std::uint32_t, 3> vertices{};
         Vec3 normal = Vec3::Zero();                       // unit, by the winding
-        std::array<Vec3, 3> outward{};                    // unit, in the plane, out over edge i (from vertex i to i + 1)
-        std::array<std::int32_t, 3> neighbour{-1, -1, -1};   // triangle over edge i; -1: open or crowded
+        // Corner opposite to edge i (from vertex i to i + 1) in the triangle beyond it; -1: the edge is open or crowded.
+        std::array<std::int32_t, 3> across{-1, -1, -1};
         std::array<std::uint32_t, 3> edge{};              // index of edge i, shared with the neighbour
     };
 
@@ -30,9 +30,12 @@ struct TriangleSurface {
 
     Vec3 corner(std::uint32_t triangle, int i) const { return vertices[triangles[triangle].vertices[std::size_t(i)]]; }
 
-    /// Whether a contact normal (from this surface outward, unit) belongs to a triangle: it may lean over an edge only as
-    /// far as a convex neighbour's normal. `side` is -1 when the back of an open surface is touched, else +1.
-    bool owns_normal(const Triangle& triangle, const Vec3& normal, double side) const;
+    /// Whether a contact normal (from this surface outward, unit) belongs to a triangle: beyond the part of the triangle
+    /// that lies farthest that way, a corner or an edge, the surface must not go on any farther.
+    bool owns_normal(const Triangle& triangle, const Vec3& normal) const;
+
+    // Vertices joined to vertex v by an edge: ring[ring_start[v]] up to ring[ring_start[v + 1]].
+    std::vector<std::uint32_t> ring_start, ring;
 };
 
 /// Throws InputError when no triangle has an area.
