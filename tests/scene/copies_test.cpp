@@ -139,18 +139,20 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             "position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3,
             shape);
         ASSERT_EQ(list.size(), 300u);
-        double nearest = 1e9;
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const Vec3 offset = list[i].position - Vec3(5, 10, 0);
+        std::vector<BoundingSphere> spheres;   // in the world
+        for (const BodyDescription& b : list) {
+            const Vec3 offset = b.position - Vec3(5, 10, 0);
             EXPECT_LE(std::fabs(offset.x()), 4.0);
             EXPECT_LE(std::fabs(offset.y()), 3.0);
             EXPECT_LE(std::fabs(offset.z()), 2.0);
-            const BoundingSphere a = bounding_sphere(list[i].shape);
+            const BoundingSphere own = bounding_sphere(b.shape);
+            spheres.push_back({b.position + b.rotation * own.center, own.radius});
+        }
+        double nearest = 1e9;
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
-                const BoundingSphere b = bounding_sphere(list[j].shape);
-                const Vec3 between =
-                    list[i].position + list[i].rotation * a.center - list[j].position - list[j].rotation * b.center;
-                nearest = std::min(nearest, between.norm() - a.radius - b.radius);
+                const double between = (spheres[i].center - spheres[j].center).norm();
+                nearest = std::min(nearest, between - spheres[i].radius - spheres[j].radius);
             }
         }
         EXPECT_GE(nearest, 0.05) << shape;

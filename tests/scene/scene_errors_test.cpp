@@ -53,6 +53,7 @@ TEST(SceneErrors, OfTheTextItself) {
         {"format = 1\nx = @= 2", "value"},
         {"format = 1\n[simulation]\nduration = 1\nduration = @2", "redefine"},
         {"format = 1\ntitle = \"open@", "end-of-file"},
+        {"format = 1\n[@?]", "expected bare key"},
         {"@", "format = 1"},
         {"@title = \"x\"", "format = 1"},
         {"format = @2", "format must be 1, the only one there is (given 2)"},
