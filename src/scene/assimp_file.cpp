@@ -1,5 +1,7 @@
 #include "scene/assimp_file.h"
 
+#include "scene/message_text.h"
+
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -36,12 +38,10 @@ Mat3 normal_transform(const Mat3& m) {
     return cofactors;
 }
 
-/// The beginning of a message in printable characters: assimp quotes the rest of the file in some of its own.
-std::string one_line(const std::string& message) {
-    constexpr std::size_t longest = 120;
-    std::string text = message.substr(0, longest);
-    for (char& c : text) if (c < 0x20 || c > 0x7e) c = ' ';   // plain ASCII: bytes of a binary file mean nothing
-    return message.size() > longest ? text + "..." : text;
+/// What assimp says, as far as one wants to read it: some of its messages quote the rest of the file, bytes and all.
+std::string readable(std::string message) {
+    for (char& c : message) if (static_cast<unsigned char>(c) > 0x7e) c = '?';
+    return one_line(message, 120);
 }
 
 void add_mesh(const aiMesh& mesh, const Transform& transform, bool with_normals, MeshFile& result) {
@@ -101,7 +101,7 @@ MeshFile read_with_assimp(const std::filesystem::path& file, bool with_normals) 
     } catch (const std::exception& error) {
         problem = error.what();
     }
-    if (!scene || !scene->mRootNode) throw MeshError("cannot be read: " + one_line(problem));
+    if (!scene || !scene->mRootNode) throw MeshError("cannot be read: " + readable(problem));
     MeshFile result;
     add_node(*scene->mRootNode, *scene, {}, with_normals, 0, result);
     return result;

@@ -1,10 +1,10 @@
 // What a number or a name may be, and the words for one that is not.
 #pragma once
 
+#include "scene/message_text.h"
 #include "scene/origin.h"
 
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,9 +25,6 @@ struct Range {
     std::string requirement() const;
 };
 
-/// A number as a message shows it: 16, 0.5, 1e+09, and all the digits that tell it from its neighbours.
-std::string number_text(double value);
-
 /// The value itself when it is in the range; otherwise fails at its origin.
 double checked(double value, const Range& range, const Origin& origin);
 std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const Origin& origin);
@@ -39,9 +36,6 @@ struct Choice {
     Value value;
 };
 
-/// `"plain", "grid", "checker"`.
-std::string quoted_list(const std::vector<std::string_view>& names);
-
 template <class Value>
 Value chosen(std::string_view given, std::span<const Choice<Value>> choices, const Origin& origin) {
     std::vector<std::string_view> names;
@@ -51,9 +45,5 @@ Value chosen(std::string_view given, std::span<const Choice<Value>> choices, con
     }
     origin.fail("must be one of " + quoted_list(names) + " (given \"" + std::string(given) + "\")");
 }
-
-/// ` (did you mean "duration"?)` when one of the known names is close to the given one; otherwise, when there are few
-/// enough to read, ` (known: ...)`; otherwise nothing.
-std::string suggestion(std::string_view given, const std::vector<std::string_view>& known);
 
 }  // namespace tumble

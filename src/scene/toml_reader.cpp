@@ -33,13 +33,7 @@ std::string given_text(const toml::node& node) {
     } else {
         text = "a date or time";
     }
-    for (char& c : text) if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    if (text.size() > longest) {
-        std::size_t end = longest;
-        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;   // not inside a UTF-8 letter
-        text = text.substr(0, end) + "...";
-    }
-    return text;
+    return one_line(text, longest);
 }
 
 }  // namespace
@@ -48,7 +42,7 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw InputError(location_of(error.source(), file), std::string(error.description()));
+        throw InputError(location_of(error.source(), file), one_line(std::string(error.description()), 200));
     }
 }
 
@@ -60,7 +54,9 @@ void TomlValue::fail(std::string_view problem) const {
 
 double TomlValue::number(const Range& range) const {
     if (!node_->is_number()) fail("must be a number");
-    return checked(node_->value<double>().value(), range, origin_);
+    const double value = node_->is_integer() ? static_cast<double>(node_->as_integer()->get())
+                                             : node_->as_floating_point()->get();
+    return checked(value, range, origin_);
 }
 
 std::int64_t TomlValue::integer(std::int64_t min, std::int64_t max) const {

@@ -84,6 +84,7 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
 TEST(SceneErrors, OfTheSimulation) {
     expect_errors({
         {"format = 1\n[simulation]\nduration = @-1", "duration must be from 0 to 1000000000 s (given -1)"},
+        {"format = 1\n[simulation]\nduration = @9223372036854775807", "(given 9.223372036854776e+18)"},
         {"format = 1\n[simulation]\nduration = @nan", "duration must be a finite number (given nan)"},
         {"format = 1\n[simulation]\nduration = @inf", "duration must be a finite number (given inf)"},
         {"format = 1\n[simulation]\nduration = @\"5\"", "duration must be a number (given \"5\")"},
@@ -259,6 +260,7 @@ TEST(SceneErrors, ShowTheGivenTextInReadableLength) {
         error_of("format = 1\n[simulation]\nintegrator = 3\ngravity = \"" + std::string(500, 'x') + "\\n\"");
     EXPECT_LT(error.size(), 200u);
     EXPECT_EQ(error.find('\n'), std::string::npos);
+    EXPECT_EQ(error_of("format = 1\nx = fa\n").find('\n'), std::string::npos);   // toml++ quotes the line's end
 }
 
 TEST(SceneErrors, OfTheFile) {
