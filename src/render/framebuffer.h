@@ -1,5 +1,6 @@
-// The picture's own framebuffer: colour (sRGB encoded by OpenGL) and depth with several samples a pixel, and the
-// single-sample colour that they are averaged into, in linear light.
+// The picture's own framebuffer: colour and depth with several samples a pixel, and the single-sample colour that they are
+// averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a frame), and
+// edges are averaged as they are displayed, which keeps a bright edge before a dark ground from growing a staircase.
 #pragma once
 
 #include "core/image.h"

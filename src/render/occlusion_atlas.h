@@ -36,7 +36,7 @@ struct OcclusionAtlas {
     std::vector<OcclusionWindow> windows;
 };
 
-/// For the bodies in view; `frame_bodies[i]` tells which.
+/// For the bodies in view; the others have no place.
 OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
 
 }  // namespace tumble

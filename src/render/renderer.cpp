@@ -15,8 +15,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 namespace tumble {
 namespace {
 
