@@ -1,7 +1,7 @@
-"""The same scene gives the same bytes: run again, with other threads, without optimisation, on an older processor."""
+"""The same scene gives the same bytes: run again, with other threads, on an older processor. (tests/physics compares
+optimised and unoptimised code.)"""
 
 import os
-import unittest
 
 import program
 
@@ -58,16 +58,6 @@ class Determinism(program.ProgramTest):
         # glibc then takes the functions that a processor without AVX and FMA would get.
         masked = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-AVX2_Usable,-FMA_Usable"
         self.assertEqual(self.expected, self.tables(env={**os.environ, "GLIBC_TUNABLES": masked}))
-
-    def test_unoptimised(self):
-        other = os.environ["TUMBLE_UNOPTIMISED"]
-        if not os.path.exists(other):
-            raise unittest.SkipTest("there is no unoptimised program (scripts/test builds it)")
-        before, program.TUMBLE = program.TUMBLE, other
-        try:
-            self.assertEqual(self.expected, self.tables())
-        finally:
-            program.TUMBLE = before
 
 
 if __name__ == "__main__":
