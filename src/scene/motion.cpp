@@ -20,7 +20,7 @@ Quat rotation_about_axis(const TomlTable& table) {
     const Vec3 axis = table.require("axis").direction();
     const double angle = table.require("angle").number(limits::angle);
     // Whole turns go first, in degrees, where they are exact: 360 degrees are no rotation at all.
-    const SinCos half = sincos(0.5 * std::remainder(angle, 720.0) * pi / 180.0);
+    const SinCos half = sincos(0.5 * std::remainder(angle, 360.0) * pi / 180.0);
     const Vec3 v = half.sin * axis;
     return Quat(half.cos, v.x(), v.y(), v.z()).normalized();
 }

@@ -134,7 +134,7 @@ TEST(Copies, MeshesOfOneSizeAreShared) {
 TEST(Scatter, StaysInItsBoxAndApart) {
     for (const std::string shape :
          {"{ type = \"box\", size = [0.3, 0.2, 0.5] }", "{ type = \"sphere\", radius = 0.3 }",
-          "{ type = \"mesh\", file = \"" TUMBLE_SOURCE_DIR "/assets/meshes/egg.gltf\", scale = 0.5 }"}) {
+          "{ type = \"mesh\", file = \"" TUMBLE_SOURCE_DIR "/assets/meshes/t_handle.obj\", scale = 0.5 }"}) {
         const auto list = bodies(
             "position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3,
             shape);

@@ -1,6 +1,7 @@
 // What comes out of good mesh files: surfaces welded, closed and turned outward, with normals that make sense.
 #include "mesh_files.h"
 #include "scene/mesh_loader.h"
+#include "scene/mesh_normals.h"
 
 #include <fmt/format.h>
 
@@ -192,8 +193,22 @@ TEST_F(MeshLoader, NodesOfAGltfMoveTurnAndMirrorTheirMeshes) {
     const auto mirrored = load_mesh(write("mirrored.gltf", replace("1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1")));
     EXPECT_NEAR(mirrored.closedness.signed_volume, egg.closedness.signed_volume, 1e-9);
     expect_drawable(*mirrored.asset);
-    const auto instanced = load_mesh(asset("egg.gltf"));
-    EXPECT_EQ(instanced.asset->surface.vertices.size(), egg.asset->surface.vertices.size());
+}
+
+TEST_F(MeshLoader, AMirroredSheetStillShowsTheSideItWasMadeWith) {
+    // One triangle in x and y, seen from +z; mirrored in y its corners go round the other way, its face looks the same.
+    const auto sheet = [](const char* scale) {
+        return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+            "nodes":[{{"mesh":0,"scale":{}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":
+            "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})", scale);
+    };
+    for (const char* scale : {"[1,1,1]", "[1,-1,1]", "[-1,1,1]"}) {
+        const auto mesh = load_mesh(write("sheet.gltf", sheet(scale)));
+        ASSERT_EQ(mesh.asset->surface.triangles.size(), 1u);
+        EXPECT_TRUE(face_normal(mesh.asset->surface, 0).isApprox(Vec3(0, 0, 1))) << scale;
+    }
 }
 
 TEST_F(MeshLoader, PlyInItsThreeEncodingsIsTheSame) {

@@ -262,7 +262,7 @@ TEST(SceneValues, FrameCount) {
 }
 
 TEST(SceneValues, WholeTurnsAreNoRotation) {
-    for (const char* angle : {"0", "720", "-1440", "720000"}) {
+    for (const char* angle : {"0", "360", "720", "-1440", "720000"}) {
         const auto body = parse(std::string("format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\n"
                                             "rotation = { axis = [1, 1, 0], angle = ") + angle + " }").bodies[0];
         EXPECT_EQ(body.rotation.coeffs(), Quat::Identity().coeffs()) << angle;
