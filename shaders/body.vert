@@ -15,6 +15,7 @@ out vec4 v_haze;                    // light of the air before it; w: share of i
 #ifdef BOX
 flat out vec3 v_normal;             // of the face, world axes
 out vec2 v_atlas;                   // place in the occlusion atlas
+flat out vec4 v_rim;                // first and last place of the face there
 #endif
 #ifdef BALL
 flat out vec3 v_tile;               // corner and edge of its tile in the atlas
@@ -29,7 +30,17 @@ flat out vec4 v_color;              // w: roughness
 flat out vec3 v_look;               // metallic, pattern, bevel
 
 void main() {
-    v_local = mesh_position * instance_scale.xyz;
+#ifdef BOX
+    // The square goes to one face of the cube; faces come in the order -x, +x, -y, ... and have u x v = outward.
+    int face = int(instance_tile.y);
+    float side = float(face % 2 * 2 - 1);
+    vec2 corner = vec2(mesh_position.x, mesh_position.y * side);
+    vec3 on_cube = face < 2 ? vec3(side, corner) : face < 4 ? vec3(corner.y, side, corner.x) : vec3(corner, side);
+    vec3 outward = face < 2 ? vec3(side, 0.0, 0.0) : face < 4 ? vec3(0.0, side, 0.0) : vec3(0.0, 0.0, side);
+#else
+    vec3 on_cube = mesh_position;
+#endif
+    v_local = on_cube * instance_scale.xyz;
     v_position = placed(v_local);
     v_orientation = instance_orientation;
     v_scale = instance_scale;
@@ -44,21 +55,20 @@ void main() {
     gl_Position = clip_from_relative * vec4(v_position, 1.0);
 
 #ifdef BOX
-    // Faces come in the order -x, +x, -y, ... with four vertices each; a tile has a texel's centre at each corner.
-    int face = gl_VertexID / 4;
-    vec2 corner = face < 2 ? mesh_position.yz : face < 4 ? mesh_position.zx : mesh_position.xy;
-    vec2 texel = instance_look.zw + vec2(float(face) * instance_tile, 0.0) +
-                 (0.5 + 0.5 * corner) * max(instance_tile - 1.0, 0.0) + 0.5;
-    v_atlas = (instance_tile > 0.0 ? texel : vec2(0.5)) * atlas.xy;
-    v_normal = rotate(instance_orientation, mesh_normal);
+    // A tile has a texel's centre at each corner of its face.
+    vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
+    float span = instance_tile.x - 1.0;
+    v_rim = (instance_tile.x > 0.0 ? vec4(first, first + span) : vec4(0.5)) * atlas.xyxy;
+    v_atlas = mix(v_rim.xy, v_rim.zw, 0.5 + 0.5 * corner);
+    v_normal = rotate(instance_orientation, outward);
 #endif
 #ifdef BALL
-    v_tile = vec3(instance_look.zw, instance_tile);
+    v_tile = vec3(instance_look.zw, instance_tile.x);
 #endif
 #ifdef MESH
     int width = textureSize(occlusion_atlas, 0).x;
     int probe = int(instance_look.z) + int(mesh_probe);
-    v_open = texelFetch(occlusion_atlas, instance_tile > 0.0 ? ivec2(probe % width, int(instance_look.w) + probe / width) : ivec2(0), 0).r;
+    v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? ivec2(probe % width, int(instance_look.w) + probe / width) : ivec2(0), 0).r;
     v_normal = rotate(instance_orientation, normalize(mesh_normal / instance_scale.xyz));
 #endif
 }

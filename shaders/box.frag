@@ -4,6 +4,7 @@
 
 flat in vec3 v_normal;
 in vec2 v_atlas;
+flat in vec4 v_rim;
 
 // How much of the pixel lies in the groove between a crate's frame and its panel.
 float groove(vec3 to_edges) {
@@ -18,16 +19,18 @@ float groove(vec3 to_edges) {
 
 void main() {
     vec3 half_size = v_scale.xyz;
+    // At the rim of a face seen edge-on the pixel's middle can lie far outside of it: back onto the box, and its tile.
+    vec3 local = clamp(v_local, -half_size, half_size);
     // A rounded box's normal: away from the box that is smaller by the bevel.
     vec3 inner = half_size - v_look.z;
-    vec3 local_normal = normalize(v_local - clamp(v_local, -inner, inner));
+    vec3 local_normal = normalize(local - clamp(local, -inner, inner));
 
     vec3 albedo = v_color.rgb;
 #ifdef PATTERNED
-    albedo = patterned(albedo, v_look.y, v_local, local_normal, v_scale.w);
+    albedo = patterned(albedo, v_look.y, local, local_normal, v_scale.w);
 #else
-    albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(v_local));
+    albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(local));
 #endif
-    float open = texture(occlusion_atlas, v_atlas).r;
+    float open = texture(occlusion_atlas, clamp(v_atlas, v_rim.xy, v_rim.zw)).r;
     pixel = vec4(shade(body_surface(rotate(v_orientation, local_normal), v_normal, albedo, open)), 1.0);
 }

@@ -1,7 +1,7 @@
 // From a surface point to the light it sends to the eye, and from light to the bytes of the screen.
 #include "look.glsl"
 #include "sky.glsl"
-#ifndef OPEN
+#if !defined(OPEN) && !defined(AWAY_FROM_SUN)
 #include "shadow.glsl"
 #endif
 
@@ -44,26 +44,27 @@ vec3 displayed(vec3 light) {
 }
 
 vec3 shade(Surface s) {
-    float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
     float n_v = clamp(dot(s.normal, s.to_eye), 1e-3, 1.0);
 
+    vec3 f0 = mix(vec3(dielectric_reflectance), s.albedo, s.metallic);
+    vec3 diffuse = s.albedo * (1.0 - s.metallic);
+    vec3 from_sky = mix(bounce_light, sky_light, 0.5 + 0.5 * s.normal.y) * s.open;
+    vec3 light = diffuse * from_sky;
+    float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
+#ifndef AWAY_FROM_SUN
+    float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
 #ifdef OPEN
     float sun = n_l;
 #else
     float sun = n_l * sun_visible(s.position, s.face_normal) * mix(1.0, s.open, occlusion_of_sun);
 #endif
-    vec3 f0 = mix(vec3(dielectric_reflectance), s.albedo, s.metallic);
-    vec3 diffuse = s.albedo * (1.0 - s.metallic);
-    vec3 from_sky = mix(bounce_light, sky_light, 0.5 + 0.5 * s.normal.y) * s.open;
-    vec3 light = diffuse * (sun * sun_light + from_sky);
-
-    float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
     vec3 middle = normalize(to_light.xyz + s.to_eye);
     float n_h = clamp(dot(s.normal, middle), 0.0, 1.0);
     float grazing = 1.0 - clamp(dot(to_light.xyz, middle), 0.0, 1.0);
     float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
     vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-    light += fresnel * sun_light * (sun * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0));
+    light += (diffuse + fresnel * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0)) * sun_light * sun;
+#endif
 
     vec2 environment = environment_scale(roughness, n_v);
     light += blurred_sky(reflect(-s.to_eye, s.normal), roughness) * (f0 * environment.x + environment.y) *

@@ -20,7 +20,7 @@ constexpr float cord_roughness = 0.7f;
 
 struct Item {
     std::size_t mesh;
-    bool patterned;
+    bool patterned, lit;
     double distance;
     Instance instance;
 };
@@ -43,7 +43,7 @@ Instance instance_of(const BodyLook& look, const BodyState& state, const CameraV
             to_glm(look.half_size, look.pattern_cell),
             glm::vec4(look.color, look.roughness),
             glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
-            float(place.size)};
+            glm::vec2(float(place.size), 0.0f)};
 }
 
 Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
@@ -55,9 +55,22 @@ Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const Came
     const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()));
     const std::array<double, 3> c = to_linear(cord.color);
     const Vec3 scale(cord.radius, std::max(0.5 * length, 1e-3 * cord.radius), cord.radius);
-    return {cylinder_mesh, false, middle.norm(),
+    return {cylinder_mesh, false, true, middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
-             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), 0.0f}};
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec2(0.0f)}};
+}
+
+// The faces of a box that can be seen, those in the sun apart from the others.
+void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec3& light, std::vector<Item>& items) {
+    const Mat3 axes = orientation.toRotationMatrix();
+    item.mesh = face_mesh;
+    for (int face = 0; face < 6; ++face) {
+        if ((faces >> face & 1) == 0) continue;
+        const Vec3 normal = axes.col(face / 2) * (face % 2 == 0 ? -1.0 : 1.0);
+        item.lit = normal.dot(light) < 0.0;
+        item.instance.tile.y = float(face);
+        items.push_back(item);
+    }
 }
 
 std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
@@ -71,12 +84,13 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
 // Appends the items to the instances, one batch a mesh, nearest first; equal ones keep the scene's order.
 std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances) {
     std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-        return std::tuple(a.mesh, a.patterned, a.distance) < std::tuple(b.mesh, b.patterned, b.distance);
+        return std::tuple(a.mesh, a.patterned, a.lit, a.distance) < std::tuple(b.mesh, b.patterned, b.lit, b.distance);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
-        if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned)
-            batches.push_back({item.mesh, item.patterned, instances.size(), 0});
+        if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
+            batches.back().lit != item.lit)
+            batches.push_back({item.mesh, item.patterned, item.lit, instances.size(), 0});
         instances.push_back(item.instance);
         ++batches.back().count;
     }
@@ -86,7 +100,7 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 }  // namespace
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const OcclusionAtlas& atlas) {
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -94,13 +108,18 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        const bool in_view = view.sees(ball.center, ball.radius);
+        const bool in_view = visibility.bodies[i];
         const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
-        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, ball.center.norm(),
+        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
                            instance_of(look, snapshot.bodies[i], view, atlas.places[i])};
-        if (in_view) visible.push_back(item);
         if (casts) casters.push_back(item);
+        if (!in_view) continue;
+        if (look.kind == DrawKind::box) {
+            add_faces(item, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);
+        } else {
+            visible.push_back(item);
+        }
     }
     for (const CordDescription& cord : scene.cords) {
         const Item item = cord_item(cord, snapshot, view);

@@ -7,29 +7,31 @@
 #include "render/occlusion_atlas.h"
 #include "sim/snapshot.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <vector>
 
 namespace tumble {
 
-/// One drawn body, as shaders/instance.glsl reads it.
+/// One drawn body (of a box, one of its faces), as shaders/instance.glsl reads it.
 struct Instance {
     glm::vec4 position;      // of the body's origin, relative to the eye; w: bevel, m
     glm::vec4 orientation;   // x, y, z, w
     glm::vec4 scale;         // of the mesh; w: its pattern's cell, m
     glm::vec4 color;         // linear; w: roughness
     glm::vec4 look;          // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    float tile;              // and the edge of its tiles there
+    glm::vec2 tile;          // the edge of its tiles there; and which face of a box this is, as in make_box()
 };
 
-/// The meshes by number: the box, the balls from coarse to fine, the cylinder, then the scene's own.
-inline constexpr std::size_t box_mesh = 0, first_ball_mesh = 1, ball_levels = 6;
+/// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.
+inline constexpr std::size_t box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
 
 struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
+    bool lit = true;                    // false: faces turned away from the sun, which need no look for shadows
     std::size_t first = 0, count = 0;   // of the instances
 };
 
@@ -40,6 +42,6 @@ struct DrawList {
 };
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const OcclusionAtlas& atlas);
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas);
 
 }  // namespace tumble

@@ -44,15 +44,12 @@ public:
         }
     }
 
-    OcclusionAtlas make() {
+    OcclusionAtlas make(const Visibility& visibility) {
         grow(1);   // texel 0, 0 is open, for whoever has no place
         row_ = 1;
         for (const PlaneInView& plane : planes_) add_window(plane);
         for (std::size_t i = 0; i < looks_.bodies.size(); ++i) {
-            const BodyLook& look = looks_.bodies[i];
-            if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-            const BoundingBall ball = bounding_ball(look, snapshot_.bodies[i], view_);
-            if (view_.sees(ball.center, ball.radius)) add_body(i, ball);
+            if (visibility.bodies[i]) add_body(i, bounding_ball(looks_.bodies[i], snapshot_.bodies[i], view_));
         }
         return std::move(atlas_);
     }
@@ -264,8 +261,9 @@ void AtlasMaker::add_window(const PlaneInView& plane) {
 
 }  // namespace
 
-OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
-    return AtlasMaker(looks, snapshot, view).make();
+OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                    const Visibility& visibility) {
+    return AtlasMaker(looks, snapshot, view).make(visibility);
 }
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include "render/body_looks.h"
 #include "render/camera_view.h"
 #include "render/sky_openness.h"
+#include "render/visibility.h"
 #include "sim/snapshot.h"
 
 #include <cstdint>
@@ -36,7 +37,8 @@ struct OcclusionAtlas {
     std::vector<OcclusionWindow> windows;
 };
 
-/// For the bodies in view; the others have no place.
-OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+/// For the visible bodies; the others have no place.
+OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                    const Visibility& visibility);
 
 }  // namespace tumble

@@ -58,36 +58,39 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PixelArea>& areas, const SceneLooks& looks,
+void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas, const SceneLooks& looks,
                         const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const {
+    gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
+    gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
-        const auto draw_in = [&](int x0, int y0, int x1, int y1) {
-            if (x0 >= x1 || y0 >= y1) return;
-            gl_->Scissor(x0, y0, x1 - x0, y1 - y0);
-            draw_polygon(planes[i].corners);
+        upload_polygon(planes[i].corners);
+        const auto draw_in = [&](const std::vector<PixelArea>& rectangles) {
+            for (const PixelArea& area : rectangles) {
+                gl_->Scissor(area.x0, area.y0, area.x1 - area.x0, area.y1 - area.y0);
+                gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
+            }
         };
-        const PixelArea area = areas[i].empty() ? PixelArea{0, 0, 0, 0} : areas[i];
-        const int width = view.width(), height = view.height();
         set_uniforms(programs.open, planes[i], planes, looks);
-        draw_in(0, 0, width, area.y0);
-        draw_in(0, area.y0, area.x0, area.y1);
-        draw_in(area.x1, area.y0, width, area.y1);
-        draw_in(0, area.y1, width, height);
-        if (area.empty()) continue;
+        draw_in(areas[i].open);
         set_uniforms(programs.touched, planes[i], planes, looks);
         set_window(programs.touched, planes[i], atlas, looks, snapshot, view);
-        draw_in(area.x0, area.y0, area.x1, area.y1);
+        draw_in(areas[i].touched);
     }
+    gl_->BindVertexArray(0);
     gl_->Disable(GL_SCISSOR_TEST);
 }
 
 void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
     const std::vector<glm::vec3> corners = sky_polygon(planes, view);
     if (corners.size() < 3) return;
+    gl_->Disable(GL_CULL_FACE);
     sky_.use();
-    draw_polygon(corners);
+    gl_->BindVertexArray(array_.name());
+    upload_polygon(corners);
+    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
+    gl_->BindVertexArray(0);
 }
 
 void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
@@ -126,13 +129,9 @@ void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& pl
                                         float(window->y + window->height - 1)));
 }
 
-void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
-    gl_->Disable(GL_CULL_FACE);
-    gl_->BindVertexArray(array_.name());
+void PlanePainter::upload_polygon(const std::vector<glm::vec3>& corners) const {
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(glm::vec3)), corners.data(), GL_STREAM_DRAW);
-    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
-    gl_->BindVertexArray(0);
 }
 
 }  // namespace tumble

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "render/gl_object.h"
-#include "render/plane_patch.h"
+#include "render/plane_areas.h"
 #include "render/shader_program.h"
-#include "render/touched_area.h"
 
 #include <array>
 #include <filesystem>
@@ -16,8 +15,8 @@ class PlanePainter {
 public:
     PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks);
 
-    /// `areas[i]`: where shadows or bodies' darkening may touch planes[i].
-    void draw(const std::vector<PlanePatch>& planes, const std::vector<PixelArea>& areas, const SceneLooks& looks,
+    /// `areas[i]` says where planes[i] is drawn and how.
+    void draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas, const SceneLooks& looks,
               const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const;
 
     void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
@@ -30,7 +29,7 @@ private:
                       const SceneLooks& looks) const;
     void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
                     const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
-    void draw_polygon(const std::vector<glm::vec3>& corners) const;
+    void upload_polygon(const std::vector<glm::vec3>& corners) const;
 
     const GlFunctions* gl_;
     std::array<std::optional<Programs>, 3> planes_;   // by pattern: those that the scene uses

@@ -33,6 +33,14 @@ DrawMesh make_box() {
     return mesh;
 }
 
+DrawMesh make_face() {
+    DrawMesh mesh;
+    for (const auto& [x, y] : {std::pair(-1.0, -1.0), std::pair(1.0, -1.0), std::pair(1.0, 1.0), std::pair(-1.0, 1.0)})
+        mesh.vertices.push_back(vertex(Vec3(x, y, 0.0), Vec3::UnitZ()));
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
 DrawMesh make_ball(int level) {
     const double golden = 0.5 * (1.0 + std::sqrt(5.0));
     std::vector<Vec3> points;

@@ -17,6 +17,9 @@ struct DrawMesh {
 /// The cube [-1, 1]^3, flat faces.
 DrawMesh make_box();
 
+/// The square [-1, 1]^2 x 0, which the shader puts on one face of the cube.
+DrawMesh make_face();
+
 /// A ball of radius 1: an icosahedron whose faces are split into four `level` times (Fuller's geodesic sphere).
 DrawMesh make_ball(int level);
 

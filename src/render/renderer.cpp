@@ -72,13 +72,14 @@ Renderer::~Renderer() = default;
 void Renderer::render(const Snapshot& snapshot, Image& frame) {
     State& s = *state_;
     const double near_distance = near_distance_for(s.looks, snapshot, s.view);
-    const OcclusionAtlas atlas = make_occlusion_atlas(s.looks, snapshot, s.view);
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, atlas);
+    const Visibility visibility = find_visible(s.looks, snapshot, s.view);
+    const OcclusionAtlas atlas = make_occlusion_atlas(s.looks, snapshot, s.view, visibility);
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas);
     const ShadowFit shadows = s.stage.fit(s.looks, snapshot, s.view);
     const std::vector<PlanePatch> planes = make_plane_patches(s.looks, snapshot, s.view, near_distance);
-    std::vector<PixelArea> touched;
+    std::vector<PlaneAreas> areas;
     for (const PlanePatch& plane : planes)
-        touched.push_back(touched_area(plane, s.scene, s.looks, snapshot, s.view, shadows));
+        areas.push_back(find_plane_areas(plane, s.scene, s.looks, snapshot, s.view, shadows, visibility.cover));
 
     s.occlusion.upload(atlas);
     s.meshes.upload(list.instances);
@@ -97,7 +98,7 @@ void Renderer::render(const Snapshot& snapshot, Image& frame) {
     s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
-    s.planes.draw(planes, touched, s.looks, atlas, snapshot, s.view);
+    s.planes.draw(planes, areas, s.looks, atlas, snapshot, s.view);
     s.planes.draw_sky(planes, s.view);
 
     s.framebuffer.resolve();

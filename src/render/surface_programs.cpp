@@ -3,8 +3,9 @@
 namespace tumble {
 namespace {
 
-std::size_t index_of(DrawKind kind, bool patterned) {
-    return (kind == DrawKind::box ? 0u : kind == DrawKind::ball ? 1u : 2u) + (patterned ? 3u : 0u);
+std::size_t index_of(DrawKind kind, bool patterned, bool lit) {
+    const std::size_t which = kind == DrawKind::box ? (lit ? 0 : 1) : kind == DrawKind::ball ? 2 : 3;
+    return 2 * which + (patterned ? 1 : 0);
 }
 
 }  // namespace
@@ -19,16 +20,18 @@ SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::p
                                  bool has_cords) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
-            add(gl, shaders, look.kind, look.pattern != Pattern::plain);
-    if (has_cords) add(gl, shaders, DrawKind::mesh, false);
+            for (const bool lit : {true, false}) add(gl, shaders, look.kind, look.pattern != Pattern::plain, lit);
+    if (has_cords) add(gl, shaders, DrawKind::mesh, false, true);
 }
 
-void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned) {
-    auto& program = programs_[index_of(kind, patterned)];
+void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned,
+                          bool lit) {
+    auto& program = programs_[index_of(kind, patterned, lit)];
     if (program) return;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
+    if (kind == DrawKind::box && !lit) files.defines.emplace_back("AWAY_FROM_SUN");
     if (patterned) files.defines.emplace_back("PATTERNED");
     program.emplace(gl, shaders, files);
     connect(*program);
@@ -36,10 +39,10 @@ void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& sh
 
 void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const {
     for (const Batch& batch : batches) {
-        const DrawKind kind = batch.mesh == box_mesh        ? DrawKind::box
+        const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                               : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                             : DrawKind::mesh;
-        programs_[index_of(kind, batch.patterned)]->use();
+        programs_[index_of(kind, batch.patterned, batch.lit)]->use();
         meshes.draw(batch);
     }
 }

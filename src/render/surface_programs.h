@@ -26,9 +26,9 @@ public:
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
-    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned);
+    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);
 
-    std::array<std::optional<ShaderProgram>, 6> programs_;   // box, ball, mesh; then the same with a pattern
+    std::array<std::optional<ShaderProgram>, 8> programs_;   // by kind, pattern and light
 };
 
 }  // namespace tumble

@@ -1,0 +1,163 @@
+#include "render/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+using Point = Eigen::Vector2d;   // pixels
+
+// Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
+constexpr double margin = 1.0;   // pixels
+
+double cross(const Point& a, const Point& b, const Point& c) {
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// Andrew 1979, Another Efficient Algorithm for Convex Hulls in Two Dimensions; anticlockwise for x right, y up.
+std::vector<Point> convex_hull(std::array<Point, 8> points) {
+    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
+        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    });
+    std::vector<Point> hull;
+    const auto half = [&](auto begin, auto end) {
+        const std::size_t base = hull.size();
+        for (auto at = begin; at != end; ++at) {
+            while (hull.size() >= base + 2 && cross(hull[hull.size() - 2], hull.back(), *at) <= 0.0) hull.pop_back();
+            hull.push_back(*at);
+        }
+        hull.pop_back();   // the next half begins with it
+    };
+    half(points.begin(), points.end());
+    half(points.rbegin(), points.rend());
+    return hull;
+}
+
+struct Projected {
+    std::array<Point, 8> points;   // as many as were given
+    double nearest = std::numeric_limits<double>::infinity(), furthest = 0.0;   // along the axis, m
+    double x0 = nearest, y0 = nearest, x1 = -nearest, y1 = -nearest;            // pixels
+};
+
+// False when a corner is beside or behind the eye.
+bool project(std::span<const Vec3> corners, const CameraView& view, Projected& result) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double depth = corners[i].dot(view.forward());
+        if (!(depth > 1e-2 * corners[i].norm())) return false;
+        const Point p = view.pixel(corners[i]);
+        result.points[i] = p;
+        result.nearest = std::min(result.nearest, depth);
+        result.furthest = std::max(result.furthest, depth);
+        result.x0 = std::min(result.x0, p.x());
+        result.x1 = std::max(result.x1, p.x());
+        result.y0 = std::min(result.y0, p.y());
+        result.y1 = std::max(result.y1, p.y());
+    }
+    return true;
+}
+
+int first_cell(double pixel) { return int(std::floor(std::max(pixel, 0.0) / ScreenCover::cell)); }
+int last_cell(double pixel, int count) { return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell)); }
+
+ScreenCover::Corners box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size) {
+    ScreenCover::Corners corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3 sides((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
+        corners[i] = center + axes * half_size.cwiseProduct(sides);
+    }
+    return corners;
+}
+
+// Those turned to the eye and not hidden.
+std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCover& cover) {
+    std::uint8_t faces = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t side = 0; side < 2; ++side) {
+            std::array<Vec3, 4> points;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < 8; ++i)
+                if ((i >> axis & 1) == side) points[count++] = corners[i];
+            const std::size_t other = std::size_t(1) << axis;   // the corner across the box from corner 0 along the axis
+            const Vec3 outward = (corners[other] - corners[0]) * (side == 1 ? 1.0 : -1.0);
+            if (outward.dot(points[0]) < 0.0 && !cover.hides(points)) faces |= std::uint8_t(1u << (2 * axis + side));
+        }
+    return faces;
+}
+
+}  // namespace
+
+ScreenCover::ScreenCover(const CameraView& view)
+    : view_(&view), columns_((view.width() + cell - 1) / cell), rows_((view.height() + cell - 1) / cell),
+      depths_(std::size_t(columns_) * std::size_t(rows_), std::numeric_limits<double>::infinity()) {}
+
+void ScreenCover::add(const Corners& corners) {
+    Projected box;
+    if (!project(corners, *view_, box)) return;
+    const std::vector<Point> hull = convex_hull(box.points);
+    if (hull.size() < 3) return;
+    const auto inside = [&](double x, double y) {
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+            const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
+            if (cross(a, b, {x, y}) < margin * (b - a).norm()) return false;
+        }
+        return true;
+    };
+    for (int row = first_cell(box.y0); row <= last_cell(box.y1, rows_); ++row)
+        for (int column = first_cell(box.x0); column <= last_cell(box.x1, columns_); ++column) {
+            const double x0 = column * cell, y0 = row * cell, x1 = x0 + cell, y1 = y0 + cell;
+            if (!inside(x0, y0) || !inside(x1, y0) || !inside(x0, y1) || !inside(x1, y1)) continue;
+            double& depth = depths_[std::size_t(row * columns_ + column)];
+            depth = std::min(depth, box.furthest);
+        }
+}
+
+bool ScreenCover::hides(std::span<const Vec3> corners) const {
+    Projected body;
+    if (!project(corners, *view_, body)) return false;
+    for (int row = first_cell(body.y0 - margin); row <= last_cell(body.y1 + margin, rows_); ++row)
+        for (int column = first_cell(body.x0 - margin); column <= last_cell(body.x1 + margin, columns_); ++column)
+            if (!(depth(column, row) < body.nearest)) return false;
+    return true;
+}
+
+Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+    Mat3 view_axes;
+    view_axes << view.right(), view.up(), view.forward();
+    Visibility result{ScreenCover(view), std::vector<bool>(looks.bodies.size(), false),
+                      std::vector<std::uint8_t>(looks.bodies.size(), 0)};
+    struct Candidate {
+        std::size_t body;
+        BoundingBall ball;
+        double distance;
+        ScreenCover::Corners corners;
+    };
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+        if (!view.sees(ball.center, ball.radius)) continue;
+        const bool box = look.kind == DrawKind::box;
+        candidates.push_back({i, ball, ball.center.norm(),
+                              box_corners(ball.center, box ? snapshot.bodies[i].orientation.toRotationMatrix() : view_axes,
+                                          box ? look.half_size : Vec3::Constant(ball.radius))});
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
+    for (const Candidate& candidate : candidates)   // nearest first: what is hidden itself need not cover anything
+        if (is_box(candidate) && !result.cover.hides(candidate.corners)) result.cover.add(candidate.corners);
+    for (const Candidate& candidate : candidates) {
+        if (is_box(candidate)) {
+            result.faces[candidate.body] = visible_faces(candidate.corners, result.cover);
+            result.bodies[candidate.body] = result.faces[candidate.body] != 0;
+        } else {
+            result.bodies[candidate.body] = !result.cover.hides(candidate.corners);
+        }
+    }
+    return result;
+}
+
+}  // namespace tumble

@@ -1,0 +1,57 @@
+// What can be seen at all. With several samples a pixel llvmpipe shades everything that is drawn, hidden or not, so what
+// certainly lies behind a box is left out beforehand: the screen is divided into small cells, each knows how near the
+// nearest box is that covers it wholly, and a body all of whose cells are covered by nearer boxes is not drawn.
+// Only the certain is left out: the picture is the same to the byte.
+#pragma once
+
+#include "render/body_looks.h"
+#include "render/camera_view.h"
+#include "sim/snapshot.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Pixels from x0 to before x1, y0 to before y1, from the top left corner. Empty when x0 >= x1 or y0 >= y1.
+struct PixelArea {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+class ScreenCover {
+public:
+    static constexpr int cell = 8;   // pixels: smaller ones hide little more and cost more to fill
+
+    explicit ScreenCover(const CameraView& view);
+
+    int columns() const { return columns_; }
+    int rows() const { return rows_; }
+
+    /// Along the view axis, m: everything further away is hidden in this cell.
+    double depth(int column, int row) const { return depths_[std::size_t(row * columns_ + column)]; }
+
+    /// The eight corners of a box, relative to the eye: corner i is on the high side of axis k when bit k of i is set.
+    using Corners = std::array<Vec3, 8>;
+    void add(const Corners& corners);
+
+    /// Is all that lies within the convex hull of the points hidden?
+    bool hides(std::span<const Vec3> points) const;
+
+private:
+    const CameraView* view_;
+    int columns_, rows_;
+    std::vector<double> depths_;
+};
+
+struct Visibility {
+    ScreenCover cover;
+    std::vector<bool> bodies;           // in scene order: may any part of it be in the picture? (false for planes)
+    std::vector<std::uint8_t> faces;    // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high one
+};
+
+Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+
+}  // namespace tumble
