@@ -28,7 +28,7 @@ bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
 
 // All in the polyhedron's frame: t are the triangle's corners, n its normal on the body's side.
 TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], const Vec3& n, double margin,
-                                EdgeSearch search) {
+                                EdgeSearch search, std::vector<std::uint32_t>& edges) {
     const auto triangle_reach = [&](const Vec3& d) { return std::max({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])}); };
     TriangleAxis axis;
     axis.separation = n.dot(shape.vertices[shape.support(-n)]) - n.dot(t[0]);
@@ -36,8 +36,10 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
     axis.kind = TriangleAxis::Kind::triangle;
     axis.normal = n;
     double best = axis.separation + axis_preference(shape.radius);
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
         const Polyhedron::Face& face = shape.faces[f];
+        if (face.normal.dot(middle) - face.offset <= best) continue;   // the lowest corner is not above the middle
         const double separation = -triangle_reach(-face.normal) - face.offset;
         if (separation > margin) return {};
         if (separation <= best) continue;
@@ -47,13 +49,12 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
     Bounds region;
     for (const Vec3& corner : t) region.add(corner);
     region = region.grown(edge_reach(search, margin, axis.separation));
-    for (std::uint32_t e = 0; e < shape.edges.size(); ++e) {
+    edges.clear();
+    shape.edge_tree.query(region, [&](std::uint32_t e) { edges.push_back(e); });
+    std::sort(edges.begin(), edges.end());
+    for (const std::uint32_t e : edges) {
         const Polyhedron::Edge& edge = shape.edges[e];
         const Vec3 &tail = shape.vertices[edge.tail], &head = shape.vertices[edge.head];
-        Bounds b;
-        b.add(tail);
-        b.add(head);
-        if (!b.overlaps(region)) continue;
         const Vec3 along = head - tail, &left = shape.faces[edge.left].normal, &right = shape.faces[edge.right].normal;
         for (int i = 0; i < 3; ++i) {
             const Vec3 side = t[(i + 1) % 3] - t[i];
@@ -129,7 +130,7 @@ void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, co
         if (behind && a.closed) continue;
         if (behind) n = -n;
         for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
-            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search);
+            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch.edges_b);
             if (axis.kind == TriangleAxis::Kind::none) break;
             if (axis.kind != TriangleAxis::Kind::triangle && !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
                 axis.kind = TriangleAxis::Kind::triangle;

@@ -40,19 +40,41 @@ void Polyhedron::complete() {
         bounds.add(v);
         radius = std::max(radius, v.norm());
     }
+    inner_radius = radius;
+    for (const Face& face : faces) inner_radius = std::max(0.0, std::min(inner_radius, face.offset));
+
+    std::vector<Bounds> edge_bounds(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        edge_bounds[e].add(vertices[edges[e].tail]);
+        edge_bounds[e].add(vertices[edges[e].head]);
+    }
+    edge_tree = BoundsTree(std::move(edge_bounds));
+
+    first_neighbour.assign(vertices.size() + 1, 0);
+    for (const Edge& e : edges) ++first_neighbour[e.tail + 1], ++first_neighbour[e.head + 1];
+    for (std::size_t i = 1; i < first_neighbour.size(); ++i) first_neighbour[i] += first_neighbour[i - 1];
+    neighbours.resize(2 * edges.size());
+    std::vector<std::uint32_t> next(first_neighbour.begin(), first_neighbour.end() - 1);
+    for (const Edge& e : edges) {
+        neighbours[next[e.tail]++] = e.head;
+        neighbours[next[e.head]++] = e.tail;
+    }
 }
 
-std::uint32_t Polyhedron::support(const Vec3& direction) const {
-    std::uint32_t best = 0;
-    double farthest = direction.dot(vertices[0]);
-    for (std::uint32_t i = 1; i < vertices.size(); ++i) {
-        const double d = direction.dot(vertices[i]);
-        if (d > farthest) {
-            farthest = d;
-            best = i;
+std::uint32_t Polyhedron::support(const Vec3& direction, std::uint32_t start) const {
+    std::uint32_t best = start;
+    double farthest = direction.dot(vertices[best]);
+    while (true) {
+        const std::uint32_t from = best;
+        for (std::uint32_t k = first_neighbour[from]; k < first_neighbour[from + 1]; ++k) {
+            const double d = direction.dot(vertices[neighbours[k]]);
+            if (d > farthest) {
+                farthest = d;
+                best = neighbours[k];
+            }
         }
+        if (best == from) return best;
     }
-    return best;
 }
 
 std::uint32_t Polyhedron::face_at_support(const Vec3& direction, double depth) const {

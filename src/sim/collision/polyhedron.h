@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "sim/collision/bounds_tree.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,11 +27,15 @@ struct Polyhedron {
     std::vector<Edge> edges;
     Bounds bounds;                             // of the vertices
     double radius = 0.0;                       // m, largest distance of a vertex from the centre of mass
+    double inner_radius = 0.0;                 // m, least distance of a face's plane from it; 0 if it lies outside
+    BoundsTree edge_tree;                      // over the edges: which of them reach into a region
+    std::vector<std::uint32_t> first_neighbour, neighbours;   // of vertex i: [first_neighbour[i], first_neighbour[i + 1])
     bool is_box = false;                       // faces 2k and 2k+1 look along +k and -k: axis searches can be short
     Vec3 half_extent = Vec3::Zero();           // of a box
 
-    /// The vertex farthest along a direction (body frame); the lowest index on ties.
-    std::uint32_t support(const Vec3& direction) const;
+    /// The vertex farthest along a direction (body frame), found by climbing from vertex `start` along edges: what is
+    /// farther than all its neighbours is farthest of all, the shape being convex.
+    std::uint32_t support(const Vec3& direction, std::uint32_t start = 0) const;
     /// The face that meets a plane across a direction (unit): of those at the farthest vertex, the one with most vertices
     /// no farther than `depth` (m) behind it, then the one that looks most that way. The face that looks most along a
     /// direction without regard to the vertex need not touch the plane at all.

@@ -18,15 +18,30 @@ struct FaceAxis {
 // Largest separation over the faces of `shape` from `other`, whose pose in shape's frame is given.
 FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose& other_pose, double margin) {
     FaceAxis best;
+    std::uint32_t support = 0;
+    const auto try_face = [&](std::uint32_t f, double height) {
+        const Vec3 direction = -(other_pose.rotation.transpose() * shape.faces[f].normal);
+        if (!other.is_box) support = other.support(direction, support);
+        const double reach = other.is_box ? other.half_extent.dot(direction.cwiseAbs()) : direction.dot(other.vertices[support]);
+        if (height - reach > best.separation) best = {height - reach, f};
+    };
+    const auto height_over = [&](const Polyhedron::Face& face) {
+        return face.normal.dot(other_pose.position) - face.offset;
+    };
+    // The face that the other's centre is highest above comes first. After it, only faces can win that would still do
+    // if the other reached no farther than its inner radius.
+    std::uint32_t first = 0;
+    double highest = lowest;
     for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
-        const Polyhedron::Face& face = shape.faces[f];
-        const Vec3 direction = -(other_pose.rotation.transpose() * face.normal);
-        double reach;
-        if (other.is_box) reach = other.half_extent.dot(direction.cwiseAbs());
-        else reach = direction.dot(other.vertices[other.support(direction)]);
-        const double separation = face.normal.dot(other_pose.position) - reach - face.offset;
-        if (separation > best.separation) best = {separation, f};
-        if (separation > margin) break;
+        const double height = height_over(shape.faces[f]);
+        if (height <= highest) continue;
+        highest = height;
+        first = f;
+    }
+    try_face(first, highest);
+    for (std::uint32_t f = 0; f < shape.faces.size() && best.separation <= margin; ++f) {
+        const double height = height_over(shape.faces[f]);
+        if (f != first && height - other.inner_radius > best.separation) try_face(f, height);
     }
     return best;
 }
@@ -39,15 +54,34 @@ Bounds turned(const Bounds& b, const Pose& pose) {
 
 Pose inverse(const Pose& p) { return {-(p.rotation.transpose() * p.position), p.rotation.transpose()}; }
 
-// Edges of a shape that reach into a region.
-void edges_in(const Polyhedron& shape, const Bounds& region, std::vector<std::uint32_t>& edges) {
+// Where an edge contact can be: in the other shape's bounds, and where both best faces leave room (normal . p >= least).
+struct Region {
+    Bounds bounds;
+    Vec3 normal[2];
+    double least[2];
+};
+
+// For the shallow overlaps that a simulation meets this leaves a handful of a thousand edges.
+void edges_in(const Polyhedron& shape, const Region& region, std::vector<std::uint32_t>& edges) {
     edges.clear();
-    for (std::uint32_t e = 0; e < shape.edges.size(); ++e) {
-        Bounds b;
-        b.add(shape.vertices[shape.edges[e].tail]);
-        b.add(shape.vertices[shape.edges[e].head]);
-        if (b.overlaps(region)) edges.push_back(e);
-    }
+    shape.edge_tree.query(region.bounds, [&](std::uint32_t e) {
+        const Vec3 &tail = shape.vertices[shape.edges[e].tail], &head = shape.vertices[shape.edges[e].head];
+        for (int i = 0; i < 2; ++i)
+            if (std::max(region.normal[i].dot(tail), region.normal[i].dot(head)) < region.least[i]) return;
+        edges.push_back(e);
+    });
+    std::sort(edges.begin(), edges.end());   // ties between axes are decided by the lower edge, whatever the tree
+}
+
+// In `shape`'s frame. Its best face f says: the other lies above f's plane lowered by the overlap; the other's best
+// face g says: this shape's part in the contact lies below g's plane. Each within `way`.
+Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedron& other, const FaceAxis& g,
+                      const Pose& other_pose, double way) {
+    const Polyhedron::Face &own = shape.faces[f.face], &theirs = other.faces[g.face];
+    const Vec3 into = -(other_pose.rotation * theirs.normal);
+    return {turned(other.bounds, other_pose).grown(way),
+            {own.normal, into},
+            {own.offset + std::min(0.0, f.separation) - way, into.dot(other_pose.position) - theirs.offset - way}};
 }
 
 // Whether the two edges build a face of the Minkowski difference: their arcs on the Gauss map cross
@@ -59,11 +93,11 @@ bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, EdgeSearch search,
-                  CollisionScratch& scratch, double& best, SeparatingAxis& axis) {
+                  const FaceAxis& face_a, const FaceAxis& face_b, CollisionScratch& scratch, double& best,
+                  SeparatingAxis& axis) {
     const double way = edge_reach(search, margin, axis.separation);
-    const Bounds in_a = turned(b.bounds, b_in_a).grown(way), in_b = turned(a.bounds, inverse(b_in_a)).grown(way);
-    edges_in(a, in_a, scratch.edges_a);
-    edges_in(b, in_b, scratch.edges_b);
+    edges_in(a, contact_region(a, face_a, b, face_b, b_in_a, way), scratch.edges_a);
+    edges_in(b, contact_region(b, face_b, a, face_a, inverse(b_in_a), way), scratch.edges_b);
     for (const std::uint32_t ib : scratch.edges_b) {
         const Polyhedron::Edge& eb = b.edges[ib];
         const Vec3 tail_b = b_in_a.to_world(b.vertices[eb.tail]);
@@ -165,7 +199,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     }
     double best = axis.separation + preference;
     if (a.is_box && b.is_box) search_box_edges(a, b, b_in_a, margin, best, axis);
-    else search_edges(a, b, b_in_a, margin, search, scratch, best, axis);
+    else search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (axis.separation > margin) return {};
     return axis;
 }

@@ -37,7 +37,6 @@ struct Contact {
     double bounce_velocity = 0.0;           // m/s, v_rel after the collision: gravity's step must not eat it
     double impulse = 0.0;                   // N s along the normal, of resting contact
     Vec3 friction_impulse = Vec3::Zero();   // N s on B, across the normal
-    double push = 0.0;                      // N s of the position correction; changes no momentum
 
     bool touching() const { return separation <= touch_distance; }
 };
