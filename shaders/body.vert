@@ -68,7 +68,8 @@ void main() {
 #ifdef MESH
     int width = textureSize(occlusion_atlas, 0).x;
     int probe = int(instance_look.z) + int(mesh_probe);
-    v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? ivec2(probe % width, int(instance_look.w) + probe / width) : ivec2(0), 0).r;
+    ivec2 texel = ivec2(probe % width, int(instance_look.w) + probe / width);
+    v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? texel : ivec2(0), 0).r;
     v_normal = rotate(instance_orientation, normalize(mesh_normal / instance_scale.xyz));
 #endif
 }

@@ -8,7 +8,7 @@ flat in vec4 v_rim;
 
 // How much of the pixel lies in the groove between a crate's frame and its panel.
 float groove(vec3 to_edges) {
-    // to_edges: distances to the three pairs of faces; the smallest is this face's own (zero), the middle one the edge's
+    // to_edges: distances to the three pairs of faces; the smallest is this face's own (0), the middle the edge's
     float edge = max(min(to_edges.x, to_edges.y), min(max(to_edges.x, to_edges.y), to_edges.z));
     float shortest = 2.0 * min(v_scale.x, min(v_scale.y, v_scale.z));
     float footprint = max(fwidth(edge), 1e-6 * shortest);

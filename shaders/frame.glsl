@@ -2,7 +2,7 @@
 // eye: subtracted in double precision, so that a scene far from the origin stays steady.
 layout(std140) uniform Frame {
     mat4 clip_from_relative;
-    vec4 ray_origin;             // the view ray through pixel (x, y) is origin + x dx + y dy, one long along the view axis
+    vec4 ray_origin;             // the view ray through pixel (x, y) is origin + x dx + y dy, 1 along the axis
     vec4 ray_dx;
     vec4 ray_dy;
     vec4 to_light;               // unit; w: 1 with shadows, else 0

@@ -13,10 +13,10 @@ const float sky_haze = 5.0;                               // how fast the horizo
 const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky around the sun
 
 const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone
-const float veil_of_rough = 0.2;                          // what is left of the sky's mirror image on chalk: colours stay rich
+const float veil_of_rough = 0.2;                          // what is left of the mirrored sky on chalk: colours stay rich
 
 const float corner_darkness = 0.5;                        // sky light lost where two planes meet
-const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels: contact seen in the sun
+const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels
 
 const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 

@@ -71,7 +71,7 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
     const MeshLook& shared = looks.meshes[look.mesh];
     look.bound_center = shared.bound_center;
     look.bound_radius = shared.half_extent.norm();
-    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);   // a flat sheet has no thickness
+    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);  // a flat sheet has no thickness
     look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
@@ -108,9 +108,12 @@ BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const C
 
 float pattern_number(Pattern pattern) {
     switch (pattern) {
-        case Pattern::grid: return 1.0f;
-        case Pattern::checker: return 2.0f;
-        default: return 0.0f;
+        case Pattern::grid:
+            return 1.0f;
+        case Pattern::checker:
+            return 2.0f;
+        default:
+            return 0.0f;
     }
 }
 

@@ -18,43 +18,43 @@ enum class DrawKind { hidden, plane, box, ball, mesh };
 
 struct BodyLook {
     DrawKind kind = DrawKind::hidden;
-    std::size_t mesh = 0;                    // index into SceneLooks::meshes
-    Vec3 half_size = Vec3::Ones();           // scale of the unit box or ball, m; 1 for meshes
-    Vec3 bound_center = Vec3::Zero();        // of a ball around the body, body frame from its origin, m
-    double bound_radius = 0.0;               // m
-    double reach = 0.0;                      // how far it darkens its neighbours, and they it, m
-    double bevel = 0.0;                      // m
-    double pattern_cell = 1.0;               // m; a plane's follows the view instead
-    PlaneShape plane;                        // planes only
-    glm::vec3 color{1.0f};                   // linear
+    std::size_t mesh = 0;              // index into SceneLooks::meshes
+    Vec3 half_size = Vec3::Ones();     // scale of the unit box or ball, m; 1 for meshes
+    Vec3 bound_center = Vec3::Zero();  // of a ball around the body, body frame from its origin, m
+    double bound_radius = 0.0;         // m
+    double reach = 0.0;                // how far it darkens its neighbours, and they it, m
+    double bevel = 0.0;                // m
+    double pattern_cell = 1.0;         // m; a plane's follows the view instead
+    PlaneShape plane;                  // planes only
+    glm::vec3 color{1.0f};             // linear
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
 };
 
 /// A box inside a mesh that stands for it where neighbours are darkened; body frame.
 struct OccluderBox {
-    Vec3 center;      // m
-    Vec3 half_size;   // m
+    Vec3 center;     // m
+    Vec3 half_size;  // m
 };
 
 /// A place on a mesh where its own sky light is worked out; body frame.
 struct MeshProbe {
-    Vec3 position;    // m
-    Vec3 normal;      // unit
+    Vec3 position;  // m
+    Vec3 normal;    // unit
 };
 
 struct MeshLook {
     const MeshAsset* asset = nullptr;
-    Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();   // m
+    Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
     std::vector<MeshProbe> probes;
     std::vector<std::uint32_t> probe_of_vertex;
 };
 
 struct SceneLooks {
-    std::vector<BodyLook> bodies;    // in scene order
-    std::vector<MeshLook> meshes;    // each once, in order of first use
-    double typical_reach = 1.0;      // m, the median of the bodies'
+    std::vector<BodyLook> bodies;  // in scene order
+    std::vector<MeshLook> meshes;  // each once, in order of first use
+    double typical_reach = 1.0;    // m, the median of the bodies'
 };
 
 SceneLooks make_scene_looks(const SceneDescription& scene);

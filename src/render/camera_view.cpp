@@ -20,7 +20,7 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height)
     : eye_(camera.eye), width_(width), height_(height) {
     const Vec3 to_target = camera.target - camera.eye;
     target_distance_ = to_target.norm();
-    if (!(target_distance_ > 0.0)) target_distance_ = 1.0;   // an eye in its own target looks along -z
+    if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye in its own target looks along -z
     forward_ = to_target.norm() > 0.0 ? Vec3(to_target / target_distance_) : Vec3(0.0, 0.0, -1.0);
     right_ = forward_.cross(camera.up);
     // An up that is parallel to the view (a camera straight from above) leaves the turn open: any axis across will do.

@@ -11,10 +11,10 @@ namespace tumble {
 namespace {
 
 // A ball's outline may leave the true circle by this much.
-constexpr double outline_error = 0.15;   // pixels
+constexpr double outline_error = 0.15;  // pixels
 
 // The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
-constexpr double icosahedron_angle = 1.10714871779409;   // rad, atan 2
+constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
 
 constexpr float cord_roughness = 0.7f;
 
@@ -37,7 +37,8 @@ std::size_t ball_mesh_for(double radius, double distance, const CameraView& view
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view, const OcclusionPlace& place) {
+Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view,
+                     const OcclusionPlace& place) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
             to_glm(look.half_size, look.pattern_cell),
@@ -52,10 +53,14 @@ Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const Came
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
     const Vec3 middle = 0.5 * (from + to);
     const double length = (to - from).norm();
-    const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()));
+    const Quat turn =
+        Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()));
     const std::array<double, 3> c = to_linear(cord.color);
     const Vec3 scale(cord.radius, std::max(0.5 * length, 1e-3 * cord.radius), cord.radius);
-    return {cylinder_mesh, false, true, middle.norm(),
+    return {cylinder_mesh,
+            false,
+            true,
+            middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
              glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec2(0.0f)}};
 }
@@ -75,9 +80,12 @@ void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec
 
 std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
     switch (look.kind) {
-        case DrawKind::ball: return ball_mesh_for(ball.radius, ball.center.norm(), view);
-        case DrawKind::mesh: return first_scene_mesh + look.mesh;
-        default: return box_mesh;
+        case DrawKind::ball:
+            return ball_mesh_for(ball.radius, ball.center.norm(), view);
+        case DrawKind::mesh:
+            return first_scene_mesh + look.mesh;
+        default:
+            return box_mesh;
     }
 }
 

@@ -16,12 +16,12 @@ namespace tumble {
 
 /// One drawn body (of a box, one of its faces), as shaders/instance.glsl reads it.
 struct Instance {
-    glm::vec4 position;      // of the body's origin, relative to the eye; w: bevel, m
-    glm::vec4 orientation;   // x, y, z, w
-    glm::vec4 scale;         // of the mesh; w: its pattern's cell, m
-    glm::vec4 color;         // linear; w: roughness
-    glm::vec4 look;          // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec2 tile;          // the edge of its tiles there; and which face of a box this is, as in make_box()
+    glm::vec4 position;     // of the body's origin, relative to the eye; w: bevel, m
+    glm::vec4 orientation;  // x, y, z, w
+    glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
+    glm::vec4 color;        // linear; w: roughness
+    glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
+    glm::vec2 tile;         // the edge of its tiles there; and which face of a box this is, as in make_box()
 };
 
 /// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.
@@ -31,14 +31,14 @@ inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, firs
 struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
-    bool lit = true;                    // false: faces turned away from the sun, which need no look for shadows
-    std::size_t first = 0, count = 0;   // of the instances
+    bool lit = true;                   // false: faces turned away from the sun, which need no look for shadows
+    std::size_t first = 0, count = 0;  // of the instances
 };
 
 struct DrawList {
     std::vector<Instance> instances;
-    std::vector<Batch> visible;   // in the picture
-    std::vector<Batch> casters;   // their shadows may be
+    std::vector<Batch> visible;  // in the picture
+    std::vector<Batch> casters;  // their shadows may be
 };
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,

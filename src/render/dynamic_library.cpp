@@ -18,7 +18,8 @@ DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const std::st
         const char* reason = dlerror();
         tried += fmt::format("\n  {}", reason != nullptr ? reason : name);
     }
-    throw RunError(fmt::format("no library to draw with; install it with 'apt-get install {}'. Tried:{}", package, tried));
+    throw RunError(
+        fmt::format("no library to draw with; install it with 'apt-get install {}'. Tried:{}", package, tried));
 }
 
 void* DynamicLibrary::find(const char* symbol) const { return dlsym(handle_, symbol); }

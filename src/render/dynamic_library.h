@@ -23,7 +23,7 @@ public:
 private:
     void* require_address(const char* symbol) const;
 
-    void* handle_ = nullptr;   // never closed: Mesa and LLVM keep threads and exit handlers inside
+    void* handle_ = nullptr;  // never closed: Mesa and LLVM keep threads and exit handlers inside
     std::string name_;
 };
 

@@ -26,8 +26,10 @@ public:
           destroy_context_(library_.require<decltype(&eglDestroyContext)>("eglDestroyContext")),
           terminate_(library_.require<decltype(&eglTerminate)>("eglTerminate")) {
         if (!open_surfaceless() && !open_device())
-            throw RunError(fmt::format("EGL offers neither a surfaceless nor a device display (EGL error 0x{:x}); "
-                                       "install Mesa's with 'apt-get install {}'", get_error_(), packages));
+            throw RunError(
+                fmt::format("EGL offers neither a surfaceless nor a device display (EGL error 0x{:x}); "
+                            "install Mesa's with 'apt-get install {}'",
+                            get_error_(), packages));
         create_context();
     }
 
@@ -39,12 +41,11 @@ public:
 
     void make_current() override {
         if (!make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
-            throw RunError(fmt::format("EGL cannot make a context current without a surface (error 0x{:x})", get_error_()));
+            throw RunError(
+                fmt::format("EGL cannot make a context current without a surface (error 0x{:x})", get_error_()));
     }
 
-    void* get_proc_address(const char* name) const override {
-        return reinterpret_cast<void*>(get_proc_address_(name));
-    }
+    void* get_proc_address(const char* name) const override { return reinterpret_cast<void*>(get_proc_address_(name)); }
 
 private:
     bool initialize(EGLDisplay display) {
@@ -90,15 +91,19 @@ private:
         EGLint count = 0;
         // A config is only a formality here (we draw into our own framebuffer); a device may offer none at all.
         if (!choose(display_, wanted, &config, 1, &count) || count == 0) config = EGL_NO_CONFIG_KHR;
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, gl_major,
-                                     EGL_CONTEXT_MINOR_VERSION, gl_minor,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                     gl_major,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     gl_minor,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_NONE};
         if (bind_api(EGL_OPENGL_API)) context_ = create(display_, config, EGL_NO_CONTEXT, attributes);
         if (context_ == EGL_NO_CONTEXT) {
             const EGLint error = get_error_();
             terminate_(display_);
-            throw RunError(fmt::format("EGL cannot make an OpenGL {}.{} core context (error 0x{:x})", gl_major, gl_minor,
-                                       error));
+            throw RunError(
+                fmt::format("EGL cannot make an OpenGL {}.{} core context (error 0x{:x})", gl_major, gl_minor, error));
         }
     }
 

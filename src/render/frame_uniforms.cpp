@@ -22,7 +22,8 @@ double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, cons
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         if (looks.bodies[i].kind == DrawKind::hidden || looks.bodies[i].kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
-        if (view.sees(ball.center, ball.radius)) nearest = std::min(nearest, ball.center.dot(view.forward()) - ball.radius);
+        if (view.sees(ball.center, ball.radius))
+            nearest = std::min(nearest, ball.center.dot(view.forward()) - ball.radius);
     }
     nearest = std::max(nearest, nearest_part * view.target_distance());
     return std::exp2(std::floor(std::log2(0.5 * nearest)));

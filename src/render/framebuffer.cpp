@@ -23,7 +23,10 @@ int supported_samples(const GlFunctions& gl, int wanted) {
 }  // namespace
 
 Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int samples)
-    : gl_(&gl), width_(width), height_(height), samples_(supported_samples(gl, samples)),
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      samples_(supported_samples(gl, samples)),
       drawn_(make_target(samples_, true)) {
     if (samples_ > 1) resolved_.emplace(make_target(1, false));
 }

@@ -1,6 +1,7 @@
-// The picture's own framebuffer: colour and depth with several samples a pixel, and the single-sample colour that they are
-// averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a frame), and
-// edges are averaged as they are displayed, which keeps a bright edge before a dark ground from growing a staircase.
+// The picture's own framebuffer: colour and depth with several samples a pixel, and the single-sample colour that they
+// are averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a
+// frame), and edges are averaged as they are displayed, which keeps a bright edge before a dark ground from growing a
+// staircase.
 #pragma once
 
 #include "core/image.h"
@@ -35,7 +36,7 @@ private:
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target drawn_;
-    std::optional<Target> resolved_;   // only with several samples
+    std::optional<Target> resolved_;  // only with several samples
 };
 
 }  // namespace tumble

@@ -27,8 +27,13 @@ void fill(const GlFunctions& gl, GLenum target, const GlObject& buffer, std::spa
 }  // namespace
 
 MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
-    : gl_(&gl), array_(gl, GlKind::vertex_array), vertices_(gl, GlKind::buffer), indices_(gl, GlKind::buffer),
-      probes_(gl, GlKind::buffer), index_count_(GLsizei(data.indices.size())), closed_(data.closed) {
+    : gl_(&gl),
+      array_(gl, GlKind::vertex_array),
+      vertices_(gl, GlKind::buffer),
+      indices_(gl, GlKind::buffer),
+      probes_(gl, GlKind::buffer),
+      index_count_(GLsizei(data.indices.size())),
+      closed_(data.closed) {
     using Vertex = MeshAsset::Vertex;
     gl.BindVertexArray(array_.name());
     fill(gl, GL_ELEMENT_ARRAY_BUFFER, indices_, data.indices);

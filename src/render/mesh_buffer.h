@@ -12,7 +12,7 @@ namespace tumble {
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
-    std::span<const std::uint32_t> probe_of_vertex;   // may be empty: only the scene's own meshes have probes
+    std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only the scene's own meshes have probes
     bool closed = true;
 };
 

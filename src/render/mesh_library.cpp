@@ -5,13 +5,14 @@
 namespace tumble {
 namespace {
 
-constexpr int cylinder_sides = 16;   // a cord is a few pixels wide
+constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 
 }  // namespace
 
-MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks)
-    : gl_(&gl), instances_(gl, GlKind::buffer) {
-    const auto add = [&](const DrawMesh& mesh) { meshes_.emplace_back(gl, MeshData{mesh.vertices, mesh.indices, {}, true}); };
+MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks) : gl_(&gl), instances_(gl, GlKind::buffer) {
+    const auto add = [&](const DrawMesh& mesh) {
+        meshes_.emplace_back(gl, MeshData{mesh.vertices, mesh.indices, {}, true});
+    };
     add(make_box());
     add(make_face());
     for (std::size_t level = 0; level < ball_levels; ++level) add(make_ball(int(level)));

@@ -8,7 +8,7 @@ namespace tumble {
 namespace {
 
 constexpr int cells_along_longest = 12;
-constexpr std::size_t most_boxes = 16;   // each costs every pixel near the body a distance
+constexpr std::size_t most_boxes = 16;  // each costs every pixel near the body a distance
 
 using Cell = std::array<int, 3>;
 
@@ -29,7 +29,7 @@ public:
     bool inside(const Cell& c) const { return inside_[index(c)]; }
     void clear(const Cell& c) { inside_[index(c)] = false; }
 
-    OccluderBox box(const Cell& low, const Cell& high) const {   // high: one past the last cell
+    OccluderBox box(const Cell& low, const Cell& high) const {  // high: one past the last cell
         const Vec3 a(low[0], low[1], low[2]), b(high[0], high[1], high[2]);
         return {bounds_.min + (0.5 * (a + b)).cwiseProduct(size_), (0.5 * (b - a)).cwiseProduct(size_)};
     }
@@ -47,7 +47,8 @@ private:
         const double line_z = bounds_.min.z() + (z + 0.5000731) * size_.z();
         std::vector<double> crossings;
         for (const auto& triangle : mesh.triangles) {
-            const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+            const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
+                       &c = mesh.vertices[triangle[2]];
             const auto side = [&](const Vec3& p, const Vec3& q) {
                 return (q.y() - p.y()) * (line_z - p.z()) - (q.z() - p.z()) * (line_y - p.y());
             };
@@ -98,7 +99,8 @@ OccluderBox take_box(Lattice& lattice, const Cell& first) {
 
 std::vector<OccluderBox> make_mesh_occluders(const TriangleMesh& mesh) {
     std::vector<OccluderBox> boxes;
-    if (mesh.triangles.empty() || !closedness(mesh).closed() || !(mesh.bounds().extent().minCoeff() > 0.0)) return boxes;
+    if (mesh.triangles.empty() || !closedness(mesh).closed() || !(mesh.bounds().extent().minCoeff() > 0.0))
+        return boxes;
     Lattice lattice(mesh);
     for (int z = 0; z < lattice.counts()[2]; ++z)
         for (int y = 0; y < lattice.counts()[1]; ++y)

@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_probes = 2000;   // each is worked out anew in every frame, for every body of this mesh
+constexpr std::size_t most_probes = 2000;  // each is worked out anew in every frame, for every body of this mesh
 
 Vec3 vec3(const float (&v)[3]) { return {double(v[0]), double(v[1]), double(v[2])}; }
 

@@ -26,7 +26,8 @@ std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& sn
         const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
         const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
             all.push_back({view.relative(state.origin + state.orientation * center).cast<float>(), to_local,
-                           half_size.cast<float>(), float(radius), float(look.reach), float(half_size.norm() + radius), i});
+                           half_size.cast<float>(), float(radius), float(look.reach), float(half_size.norm() + radius),
+                           i});
         };
         if (look.kind == DrawKind::box) add(Vec3::Zero(), look.half_size, 0.0);
         if (look.kind == DrawKind::ball) add(Vec3::Zero(), Vec3::Zero(), look.half_size.x());

@@ -12,12 +12,12 @@ namespace tumble {
 
 /// A ball is a box of no size with a radius. Float: what is darkened is a picture.
 struct Occluder {
-    Eigen::Vector3f center;      // relative to the eye, m
-    Eigen::Matrix3f to_local;    // world axes -> the occluder's
-    Eigen::Vector3f half_size;   // m
-    float radius;                // m
-    float reach;                 // m
-    float bound_radius;          // of the ball around it, m
+    Eigen::Vector3f center;     // relative to the eye, m
+    Eigen::Matrix3f to_local;   // world axes -> the occluder's
+    Eigen::Vector3f half_size;  // m
+    float radius;               // m
+    float reach;                // m
+    float bound_radius;         // of the ball around it, m
     std::size_t body;
 };
 
@@ -47,7 +47,7 @@ private:
     bool meets(std::size_t occluder, const Eigen::Vector3f& center, float radius) const;
 
     const std::vector<Occluder>* occluders_;
-    float cell_size_ = 1.0f;   // m
+    float cell_size_ = 1.0f;  // m
     std::vector<Entry> entries_;
     std::vector<std::size_t> everywhere_;
 };

@@ -10,16 +10,16 @@
 namespace tumble {
 namespace {
 
-constexpr double texels_per_reach = 4.0;   // how finely a body's darkening is sampled
+constexpr double texels_per_reach = 4.0;  // how finely a body's darkening is sampled
 constexpr int least_tile = 5, most_tile = 64;
 constexpr int ball_tile = 16;
-constexpr int largest_window = 1024;       // texels; bodies beyond it leave the plane open
-constexpr int most_rows = 8192;            // OpenGL 4.1 grants 16384
+constexpr int largest_window = 1024;  // texels; bodies beyond it leave the plane open
+constexpr int most_rows = 8192;       // OpenGL 4.1 grants 16384
 
 struct PlaneInView {
     std::size_t body;
     Eigen::Vector3f normal;
-    float height;   // of the eye above it, m
+    float height;  // of the eye above it, m
 };
 
 // The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
@@ -27,13 +27,17 @@ Eigen::Vector3f octahedral(float x, float y) {
     const float z = 1.0f - std::abs(x) - std::abs(y);
     if (z >= 0.0f) return Eigen::Vector3f(x, y, z).normalized();
     return Eigen::Vector3f((1.0f - std::abs(y)) * (x >= 0.0f ? 1.0f : -1.0f),
-                           (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f), z).normalized();
+                           (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f), z)
+        .normalized();
 }
 
 class AtlasMaker {
 public:
     AtlasMaker(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view)
-        : looks_(looks), snapshot_(snapshot), view_(view), occluders_(make_occluders(looks, snapshot, view)),
+        : looks_(looks),
+          snapshot_(snapshot),
+          view_(view),
+          occluders_(make_occluders(looks, snapshot, view)),
           finder_(occluders_) {
         atlas_.places.resize(looks.bodies.size());
         for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
@@ -45,7 +49,7 @@ public:
     }
 
     OcclusionAtlas make(const Visibility& visibility) {
-        grow(1);   // texel 0, 0 is open, for whoever has no place
+        grow(1);  // texel 0, 0 is open, for whoever has no place
         row_ = 1;
         for (const PlaneInView& plane : planes_) add_window(plane);
         for (std::size_t i = 0; i < looks_.bodies.size(); ++i) {
@@ -81,9 +85,7 @@ private:
             texel(x + i, y) = std::uint8_t(255.0f * points_.open[std::size_t(first + i)] + 0.5f);
     }
 
-    std::uint8_t& texel(int x, int y) {
-        return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)];
-    }
+    std::uint8_t& texel(int x, int y) { return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)]; }
 
     void darken_by(const std::vector<std::size_t>& near, double reach) {
         for (const std::size_t i : near) darken(points_, occluders_[i], float(reach));
@@ -94,7 +96,7 @@ private:
         const BodyLook& look = looks_.bodies[body];
         const Eigen::Vector3f center = ball.center.cast<float>();
         finder_.find(center, float(ball.radius), near_);
-        std::erase_if(near_, [&](std::size_t i) { return occluders_[i].body == body; });   // not by itself
+        std::erase_if(near_, [&](std::size_t i) { return occluders_[i].body == body; });  // not by itself
         near_planes_.clear();
         for (const PlaneInView& plane : planes_)
             if (plane.normal.dot(center) + plane.height < ball.radius + 2.0 * look.reach) near_planes_.push_back(plane);
@@ -119,7 +121,7 @@ private:
             const double side = face % 2 == 0 ? -1.0 : 1.0;
             const Vec3 normal = side * axes.col(axis);
             const Vec3 middle = center + normal * look.half_size[axis];
-            if (normal.dot(middle) >= 0.0) continue;   // turned away from the eye
+            if (normal.dot(middle) >= 0.0) continue;  // turned away from the eye
             const int a = (axis + 1) % 3, b = (axis + 2) % 3;
             const Vec3 u = axes.col(a) * look.half_size[a], v = axes.col(b) * look.half_size[b];
             points_.clear();
@@ -187,8 +189,8 @@ private:
     std::vector<PlaneInView> planes_, near_planes_;
     OcclusionAtlas atlas_;
     int row_ = 0, shelf_x_ = 0, shelf_height_ = 0;
-    SurfacePoints points_;                // of the tile at hand
-    std::vector<std::size_t> near_, near_face_;   // what may darken it
+    SurfacePoints points_;                       // of the tile at hand
+    std::vector<std::size_t> near_, near_face_;  // what may darken it
 };
 
 // Every occluder near the plane darkens the texels around its foot; they multiply, as everywhere.
@@ -196,13 +198,16 @@ void AtlasMaker::add_window(const PlaneInView& plane) {
     const BodyState& state = snapshot_.bodies[plane.body];
     const PlaneAxes axes = plane_axes(looks_.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
-    const Vec3 origin = view_.relative(state.origin);   // the plane's coordinates count from here
+    const Vec3 origin = view_.relative(state.origin);  // the plane's coordinates count from here
     OcclusionWindow window;
     window.body = plane.body;
     // A power of two, and the window on whole cells: texels stay where they are while bodies move.
     window.cell = std::exp2(std::floor(std::log2(looks_.typical_reach / texels_per_reach)));
 
-    struct Foot { const Occluder* occluder; double a, b, radius; };   // m
+    struct Foot {
+        const Occluder* occluder;
+        double a, b, radius;
+    };  // m
     std::vector<Foot> feet;
     for (const Occluder& o : occluders_) {
         const double height = double(plane.normal.dot(o.center)) + double(plane.height);
@@ -218,7 +223,7 @@ void AtlasMaker::add_window(const PlaneInView& plane) {
             least = std::min(least, coordinate(foot) - foot.radius);
             most = std::max(most, coordinate(foot) + foot.radius);
         }
-        if ((most - least) / window.cell > largest_window - 4) {   // keep the part where most of them are
+        if ((most - least) / window.cell > largest_window - 4) {  // keep the part where most of them are
             std::vector<double> middles;
             for (const Foot& foot : feet) middles.push_back(coordinate(foot));
             const auto middle = middles.begin() + std::ptrdiff_t(middles.size() / 2);
@@ -236,7 +241,9 @@ void AtlasMaker::add_window(const PlaneInView& plane) {
     const int width = window.width;
     std::vector<float> open(std::size_t(width) * std::size_t(window.height), 1.0f);
     for (const Foot& foot : feet) {
-        const auto first = [&](double at, double low) { return std::max(1, int(std::floor((at - foot.radius) / window.cell - low))); };
+        const auto first = [&](double at, double low) {
+            return std::max(1, int(std::floor((at - foot.radius) / window.cell - low)));
+        };
         const auto last = [&](double at, double low, int count) {
             return std::min(count - 2, int(std::ceil((at + foot.radius) / window.cell - low)));
         };
@@ -248,7 +255,8 @@ void AtlasMaker::add_window(const PlaneInView& plane) {
         for (int j = j0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i)
                 points_.add((on_plane + u * ((window.low_a + i) * window.cell) + v * ((window.low_b + j) * window.cell))
-                                .cast<float>(), plane.normal);
+                                .cast<float>(),
+                            plane.normal);
         darken(points_, *foot.occluder, foot.occluder->reach);
         for (int j = j0, k = 0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i, ++k) open[std::size_t(j * width + i)] *= points_.open[std::size_t(k)];

@@ -17,23 +17,23 @@ namespace tumble {
 /// Where a body's texels are. A size of 0: nowhere, it is wholly open (texel 0, 0 is).
 struct OcclusionPlace {
     int x = 0, y = 0;
-    int size = 0;          // a tile's edge; six tiles in a row for a box. Unused for meshes
+    int size = 0;  // a tile's edge; six tiles in a row for a box. Unused for meshes
 };
 
 /// The part of a plane around the bodies. A point at the coordinates (a, b) on the plane's axes, in m from the plane
 /// body's origin, has the texel (x + a / cell - low_a, y + b / cell - low_b).
 struct OcclusionWindow {
     std::size_t body = 0;
-    int x = 0, y = 0, width = 0, height = 0;   // texels; the outermost are open
-    double cell = 1.0;                         // m
-    double low_a = 0.0, low_b = 0.0;           // in cells
+    int x = 0, y = 0, width = 0, height = 0;  // texels; the outermost are open
+    double cell = 1.0;                        // m
+    double low_a = 0.0, low_b = 0.0;          // in cells
 };
 
 struct OcclusionAtlas {
     static constexpr int width = 1024;
     int height = 1;
-    std::vector<std::uint8_t> texels;        // width * height, 255: open
-    std::vector<OcclusionPlace> places;      // of each body
+    std::vector<std::uint8_t> texels;    // width * height, 255: open
+    std::vector<OcclusionPlace> places;  // of each body
     std::vector<OcclusionWindow> windows;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array library_names = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
 
 // OSMesa insists on a default framebuffer in our memory; nothing is ever drawn into it.
-constexpr int default_framebuffer_size = 4;   // pixels
+constexpr int default_framebuffer_size = 4;  // pixels
 
 class OsmesaContext final : public GlContext {
 public:
@@ -23,12 +23,16 @@ public:
           destroy_(library_.require<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")),
           make_current_(library_.require<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")),
           get_proc_address_(library_.require<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress")) {
-        const auto create =
-            library_.require<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
-        const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA,
-                                  OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                  OSMESA_CONTEXT_MAJOR_VERSION, gl_major,
-                                  OSMESA_CONTEXT_MINOR_VERSION, gl_minor, 0};
+        const auto create = library_.require<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs");
+        const int attributes[] = {OSMESA_FORMAT,
+                                  OSMESA_RGBA,
+                                  OSMESA_PROFILE,
+                                  OSMESA_CORE_PROFILE,
+                                  OSMESA_CONTEXT_MAJOR_VERSION,
+                                  gl_major,
+                                  OSMESA_CONTEXT_MINOR_VERSION,
+                                  gl_minor,
+                                  0};
         context_ = create(attributes, nullptr);
         if (context_ == nullptr)
             throw RunError(fmt::format("OSMesa cannot make an OpenGL {}.{} core context; Mesa 20 or later is needed",
@@ -38,13 +42,12 @@ public:
     ~OsmesaContext() override { destroy_(context_); }
 
     void make_current() override {
-        if (!make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, default_framebuffer_size, default_framebuffer_size))
+        if (!make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, default_framebuffer_size,
+                           default_framebuffer_size))
             throw RunError("OSMesa cannot make its context current");
     }
 
-    void* get_proc_address(const char* name) const override {
-        return reinterpret_cast<void*>(get_proc_address_(name));
-    }
+    void* get_proc_address(const char* name) const override { return reinterpret_cast<void*>(get_proc_address_(name)); }
 
 private:
     DynamicLibrary library_;

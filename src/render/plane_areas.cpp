@@ -8,8 +8,8 @@
 namespace tumble {
 namespace {
 
-constexpr double filter_texels = 6.0;   // the shadow filter's width and the normal's offset, with some to spare
-constexpr double rim = 2.0;             // pixels around what is touched: the atlas and the screen round too
+constexpr double filter_texels = 6.0;  // the shadow filter's width and the normal's offset, with some to spare
+constexpr double rim = 2.0;            // pixels around what is touched: the atlas and the screen round too
 
 enum class Use : unsigned char { open, touched, covered };
 
@@ -17,7 +17,10 @@ enum class Use : unsigned char { open, touched, covered };
 class Cells {
 public:
     Cells(const Vec3& normal, const CameraView& view, const ScreenCover& cover)
-        : view_(view), axes_(plane_axes(normal)), columns_(cover.columns()), rows_(cover.rows()),
+        : view_(view),
+          axes_(plane_axes(normal)),
+          columns_(cover.columns()),
+          rows_(cover.rows()),
           uses_(std::size_t(columns_) * std::size_t(rows_), Use::open) {}
 
     int columns() const { return columns_; }
@@ -31,7 +34,7 @@ public:
         for (const double a : {-radius, radius})
             for (const double b : {-radius, radius}) {
                 const Vec3 p = center + a * axes_.u + b * axes_.v;
-                if (!(p.dot(view_.forward()) > 1e-3 * p.norm())) return touch_everything();   // beside or behind the eye
+                if (!(p.dot(view_.forward()) > 1e-3 * p.norm())) return touch_everything();  // beside or behind the eye
                 const Eigen::Vector2d pixel = view_.pixel(p);
                 x0 = std::min(x0, pixel.x() - rim);
                 x1 = std::max(x1, pixel.x() + rim);
@@ -42,7 +45,8 @@ public:
             return int(std::clamp(std::floor(pixel / ScreenCover::cell), -1.0, double(count)));
         };
         for (int row = std::max(0, cell(y0, rows_)); row <= std::min(rows_ - 1, cell(y1, rows_)); ++row)
-            for (int column = std::max(0, cell(x0, columns_)); column <= std::min(columns_ - 1, cell(x1, columns_)); ++column)
+            for (int column = std::max(0, cell(x0, columns_)); column <= std::min(columns_ - 1, cell(x1, columns_));
+                 ++column)
                 at(column, row) = Use::touched;
     }
 
@@ -56,9 +60,9 @@ private:
 void touch_cells(Cells& cells, const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
                  const Snapshot& snapshot, const CameraView& view, const ShadowFit& shadows) {
     const Vec3 light = scene.light.direction.normalized();
-    const double approach = -plane.normal.dot(light);   // of the light to the plane: the sine of its elevation
+    const double approach = -plane.normal.dot(light);  // of the light to the plane: the sine of its elevation
     const double margin = filter_texels * (shadows.has_far ? shadows.far_texel : shadows.near_texel);
-    if (scene.light.shadows && !scene.cords.empty()) return cells.touch_everything();   // cords are long: no good bound
+    if (scene.light.shadows && !scene.cords.empty()) return cells.touch_everything();  // cords are long: no good bound
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
@@ -66,9 +70,9 @@ void touch_cells(Cells& cells, const PlanePatch& plane, const SceneDescription& 
         const double height = plane.normal.dot(ball.center) + plane.height;
         if (height < -ball.radius) continue;
         if (height < ball.radius + 2.0 * look.reach && view.sees(ball.center, ball.radius + 2.0 * look.reach))
-            cells.touch_disk(ball.center - height * plane.normal, ball.radius + 1.5 * look.reach);   // .5: texels blur
+            cells.touch_disk(ball.center - height * plane.normal, ball.radius + 1.5 * look.reach);  // .5: texels blur
         if (scene.light.shadows && approach > 0.0 && view.sees_swept(ball.center, ball.radius, light)) {
-            if (approach < 0.02) return cells.touch_everything();   // shadows without end
+            if (approach < 0.02) return cells.touch_everything();  // shadows without end
             cells.touch_disk(ball.center + light * (height / approach), (ball.radius + margin) / approach);
         }
     }
@@ -78,11 +82,13 @@ void touch_cells(Cells& cells, const PlanePatch& plane, const SceneDescription& 
 void cover_cells(Cells& cells, const PlanePatch& plane, const CameraView& view, const ScreenCover& cover) {
     for (int row = 0; row < cells.rows(); ++row)
         for (int column = 0; column < cells.columns(); ++column) {
-            double most_fall = 0.0;   // height / depth at the nearest corner
+            double most_fall = 0.0;  // height / depth at the nearest corner
             for (const int x : {column, column + 1})
                 for (const int y : {row, row + 1})
-                    most_fall = std::max(most_fall, -plane.normal.dot(view.ray(x * ScreenCover::cell, y * ScreenCover::cell)));
-            if (cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6)) cells.at(column, row) = Use::covered;
+                    most_fall =
+                        std::max(most_fall, -plane.normal.dot(view.ray(x * ScreenCover::cell, y * ScreenCover::cell)));
+            if (cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6))
+                cells.at(column, row) = Use::covered;
         }
 }
 
@@ -100,7 +106,7 @@ std::vector<PixelArea> rectangles(Cells cells, Use use, const CameraView& view) 
                 return true;
             };
             while (bottom < cells.rows() && same_run(bottom)) {
-                for (int x = column; x < end; ++x) cells.at(x, bottom) = Use::covered;   // taken
+                for (int x = column; x < end; ++x) cells.at(x, bottom) = Use::covered;  // taken
                 ++bottom;
             }
             areas.push_back({column * ScreenCover::cell, row * ScreenCover::cell,

@@ -1,6 +1,6 @@
-// Which shader a plane needs where: a dear one where shadows or the bodies' darkening may touch it, a cheap one that looks
-// for neither (to the same result) elsewhere, and none where boxes cover it. Decided for the cells of ScreenCover and
-// joined into rectangles.
+// Which shader a plane needs where: a dear one where shadows or the bodies' darkening may touch it, a cheap one that
+// looks for neither (to the same result) elsewhere, and none where boxes cover it. Decided for the cells of ScreenCover
+// and joined into rectangles.
 #pragma once
 
 #include "render/plane_patch.h"

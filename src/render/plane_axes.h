@@ -8,7 +8,7 @@
 namespace tumble {
 
 struct PlaneAxes {
-    Vec3 u, v;   // unit, in the plane, u x v = normal
+    Vec3 u, v;  // unit, in the plane, u x v = normal
 };
 
 inline PlaneAxes plane_axes(const Vec3& normal) {

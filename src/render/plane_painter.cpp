@@ -15,7 +15,7 @@ namespace {
 // Two planes that meet darken each other's corner this far, in parts of the bodies' typical reach.
 constexpr double corner_reach = 2.0;
 
-constexpr int most_other_planes = 6;   // of a box-shaped room, and one more
+constexpr int most_other_planes = 6;  // of a box-shaped room, and one more
 
 int other_planes(const SceneLooks& looks) {
     const auto planes = std::count_if(looks.bodies.begin(), looks.bodies.end(),
@@ -39,8 +39,11 @@ std::vector<std::string> with(std::vector<std::string> all, const char* one_more
 }  // namespace
 
 PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks)
-    : gl_(&gl), other_planes_(other_planes(looks)), sky_(gl, shaders, {"plane.vert", "sky.frag", {}}),
-      array_(gl, GlKind::vertex_array), corners_(gl, GlKind::buffer) {
+    : gl_(&gl),
+      other_planes_(other_planes(looks)),
+      sky_(gl, shaders, {"plane.vert", "sky.frag", {}}),
+      array_(gl, GlKind::vertex_array),
+      corners_(gl, GlKind::buffer) {
     connect(sky_);
     for (const BodyLook& look : looks.bodies) {
         auto& programs = planes_[std::size_t(look.pattern)];
@@ -58,8 +61,9 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas, const SceneLooks& looks,
-                        const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const {
+void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas,
+                        const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                        const CameraView& view) const {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
@@ -93,8 +97,8 @@ void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraV
     gl_->BindVertexArray(0);
 }
 
-void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
-                                const SceneLooks& looks) const {
+void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
+                                const std::vector<PlanePatch>& planes, const SceneLooks& looks) const {
     const BodyLook& look = looks.bodies[plane.body];
     program.use();
     program.set("plane_normal", to_glm(plane.normal, plane.height));
@@ -103,7 +107,7 @@ void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& 
     program.set("plane_color", glm::vec4(look.color, look.roughness));
     program.set("plane_look", glm::vec4(look.metallic, 0.0f, 0.0f, 0.0f));
     if (other_planes_ == 0) return;
-    std::vector<glm::vec4> others;   // those that are not in view lie far below: nothing comes near them
+    std::vector<glm::vec4> others;  // those that are not in view lie far below: nothing comes near them
     for (const PlanePatch& other : planes)
         if (other.body != plane.body) others.push_back(to_glm(other.normal, other.height));
     others.resize(std::size_t(other_planes_), glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
@@ -115,7 +119,7 @@ void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& pl
                               const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
                                      [&](const OcclusionWindow& w) { return w.body == plane.body; });
-    if (window == atlas.windows.end()) {   // texel 0, 0 is open
+    if (window == atlas.windows.end()) {  // texel 0, 0 is open
         for (const char* name : {"window_u", "window_v", "window_rim"}) program.set(name, glm::vec4(0.0f));
         return;
     }

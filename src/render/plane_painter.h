@@ -32,7 +32,7 @@ private:
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
 
     const GlFunctions* gl_;
-    std::array<std::optional<Programs>, 3> planes_;   // by pattern: those that the scene uses
+    std::array<std::optional<Programs>, 3> planes_;  // by pattern: those that the scene uses
     int other_planes_;
     ShaderProgram sky_;
     GlObject array_, corners_;

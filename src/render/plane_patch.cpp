@@ -10,9 +10,9 @@ namespace tumble {
 namespace {
 
 // The axes' coordinates are kept small by dropping whole periods of the pattern (2 cells for a checker).
-constexpr double period = 2.0;   // cells
+constexpr double period = 2.0;  // cells
 
-using Polygon = std::vector<Eigen::Vector2d>;   // clip space x and y
+using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
 
 Polygon whole_screen() { return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}; }
 
@@ -51,8 +51,11 @@ double pattern_cell(double viewing_distance) {
     double power = 1.0;
     while (power > wanted) power /= 10.0;
     while (power * 10.0 <= wanted) power *= 10.0;
-    const double digits = wanted / power;   // 1 .. 10; the borders are the geometric means of 1, 2, 5, 10
-    return power * (digits < std::sqrt(2.0) ? 1.0 : digits < std::sqrt(10.0) ? 2.0 : digits < std::sqrt(50.0) ? 5.0 : 10.0);
+    const double digits = wanted / power;  // 1 .. 10; the borders are the geometric means of 1, 2, 5, 10
+    return power * (digits < std::sqrt(2.0)    ? 1.0
+                    : digits < std::sqrt(10.0) ? 2.0
+                    : digits < std::sqrt(50.0) ? 5.0
+                                               : 10.0);
 }
 
 namespace {
@@ -98,8 +101,9 @@ std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapsh
 std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view) {
     Polygon polygon = whole_screen();
     for (const PlanePatch& plane : planes) {
-        const double overlap = 2.0 * view.pixel_size();   // the change of fall over two pixels, at most
-        polygon = clipped(polygon, [&](const Eigen::Vector2d& at) { return overlap - fall_at(plane.normal, at, view); });
+        const double overlap = 2.0 * view.pixel_size();  // the change of fall over two pixels, at most
+        polygon =
+            clipped(polygon, [&](const Eigen::Vector2d& at) { return overlap - fall_at(plane.normal, at, view); });
     }
     std::vector<glm::vec3> corners;
     for (const Eigen::Vector2d& corner : polygon) corners.emplace_back(float(corner.x()), float(corner.y()), 1.0f);

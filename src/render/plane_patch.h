@@ -1,6 +1,6 @@
-// An infinite plane as the screen sees it. In pixels, n . ray(x, y) is linear in x and y, and the plane is seen where it
-// is negative (from its open side): the screen's rectangle cut by one line, the horizon. One over the depth is linear
-// there too, so a flat polygon in clip space carries the exact depth out to infinity.
+// An infinite plane as the screen sees it. In pixels, n . ray(x, y) is linear in x and y, and the plane is seen where
+// it is negative (from its open side): the screen's rectangle cut by one line, the horizon. One over the depth is
+// linear there too, so a flat polygon in clip space carries the exact depth out to infinity.
 #pragma once
 
 #include "render/body_looks.h"
@@ -15,10 +15,10 @@
 namespace tumble {
 
 struct PlanePatch {
-    std::vector<glm::vec3> corners;   // clip space (w = 1), a convex polygon
-    Vec3 normal;                      // unit, world axes
-    double height;                    // of the eye above the plane, m, > 0
-    glm::vec4 u, v;                   // axes in the plane over the cell size; w: the eye's coordinates, in cells
+    std::vector<glm::vec3> corners;  // clip space (w = 1), a convex polygon
+    Vec3 normal;                     // unit, world axes
+    double height;                   // of the eye above the plane, m, > 0
+    glm::vec4 u, v;                  // axes in the plane over the cell size; w: the eye's coordinates, in cells
     std::size_t body;
 };
 
@@ -26,7 +26,8 @@ struct PlanePatch {
 std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
                                            double near_distance);
 
-/// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip space.
+/// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip
+/// space.
 std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view);
 
 /// A round length (1, 2 or 5 times a power of ten) near to a fifteenth of the viewing distance: 1 m at 15 m.

@@ -21,7 +21,7 @@ DrawMesh make_box() {
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             const Vec3 normal = side * Vec3::Unit(axis);
-            const Vec3 u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);   // u x v = normal: counter-clockwise
+            const Vec3 u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);  // u x v = normal: counter-clockwise
             const auto first = std::uint32_t(mesh.vertices.size());
             mesh.vertices.push_back(vertex(normal - u - v, normal));
             mesh.vertices.push_back(vertex(normal + u - v, normal));

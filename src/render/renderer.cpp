@@ -41,9 +41,10 @@ struct Renderer::State {
           shadow_map(gl, shaders, frame_block),
           programs(gl, shaders, looks, !scene.cords.empty()),
           planes(gl, shaders, looks) {
-        gl.FrontFace(GL_CW);          // the picture is drawn upside down (see CameraView)
+        gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
-        gl.Enable(GL_DEPTH_CLAMP);    // nothing is cut off in front of the near plane or in front of the sun's first depth
+        gl.Enable(
+            GL_DEPTH_CLAMP);  // nothing is cut off in front of the near plane or in front of the sun's first depth
         gl.DepthFunc(GL_LEQUAL);
     }
 
@@ -92,7 +93,7 @@ void Renderer::render(const Snapshot& snapshot, Image& frame) {
     if (s.scene.light.shadows) s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
 
     s.framebuffer.bind();
-    s.gl.Clear(GL_DEPTH_BUFFER_BIT);   // colour is covered by the sky at the latest
+    s.gl.Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
     s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
     s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion.name());
     s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);

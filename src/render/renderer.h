@@ -15,7 +15,7 @@ enum class GlBackend { osmesa, egl };
 
 struct RenderOptions {
     GlBackend backend = GlBackend::osmesa;
-    std::filesystem::path shader_folder;   // empty: found beside the program, installed, or in the source tree
+    std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
 };
 
 /// One OpenGL context and what is uploaded to it. Use it from the thread that made it.

@@ -30,10 +30,10 @@ void attach(const GlFunctions& gl, GLuint program, GLenum stage, const std::file
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     const std::string log = compiled != 0 ? std::string() : shader_log(gl, shader);
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);   // the program keeps it from here on
+    gl.DeleteShader(shader);  // the program keeps it from here on
     if (compiled == 0)
-        throw RunError(fmt::format("shader {} does not compile:\n{}", (folder / name).string(),
-                                   source.with_file_names(log)));
+        throw RunError(
+            fmt::format("shader {} does not compile:\n{}", (folder / name).string(), source.with_file_names(log)));
 }
 
 }  // namespace

@@ -12,8 +12,8 @@
 namespace tumble {
 
 struct ShaderFiles {
-    std::string vertex, fragment;        // names in the shader folder; no fragment shader: depth only
-    std::vector<std::string> defines;    // given to both
+    std::string vertex, fragment;      // names in the shader folder; no fragment shader: depth only
+    std::vector<std::string> defines;  // given to both
 };
 
 class ShaderProgram {

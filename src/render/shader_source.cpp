@@ -62,7 +62,7 @@ private:
 }  // namespace
 
 std::string ShaderSource::with_file_names(const std::string& log) const {
-    const std::regex place(R"(^\d+[:(](\d+)\)?)");   // Mesa writes 0:12(5), others 0(12)
+    const std::regex place(R"(^\d+[:(](\d+)\)?)");  // Mesa writes 0:12(5), others 0(12)
     std::istringstream words(log);
     std::string result;
     for (std::string line; std::getline(words, line);) {

@@ -12,12 +12,12 @@ namespace tumble {
 /// forgets their file numbers.
 struct ShaderSource {
     struct Origin {
-        std::size_t file;   // index into files
+        std::size_t file;  // index into files
         int line;
     };
     std::string text;
     std::vector<std::filesystem::path> files;
-    std::vector<Origin> lines;   // of each line of the text
+    std::vector<Origin> lines;  // of each line of the text
 
     /// A compiler log in which "0:LINE" or "0(LINE)" at the start of a line reads "FILE:LINE".
     std::string with_file_names(const std::string& log) const;

@@ -60,7 +60,10 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
-    struct Place { Vec3 center; double radius, distance; };
+    struct Place {
+        Vec3 center;
+        double radius, distance;
+    };
     std::vector<Place> places;
     const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
@@ -87,7 +90,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
     }
-    if (x.empty()) {   // nothing in view at first: what the camera looks at
+    if (x.empty()) {  // nothing in view at first: what the camera looks at
         const Vec3 target = view.eye() + view.forward() * view.target_distance();
         x.add(x_axis_.dot(target), 0.5 * view.target_distance());
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
@@ -99,7 +102,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 }
 
 ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
-    Extent x, y, z;   // of what throws shadows into the picture; x and y in near maps, from its corner
+    Extent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
@@ -125,10 +128,12 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
     const double low_z = depth_step * std::floor(z.low / depth_step);
     fit.z = row(z_axis_, low_z, depth_step * (std::floor(z.high / depth_step) + 1.0) - low_z);
 
-    const double reach = std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});   // from the near map's middle
-    fit.has_far = reach > 0.5 - 8.0 / texels_;   // the filter's margin
+    const double reach =
+        std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});  // from the near map's middle
+    fit.has_far = reach > 0.5 - 8.0 / texels_;                             // the filter's margin
     const double growth = fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * reach))) : 1.0;
-    fit.far = glm::vec4(float(1.0 / growth), float(0.5 - 0.5 / growth), float(0.5 - 0.5 / growth), fit.has_far ? 1.0f : 0.0f);
+    fit.far =
+        glm::vec4(float(1.0 / growth), float(0.5 - 0.5 / growth), float(0.5 - 0.5 / growth), fit.has_far ? 1.0f : 0.0f);
     fit.far_texel = growth * fit.near_texel;
     return fit;
 }

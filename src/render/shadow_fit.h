@@ -1,8 +1,8 @@
 // Which part of the world the shadow maps cover. Two square maps lie across the light: the near one is fixed for a clip
-// (the bodies' first poses and where they will land, as far as they are in view), so that resting shadows are drawn alike
-// in every frame. The far one appears around it when a body or its shadow leaves it, in powers of two of its size, and
-// what leaves even that throws no shadow. The maps' texels keep to one grid in the world: nothing crawls. All of it
-// depends on the scene and the one snapshot only, never on frames drawn before.
+// (the bodies' first poses and where they will land, as far as they are in view), so that resting shadows are drawn
+// alike in every frame. The far one appears around it when a body or its shadow leaves it, in powers of two of its
+// size, and what leaves even that throws no shadow. The maps' texels keep to one grid in the world: nothing crawls. All
+// of it depends on the scene and the one snapshot only, never on frames drawn before.
 #pragma once
 
 #include "render/draw_list.h"
@@ -12,10 +12,10 @@
 namespace tumble {
 
 struct ShadowFit {
-    glm::vec4 x, y, z;          // rows: position relative to the eye -> [0, 1]^2 of the near map, depth in [0, 1]
+    glm::vec4 x, y, z;  // rows: position relative to the eye -> [0, 1]^2 of the near map, depth in [0, 1]
     bool has_far = false;
-    glm::vec4 far{1.0f, 0.0f, 0.0f, 0.0f};   // near map -> far map: scale, offset x, offset y; w: 1 with a far map
-    double near_texel = 0.0, far_texel = 0.0;   // m
+    glm::vec4 far{1.0f, 0.0f, 0.0f, 0.0f};     // near map -> far map: scale, offset x, offset y; w: 1 with a far map
+    double near_texel = 0.0, far_texel = 0.0;  // m
 };
 
 class ShadowStage {
@@ -26,9 +26,9 @@ public:
     ShadowFit fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
 
 private:
-    Vec3 x_axis_, y_axis_, z_axis_;   // z: the way the light travels
-    double size_;                     // of the near map, m
-    double low_x_, low_y_;            // its corner, along the axes from the world's origin, m
+    Vec3 x_axis_, y_axis_, z_axis_;  // z: the way the light travels
+    double size_;                    // of the near map, m
+    double low_x_, low_y_;           // its corner, along the axes from the world's origin, m
     int texels_;
 };
 

@@ -5,12 +5,14 @@
 namespace tumble {
 
 ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block)
-    : gl_(&gl), program_(gl, shaders, {"shadow.vert", "", {}}), texture_(gl, GlKind::texture),
+    : gl_(&gl),
+      program_(gl, shaders, {"shadow.vert", "", {}}),
+      texture_(gl, GlKind::texture),
       framebuffer_(gl, GlKind::framebuffer) {
     program_.set_block("Frame", frame_block);
     gl.BindTexture(GL_TEXTURE_2D, texture_.name());
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, 2 * shadow_map_texels, shadow_map_texels, 0, GL_DEPTH_COMPONENT,
-                  GL_FLOAT, nullptr);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, 2 * shadow_map_texels, shadow_map_texels, 0,
+                  GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

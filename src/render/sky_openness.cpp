@@ -64,7 +64,7 @@ bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const E
         const Eigen::Vector3f p = occluder.to_local * (center + normal * step - occluder.center);
         const Eigen::Vector3f& half = occluder.half_size;
         const float distance = box_distance(p.x(), p.y(), p.z(), half.x(), half.y(), half.z()) - occluder.radius;
-        if (distance < radius + step) return true;   // a distance changes no faster than the point moves
+        if (distance < radius + step) return true;  // a distance changes no faster than the point moves
     }
     return false;
 }
@@ -74,8 +74,8 @@ void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float pl
     for (std::size_t i = 0; i < points.size(); ++i) {
         const float height = plane_normal.x() * points.x[i] + plane_normal.y() * points.y[i] +
                              plane_normal.z() * points.z[i] + plane_height;
-        const float rise = plane_normal.x() * points.nx[i] + plane_normal.y() * points.ny[i] +
-                           plane_normal.z() * points.nz[i];
+        const float rise =
+            plane_normal.x() * points.nx[i] + plane_normal.y() * points.ny[i] + plane_normal.z() * points.nz[i];
         const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
         points.open[i] *= 1.0f - occlusion_strength * 0.5f * (clamped(near) + clamped(far));
     }

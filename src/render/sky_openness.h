@@ -2,8 +2,8 @@
 // Each body is a box, a ball or a plane, so the distance d(x) to it is exact. From the point p with normal n two probes
 // are sent out to h_k = 0.22 h and h (h: the reach); in the open d(p + n h_k) >= h_k, in a gap it is less:
 //   open = product over bodies of (1 - strength * mean over k of clamp(1 - d(p + n h_k) / h_k, 0, 1))
-// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. No noise and nothing screen-space, so
-// nothing crawls; and what is out of sight darkens as well.
+// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. No noise and nothing screen-space,
+// so nothing crawls; and what is out of sight darkens as well.
 #pragma once
 
 #include "render/occluders.h"
@@ -12,29 +12,32 @@
 
 namespace tumble {
 
-/// Surface points and what is left of their sky light, component by component so that the compiler makes vectors of them.
+/// Surface points and what is left of their sky light, component by component so that the compiler makes vectors of
+/// them.
 struct SurfacePoints {
-    std::vector<float> x, y, z;      // relative to the eye, m
-    std::vector<float> nx, ny, nz;   // unit normals
-    std::vector<float> open;         // 1: all of the sky's light
+    std::vector<float> x, y, z;     // relative to the eye, m
+    std::vector<float> nx, ny, nz;  // unit normals
+    std::vector<float> open;        // 1: all of the sky's light
 
     std::size_t size() const { return x.size(); }
     void clear();
     void add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
 };
 
-/// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller counts.
+/// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller
+/// counts.
 void darken(SurfacePoints& points, const Occluder& occluder, float reach);
 
-/// False when the body can darken no point within `radius` of `center` whose normal is `normal`: most pairs of a face and
-/// a neighbour need not be looked at point by point.
+/// False when the body can darken no point within `radius` of `center` whose normal is `normal`: most pairs of a face
+/// and a neighbour need not be looked at point by point.
 bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
                 float reach);
 
 /// The same for a plane: points q with normal . q + height = 0.
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);
 
-/// The shares of a point's sky light that a wholly closed gap takes, and where the first probe is, in parts of the reach.
+/// The shares of a point's sky light that a wholly closed gap takes, and where the first probe is, in parts of the
+/// reach.
 inline constexpr float occlusion_strength = 0.72f;
 inline constexpr float near_probe = 0.22f;
 

@@ -41,7 +41,7 @@ void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& 
     for (const Batch& batch : batches) {
         const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                               : batch.mesh < cylinder_mesh ? DrawKind::ball
-                                                            : DrawKind::mesh;
+                                                           : DrawKind::mesh;
         programs_[index_of(kind, batch.patterned, batch.lit)]->use();
         meshes.draw(batch);
     }

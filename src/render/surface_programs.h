@@ -21,14 +21,15 @@ void connect(const ShaderProgram& program);
 class SurfacePrograms {
 public:
     /// Compiles what the scene's bodies need.
-    SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks, bool has_cords);
+    SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                    bool has_cords);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
     void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);
 
-    std::array<std::optional<ShaderProgram>, 8> programs_;   // by kind, pattern and light
+    std::array<std::optional<ShaderProgram>, 8> programs_;  // by kind, pattern and light
 };
 
 }  // namespace tumble

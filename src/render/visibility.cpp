@@ -7,10 +7,10 @@
 namespace tumble {
 namespace {
 
-using Point = Eigen::Vector2d;   // pixels
+using Point = Eigen::Vector2d;  // pixels
 
 // Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
-constexpr double margin = 1.0;   // pixels
+constexpr double margin = 1.0;  // pixels
 
 double cross(const Point& a, const Point& b, const Point& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -18,9 +18,8 @@ double cross(const Point& a, const Point& b, const Point& c) {
 
 // Andrew 1979, Another Efficient Algorithm for Convex Hulls in Two Dimensions; anticlockwise for x right, y up.
 std::vector<Point> convex_hull(std::array<Point, 8> points) {
-    std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-    });
+    std::sort(points.begin(), points.end(),
+              [](const Point& a, const Point& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
     std::vector<Point> hull;
     const auto half = [&](auto begin, auto end) {
         const std::size_t base = hull.size();
@@ -28,7 +27,7 @@ std::vector<Point> convex_hull(std::array<Point, 8> points) {
             while (hull.size() >= base + 2 && cross(hull[hull.size() - 2], hull.back(), *at) <= 0.0) hull.pop_back();
             hull.push_back(*at);
         }
-        hull.pop_back();   // the next half begins with it
+        hull.pop_back();  // the next half begins with it
     };
     half(points.begin(), points.end());
     half(points.rbegin(), points.rend());
@@ -36,9 +35,9 @@ std::vector<Point> convex_hull(std::array<Point, 8> points) {
 }
 
 struct Projected {
-    std::array<Point, 8> points;   // as many as were given
-    double nearest = std::numeric_limits<double>::infinity(), furthest = 0.0;   // along the axis, m
-    double x0 = nearest, y0 = nearest, x1 = -nearest, y1 = -nearest;            // pixels
+    std::array<Point, 8> points;                                               // as many as were given
+    double nearest = std::numeric_limits<double>::infinity(), furthest = 0.0;  // along the axis, m
+    double x0 = nearest, y0 = nearest, x1 = -nearest, y1 = -nearest;           // pixels
 };
 
 // False when a corner is beside or behind the eye.
@@ -59,7 +58,9 @@ bool project(std::span<const Vec3> corners, const CameraView& view, Projected& r
 }
 
 int first_cell(double pixel) { return int(std::floor(std::max(pixel, 0.0) / ScreenCover::cell)); }
-int last_cell(double pixel, int count) { return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell)); }
+int last_cell(double pixel, int count) {
+    return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell));
+}
 
 ScreenCover::Corners box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size) {
     ScreenCover::Corners corners;
@@ -79,7 +80,7 @@ std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCove
             std::size_t count = 0;
             for (std::size_t i = 0; i < 8; ++i)
                 if ((i >> axis & 1) == side) points[count++] = corners[i];
-            const std::size_t other = std::size_t(1) << axis;   // the corner across the box from corner 0 along the axis
+            const std::size_t other = std::size_t(1) << axis;  // the corner across the box from corner 0 along the axis
             const Vec3 outward = (corners[other] - corners[0]) * (side == 1 ? 1.0 : -1.0);
             if (outward.dot(points[0]) < 0.0 && !cover.hides(points)) faces |= std::uint8_t(1u << (2 * axis + side));
         }
@@ -89,7 +90,9 @@ std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCove
 }  // namespace
 
 ScreenCover::ScreenCover(const CameraView& view)
-    : view_(&view), columns_((view.width() + cell - 1) / cell), rows_((view.height() + cell - 1) / cell),
+    : view_(&view),
+      columns_((view.width() + cell - 1) / cell),
+      rows_((view.height() + cell - 1) / cell),
       depths_(std::size_t(columns_) * std::size_t(rows_), std::numeric_limits<double>::infinity()) {}
 
 void ScreenCover::add(const Corners& corners) {
@@ -140,14 +143,15 @@ Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         if (!view.sees(ball.center, ball.radius)) continue;
         const bool box = look.kind == DrawKind::box;
-        candidates.push_back({i, ball, ball.center.norm(),
-                              box_corners(ball.center, box ? snapshot.bodies[i].orientation.toRotationMatrix() : view_axes,
-                                          box ? look.half_size : Vec3::Constant(ball.radius))});
+        candidates.push_back(
+            {i, ball, ball.center.norm(),
+             box_corners(ball.center, box ? snapshot.bodies[i].orientation.toRotationMatrix() : view_axes,
+                         box ? look.half_size : Vec3::Constant(ball.radius))});
     }
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
     const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
-    for (const Candidate& candidate : candidates)   // nearest first: what is hidden itself need not cover anything
+    for (const Candidate& candidate : candidates)  // nearest first: what is hidden itself need not cover anything
         if (is_box(candidate) && !result.cover.hides(candidate.corners)) result.cover.add(candidate.corners);
     for (const Candidate& candidate : candidates) {
         if (is_box(candidate)) {

@@ -1,6 +1,6 @@
-// What can be seen at all. With several samples a pixel llvmpipe shades everything that is drawn, hidden or not, so what
-// certainly lies behind a box is left out beforehand: the screen is divided into small cells, each knows how near the
-// nearest box is that covers it wholly, and a body all of whose cells are covered by nearer boxes is not drawn.
+// What can be seen at all. With several samples a pixel llvmpipe shades everything that is drawn, hidden or not, so
+// what certainly lies behind a box is left out beforehand: the screen is divided into small cells, each knows how near
+// the nearest box is that covers it wholly, and a body all of whose cells are covered by nearer boxes is not drawn.
 // Only the certain is left out: the picture is the same to the byte.
 #pragma once
 
@@ -23,7 +23,7 @@ struct PixelArea {
 
 class ScreenCover {
 public:
-    static constexpr int cell = 8;   // pixels: smaller ones hide little more and cost more to fill
+    static constexpr int cell = 8;  // pixels: smaller ones hide little more and cost more to fill
 
     explicit ScreenCover(const CameraView& view);
 
@@ -48,8 +48,9 @@ private:
 
 struct Visibility {
     ScreenCover cover;
-    std::vector<bool> bodies;           // in scene order: may any part of it be in the picture? (false for planes)
-    std::vector<std::uint8_t> faces;    // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high one
+    std::vector<bool> bodies;  // in scene order: may any part of it be in the picture? (false for planes)
+    std::vector<std::uint8_t>
+        faces;  // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high one
 };
 
 Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);

@@ -70,7 +70,8 @@ BodyDescription ball_body(const Vec3& position, double radius, Color color, cons
     return body;
 }
 
-BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color, const Quat& rotation) {
+BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color,
+                          const Quat& rotation) {
     BodyDescription body = box_body(position, Vec3::Ones(), color, rotation);
     body.shape = MeshShape{std::move(asset)};
     body.surface.roughness = 0.35;
@@ -116,11 +117,14 @@ SceneDescription heap_scene(int count) {
     scene.bodies.push_back(ground_plane());
 
     Random random;
-    struct Standing { double x, z, radius, top; };
+    struct Standing {
+        double x, z, radius, top;
+    };
     std::vector<Standing> pile;
     for (int i = 0; i < count; ++i) {
         const Vec3 size(random.between(0.7, 1.25), random.between(0.7, 1.15), random.between(0.7, 1.25));
-        const double angle = random.between(0.0, 2.0 * pi), distance = spread * std::sqrt(random.between(0.0, 1.0)) * 0.85;
+        const double angle = random.between(0.0, 2.0 * pi),
+                     distance = spread * std::sqrt(random.between(0.0, 1.0)) * 0.85;
         const SinCos direction = sincos(angle);
         const double x = distance * direction.cos, z = distance * direction.sin;
         const double radius = 0.36 * (size.x() + size.z()) * 0.5;

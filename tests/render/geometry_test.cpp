@@ -27,16 +27,17 @@ double volume(const DrawMesh& mesh) {
     double sum = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         sum += position(mesh, mesh.indices[i])
-                   .dot(position(mesh, mesh.indices[i + 1]).cross(position(mesh, mesh.indices[i + 2]))) / 6.0;
+                   .dot(position(mesh, mesh.indices[i + 1]).cross(position(mesh, mesh.indices[i + 2]))) /
+               6.0;
     return sum;
 }
 
 TEST(Primitives, FaceOutwardAndFillTheirVolume) {
     EXPECT_NEAR(volume(make_box()), 8.0, 1e-6);
-    EXPECT_NEAR(volume(make_ball(0)), 2.53615, 1e-4);   // icosahedron of circumradius 1
-    EXPECT_NEAR(volume(make_ball(4)), 4.18879, 0.02);   // 4 pi / 3
+    EXPECT_NEAR(volume(make_ball(0)), 2.53615, 1e-4);  // icosahedron of circumradius 1
+    EXPECT_NEAR(volume(make_ball(4)), 4.18879, 0.02);  // 4 pi / 3
     EXPECT_EQ(make_ball(3).indices.size(), 3u * 20u * 64u);
-    EXPECT_NEAR(volume(make_cylinder(256)), 4.0 * 3.14159265 / 3.0, 1e-3);   // the mantle's share: two thirds of 2 pi
+    EXPECT_NEAR(volume(make_cylinder(256)), 4.0 * 3.14159265 / 3.0, 1e-3);  // the mantle's share: two thirds of 2 pi
 }
 
 TEST(SkyOpenness, AWallTakesTheShareOfTheFormula) {
@@ -64,8 +65,8 @@ TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
     box.half_size = {0.5f, 0.5f, 0.5f};
     box.reach = 0.5f;
     SurfacePoints points;
-    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());    // the top of a neighbour of the same height
-    points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());     // turned away
+    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbour of the same height
+    points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());   // turned away
     darken(points, box, 0.5f);
     EXPECT_NEAR(points.open[0], 1.0f, 0.01f);
     EXPECT_EQ(points.open[1], 1.0f);
@@ -73,11 +74,14 @@ TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
 
 TEST(SkyOpenness, FarPairsAreRejectedOnlyWhenNothingIsLost) {
     std::mt19937 engine(3);
-    const auto random = [&](float low, float high) { return low + (high - low) * float(double(engine()) / 4294967296.0); };
+    const auto random = [&](float low, float high) {
+        return low + (high - low) * float(double(engine()) / 4294967296.0);
+    };
     int rejected = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         Occluder box{};
-        box.to_local = Quat(Eigen::AngleAxisd(random(0, 6), Vec3(0.3, 0.5, 0.8).normalized())).toRotationMatrix().cast<float>();
+        box.to_local =
+            Quat(Eigen::AngleAxisd(random(0, 6), Vec3(0.3, 0.5, 0.8).normalized())).toRotationMatrix().cast<float>();
         box.half_size = {random(0.1f, 1.0f), random(0.1f, 1.0f), random(0.1f, 1.0f)};
         box.reach = random(0.1f, 1.0f);
         box.center = {random(-3, 3), random(-3, 3), random(-3, 3)};
@@ -87,7 +91,8 @@ TEST(SkyOpenness, FarPairsAreRejectedOnlyWhenNothingIsLost) {
         SurfacePoints points;
         for (int i = 0; i < 30; ++i) {
             const float angle = random(0, 6.2831853f);
-            points.add(Eigen::Vector3f(std::cos(angle), std::sin(angle), 0) * random(0, radius), Eigen::Vector3f::UnitZ());
+            points.add(Eigen::Vector3f(std::cos(angle), std::sin(angle), 0) * random(0, radius),
+                       Eigen::Vector3f::UnitZ());
         }
         darken(points, box, reach);
         for (const float open : points.open) EXPECT_EQ(open, 1.0f);
@@ -97,11 +102,13 @@ TEST(SkyOpenness, FarPairsAreRejectedOnlyWhenNothingIsLost) {
 
 TEST(OccluderFinder, FindsWhatComparingAllFinds) {
     std::mt19937 engine(5);
-    const auto random = [&](float low, float high) { return low + (high - low) * float(double(engine()) / 4294967296.0); };
+    const auto random = [&](float low, float high) {
+        return low + (high - low) * float(double(engine()) / 4294967296.0);
+    };
     std::vector<Occluder> occluders(300);
     for (std::size_t i = 0; i < occluders.size(); ++i) {
         occluders[i].center = {random(-20, 20), random(0, 5), random(-20, 20)};
-        occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);   // some plates among the crates
+        occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);  // some plates among the crates
         occluders[i].reach = random(0.1f, 0.6f);
         occluders[i].body = i;
     }
@@ -131,7 +138,7 @@ TEST(MeshOccluders, StayInsideAndLeaveTheHoleFree) {
         EXPECT_GT(std::hypot(box.center.x(), box.center.z()), 0.6) << "in the hole";
         EXPECT_LT(std::hypot(box.center.x(), box.center.z()), 1.4) << "outside";
     }
-    const double solid = 2.0 * 3.14159265 * 3.14159265 * 1.0 * 0.3 * 0.3;   // 2 pi^2 R r^2
+    const double solid = 2.0 * 3.14159265 * 3.14159265 * 1.0 * 0.3 * 0.3;  // 2 pi^2 R r^2
     EXPECT_GT(volume, 0.4 * solid);
     EXPECT_LT(volume, 1.2 * solid);
 
@@ -144,17 +151,17 @@ TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
     const SceneLooks looks = make_scene_looks(scene);
-    const CameraView view(scene.camera, 320, 180);   // level, eye at height 1: the horizon is the middle row
+    const CameraView view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the middle row
     const std::vector<PlanePatch> patches = make_plane_patches(looks, first_snapshot(scene), view, 0.01);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_DOUBLE_EQ(patches[0].height, 1.0);
     for (const glm::vec3& corner : patches[0].corners) {
-        EXPECT_GE(corner.y, -1e-6f);   // the picture's lower half, drawn with the first row at -1
+        EXPECT_GE(corner.y, -1e-6f);  // the picture's lower half, drawn with the first row at -1
         // z = 1 - 2 near / depth; the lowest row sees the ground at depth 1 / tan(20 degrees)
         const double depth = corner.y > 0.5f ? 1.0 / std::tan(20.0 * 3.14159265358979 / 180.0) : INFINITY;
         EXPECT_NEAR(corner.z, 1.0 - 0.02 / depth, 1e-6);
     }
-    scene.camera.eye.y() = scene.camera.target.y() = -1.0;   // from below one looks through
+    scene.camera.eye.y() = scene.camera.target.y() = -1.0;  // from below one looks through
     EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), CameraView(scene.camera, 320, 180), 0.01).empty());
 }
 
@@ -206,10 +213,11 @@ TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
     const CameraView view(scene.camera, 1280, 720);
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
-    const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view, find_visible(looks, first_snapshot(scene), view), atlas);
-    ASSERT_EQ(list.visible.size(), 2u);   // away from the sun, and in it
+    const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view,
+                                         find_visible(looks, first_snapshot(scene), view), atlas);
+    ASSERT_EQ(list.visible.size(), 2u);  // away from the sun, and in it
     EXPECT_EQ(list.visible[0].mesh, face_mesh);
-    EXPECT_LE(list.visible[0].count + list.visible[1].count, 90u);   // at most three faces of each
+    EXPECT_LE(list.visible[0].count + list.visible[1].count, 90u);  // at most three faces of each
     EXPECT_GE(list.visible[0].count + list.visible[1].count, 45u);
     for (std::size_t i = 1; i < list.visible[0].count; ++i) {
         const auto distance = [&](std::size_t k) {

@@ -25,7 +25,8 @@ SceneDescription shadow_scene() {
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_color.rgb), 1.0); // ");
-    for (const Color color : {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
+    for (const Color color :
+         {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
         SceneDescription scene = empty_scene();
         scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), color)};
         const Image image = drawn(scene, shaders.options());
@@ -49,8 +50,8 @@ TEST(Light, AFaceInTheSunLooksLikeItsColor) {
     EXPECT_NEAR(pixel[2], 0x3c, 32);
 }
 
-// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) takes a point at height y to x - y / 2. Its shadow on
-// the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
+// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) takes a point at height y to x - y / 2. Its shadow
+// on the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
 TEST(Light, AShadowLiesWhereGeometryPutsIt) {
     const SceneDescription scene = shadow_scene();
     const Image image = drawn(scene);
@@ -72,7 +73,7 @@ TEST(Light, AFlyingBodyKeepsItsShadow) {
     SceneDescription scene = shadow_scene();
     scene.camera.eye = Vec3(0.0, 30.0, 60.0);
     Snapshot snapshot = first_snapshot(scene);
-    snapshot.bodies[1].origin = Vec3(20.0, 6.0, -10.0);   // far outside of what the near map was fitted to
+    snapshot.bodies[1].origin = Vec3(20.0, 6.0, -10.0);  // far outside of what the near map was fitted to
     const Image image = drawn(scene, snapshot);
     const double bright = brightness_at(image, scene, Vec3(20.0, 0.0, -10.0));
     EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
@@ -88,7 +89,8 @@ TEST(Light, LitFacesAreNotShadowedByThemselves) {
     const Image without = drawn(scene);
     for (double x = -1.35; x <= 1.35; x += 0.03)
         for (double z = -0.4; z <= 0.4; z += 0.05)
-            EXPECT_NEAR(brightness_at(with, scene, Vec3(x, 1.0, z)), brightness_at(without, scene, Vec3(x, 1.0, z)), 1.0);
+            EXPECT_NEAR(brightness_at(with, scene, Vec3(x, 1.0, z)), brightness_at(without, scene, Vec3(x, 1.0, z)),
+                        1.0);
 }
 
 TEST(Light, ContactIsDarkAndItsDarknessEnds) {

@@ -37,7 +37,8 @@ std::size_t colors_in(const Image& image) {
     return colors.size();
 }
 
-// At a quarter of the scene's size, which is quick and shows what becomes of fine detail; to be looked at, also in full.
+// At a quarter of the scene's size, which is quick and shows what becomes of fine detail; to be looked at, also in
+// full.
 void draw(SceneDescription scene, const std::string& name) {
     const bool wanted = std::getenv("TUMBLE_TEST_PICTURES") != nullptr;
     if (wanted) write_if_wanted(drawn(scene), name);
@@ -75,7 +76,8 @@ SceneDescription gallery_scene() {
     scene.bodies.push_back(metal);
     scene.bodies.push_back(box_body(Vec3(3.2, 0.5, 1.0), Vec3(0.25, 1.0, 0.6), {0xf2, 0xf0, 0xea}));
     scene.bodies.push_back(ball_body(Vec3(-0.2, 0.2, 2.6), 0.2, {0xd8, 0x3a, 0x3a}));
-    BodyDescription patterned = box_body(Vec3(2.4, 0.4, 2.6), Vec3(0.8, 0.8, 0.8), {0x8a, 0x6f, 0xc8}, Quat(Eigen::AngleAxisd(0.5, Vec3::UnitY())));
+    BodyDescription patterned = box_body(Vec3(2.4, 0.4, 2.6), Vec3(0.8, 0.8, 0.8), {0x8a, 0x6f, 0xc8},
+                                         Quat(Eigen::AngleAxisd(0.5, Vec3::UnitY())));
     patterned.surface.pattern = Pattern::checker;
     scene.bodies.push_back(patterned);
     scene.cords.push_back({3, Vec3::Zero(), Vec3(2.0, 4.0, -0.6), 0.02, {60, 60, 60}});

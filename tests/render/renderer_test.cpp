@@ -77,7 +77,8 @@ TEST(Renderer, HasTheSkyAboveTheGroundAndTopRowFirst) {
     const Image image = drawn(scene);
     ASSERT_EQ(image.width, 320);
     ASSERT_EQ(image.height, 180);
-    const std::uint8_t *above = image.at(160, 90 - 31), *below = image.at(160, 90 + 31), *right = image.at(160 + 46, 90);
+    const std::uint8_t *above = image.at(160, 90 - 31), *below = image.at(160, 90 + 31),
+                       *right = image.at(160 + 46, 90);
     EXPECT_GT(above[0], above[2] + 40);
     EXPECT_GT(below[2], below[0] + 40);
     EXPECT_GT(right[1], right[0] + 40);
@@ -115,7 +116,7 @@ TEST(Renderer, PutsThingsWhereThePinholeFormulaSays) {
 TEST(Renderer, FarFromTheOriginDrawsTheSame) {
     SceneDescription scene = mixed_scene();
     scene.cords.clear();
-    const Image here = drawn(scene), there = drawn(moved(scene, Vec3(4e6, 0.0, -2e6)));   // even cells of the grid
+    const Image here = drawn(scene), there = drawn(moved(scene, Vec3(4e6, 0.0, -2e6)));  // even cells of the grid
     int different = 0;
     for (std::size_t i = 0; i < here.pixels.size(); ++i)
         different += std::abs(int(here.pixels[i]) - int(there.pixels[i])) > 8 ? 1 : 0;
@@ -130,7 +131,7 @@ TEST(Renderer, AveragesTheSamplesOfAPixel) {
     SceneDescription scene = empty_scene();
     scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3(2.0, 2.0, 2.0), {255, 255, 255},
                              Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
-    for (const int samples : {1, 4}) {   // llvmpipe has no other numbers: 2 are drawn as 4
+    for (const int samples : {1, 4}) {  // llvmpipe has no other numbers: 2 are drawn as 4
         scene.output.samples = samples;
         const Image image = drawn(scene, shaders.options());
         std::set<int> values;

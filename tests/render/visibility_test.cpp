@@ -52,7 +52,7 @@ TEST(Visibility, FacesLeftOutAreBehindOtherBoxesOrTurnedAway) {
             const int axis = face / 2;
             const Vec3 normal = Vec3::Unit(axis) * (face % 2 == 0 ? -1.0 : 1.0);
             const Vec3 middle = box.position + box.rotation * normal.cwiseProduct(half);
-            if ((box.rotation * normal).dot(middle - heap.scene.camera.eye) >= 0.0) continue;   // turned away
+            if ((box.rotation * normal).dot(middle - heap.scene.camera.eye) >= 0.0) continue;  // turned away
             ++left_out;
             for (double s = -0.95; s < 1.0; s += 0.19)
                 for (double t = -0.95; t < 1.0; t += 0.19) {
@@ -75,9 +75,8 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesAndTheRestIsDrawnOnce) {
     const ShadowStage stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
-    const PlaneAreas areas =
-        find_plane_areas(planes[0], heap.scene, heap.looks, heap.snapshot, heap.view,
-                         stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover);
+    const PlaneAreas areas = find_plane_areas(planes[0], heap.scene, heap.looks, heap.snapshot, heap.view,
+                                              stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover);
     std::vector<int> times(1280 * 720, 0);
     for (const auto* list : {&areas.touched, &areas.open})
         for (const PixelArea& area : *list)
@@ -92,7 +91,8 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesAndTheRestIsDrawnOnce) {
             const Vec3 ray = heap.view.ray(x + 0.5, y + 0.5);
             if (ray.y() >= 0.0) continue;
             ++left_out;
-            EXPECT_TRUE(heap.hidden(heap.scene.camera.eye - ray * (heap.scene.camera.eye.y() / ray.y()), 0)) << x << ", " << y;
+            EXPECT_TRUE(heap.hidden(heap.scene.camera.eye - ray * (heap.scene.camera.eye.y() / ray.y()), 0))
+                << x << ", " << y;
         }
     EXPECT_GT(left_out, 500);
 }
