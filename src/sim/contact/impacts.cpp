@@ -25,7 +25,7 @@ public:
                 stop_all();
                 break;
             }
-            reflect(threshold);
+            if (!reflect(threshold)) break;
         }
         if (passes > 0) {
             // Only what took part is held to its new speed; the rest of the island is left to the resting solver.
@@ -87,7 +87,7 @@ private:
     // With d the stopping change and q the same weighted by each contact's restitution: v += f d + f s q. The factor
     // f = -(d.v)/(d.d) makes the step exact whatever the sweeps left over (with equal e = 1 a Householder reflection);
     // s <= 1 keeps |q| <= |d|, beyond which differing restitutions could gain energy.
-    void reflect(double threshold) {
+    bool reflect(double threshold) {
         stop(active_, impulse_);
         double dv = 0.0, dd = 0.0;   // d . v and d . d in the kinetic metric, as sums over contacts
         for (std::size_t i = 0; i < active_.size(); ++i) {
@@ -95,6 +95,12 @@ private:
             dd += impulse_[i] * (speed(active_[i]) - before_[i]);
         }
         const double f = -dv / dd;
+        // Squeezed between moving walls there is nothing to stop at, and the sweeps build up impulses that cancel: no bounce.
+        const bool jammed = !(f < 2.0);
+        if (jammed) {
+            for (std::size_t i = 0; i < active_.size(); ++i) contacts_[active_[i]].impact += impulse_[i];
+            return false;
+        }
         const std::vector<double> stopped = speeds();
         weighted_.resize(active_.size());
         double qq = 0.0;
@@ -111,6 +117,7 @@ private:
             apply(k, (f - 1.0) * impulse_[i] + (f * s - 1.0) * weighted_[i]);
             contacts_[k].impact += f * (impulse_[i] + s * weighted_[i]);
         }
+        return true;
     }
 
     std::vector<double> speeds() const {
