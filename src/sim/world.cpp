@@ -68,7 +68,6 @@ void World::step() {
     s.move();                     // x and q to t_n+1
     s.fall_asleep();              // islands at rest leave the loop
     s.check_finite();
-    ++s.steps;
 }
 
 void World::advance_frame() {
@@ -150,7 +149,6 @@ void World::State::move() {
     }
     ++steps;
     place_kinematic_bodies();
-    --steps;
 }
 
 void World::State::fall_asleep() {
@@ -165,7 +163,7 @@ void World::State::check_finite() const {
             continue;
         throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
                                    "a smaller step (steps_per_frame, now {}) may hold it",
-                                   steps + 1, time(steps + 1), body.name, settings.steps_per_frame));
+                                   steps, time(steps), body.name, settings.steps_per_frame));
     }
 }
 
