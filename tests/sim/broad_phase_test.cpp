@@ -53,7 +53,7 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
         BroadPhase broad_phase;
         CollisionScratch scratch;
         std::size_t most = 0;
-        for (int step = 0; step < 120; ++step) {
+        for (int step = 0; step < trials(120); ++step) {
             for (Body& body : bodies) {
                 if (!body.moves() || body.asleep) continue;
                 body.velocity = 0.98 * body.velocity + random.vector(step % 40 == 0 ? 40.0 : 2.0);   // now and then a kick

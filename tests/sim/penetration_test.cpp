@@ -80,47 +80,47 @@ void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef&
 TEST(Penetration, BoxAgainstBox) {
     Random random(11);
     Tally tally;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < trials(400); ++trial) {
         const auto a = box_of({random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)});
         const auto b = box_of({random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)});
         check_pair(a, random.pose(0.6), b, random.pose(0.6), 0.02, tally);
     }
-    EXPECT_GT(tally.overlapping, 100);
-    EXPECT_GT(tally.apart, 30);
-    EXPECT_GT(tally.edges, 20);
+    EXPECT_GT(tally.overlapping, trials(100) - 1);
+    EXPECT_GT(tally.apart, trials(30) - 1);
+    EXPECT_GT(tally.edges, trials(20) - 1);
 }
 
 TEST(Penetration, HullAgainstBoxEitherWay) {
     Random random(12);
     Tally tally;
-    for (int trial = 0; trial < 300; ++trial) {
+    for (int trial = 0; trial < trials(300); ++trial) {
         const auto hull = random_hull(random, 5 + random.below(20), {1.0, random(0.1, 1.0), random(0.1, 1.0)});
         const auto box = box_of({random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)});
         const Pose p = random.pose(0.6), q = random.pose(0.6);
         check_pair(hull, p, box, q, 0.02, tally);
         check_pair(box, q, hull, p, 0.02, tally);
     }
-    EXPECT_GT(tally.overlapping, 200);
-    EXPECT_GT(tally.edges, 20);
+    EXPECT_GT(tally.overlapping, trials(200) - 1);
+    EXPECT_GT(tally.edges, trials(20) - 1);
 }
 
 TEST(Penetration, HullAgainstHull) {
     Random random(13);
     Tally tally;
-    for (int trial = 0; trial < 300; ++trial) {
+    for (int trial = 0; trial < trials(300); ++trial) {
         const auto a = random_hull(random, 4 + random.below(16), {1.0, random(0.05, 1.0), random(0.05, 1.0)});
         const auto b = random_hull(random, 4 + random.below(16), {1.0, random(0.05, 1.0), random(0.05, 1.0)});
         check_pair(a, random.pose(0.7), b, random.pose(0.7), 0.02, tally);
     }
-    EXPECT_GT(tally.overlapping, 100);
-    EXPECT_GT(tally.edges, 20);
+    EXPECT_GT(tally.overlapping, trials(100) - 1);
+    EXPECT_GT(tally.edges, trials(20) - 1);
 }
 
 // Just touching, as bodies at rest do: pairs pushed along the exact normal until they overlap by a hair.
 TEST(Penetration, ShallowOverlaps) {
     Random random(14);
     Tally tally;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < trials(400); ++trial) {
         const auto a = random_hull(random, 4 + random.below(20), {1.0, random(0.1, 1.0), random(0.1, 1.0)});
         const auto b = trial % 2 ? box_of({random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)})
                                  : random_hull(random, 4 + random.below(20), {1.0, random(0.1, 1.0), random(0.1, 1.0)});
@@ -132,7 +132,7 @@ TEST(Penetration, ShallowOverlaps) {
         pose_b.position += (-depth - exact.separation) * exact.normal;
         check_pair(a, pose_a, b, pose_b, 0.02, tally);
     }
-    EXPECT_GT(tally.overlapping, 100);
+    EXPECT_GT(tally.overlapping, trials(100) - 1);
 }
 
 // The reference itself: no sampled direction beats the Minkowski difference's best face.
@@ -152,7 +152,7 @@ TEST(Penetration, ReferenceBoundsSampledDirections) {
 // Face to face at a gap inside the margin: the gap is found, and its four corners.
 TEST(Penetration, GapsInsideTheMarginAreFound) {
     Random random(16);
-    for (int trial = 0; trial < 100; ++trial) {
+    for (int trial = 0; trial < trials(100); ++trial) {
         const Pose world = random.pose(5.0);
         const double gap = random(1e-6, 0.019);
         const auto a = box_of({1.0, 1.0, 1.0});

@@ -145,6 +145,36 @@ TEST(Hull, OfManyPointsOnASphere) {
     }
 }
 
+// Meshes come from files of six digits: nearly flat, nearly round, rounded. The climb to the farthest vertex must not end on
+// a knoll of rounding, and the planes must hold all points.
+TEST(Hull, RoundedTessellationsAreClimbed) {
+    Random random(6);
+    for (const double digits : {1e-6, 1e-4}) {
+        std::vector<Vec3> barrel, ball, slab;
+        const auto rounded = [&](const Vec3& p) { return Vec3((p / digits).array().round() * digits); };
+        for (int i = 0; i < 48; ++i)
+            for (int k = 0; k <= 10; ++k) {
+                const double t = 2.0 * 3.14159265358979 * i / 48, s = 3.14159265358979 * k / 10;
+                barrel.push_back(rounded({std::cos(t), 0.2 * k - 1.0, std::sin(t)}));
+                ball.push_back(rounded({std::cos(t) * std::sin(s), std::cos(s), std::sin(t) * std::sin(s)}));
+                slab.push_back(rounded({0.05 * i, k % 2 * 0.1, 0.05 * k}));
+            }
+        for (const auto& points : {barrel, ball, slab}) {
+            const Vec3 origin = mean(points);
+            const Polyhedron p = make_hull(points, origin);
+            expect_sound(p, 1.0);
+            for (int trial = 0; trial < 300; ++trial) {
+                Vec3 d = random.direction();
+                if (trial % 3 == 0) d = p.faces[std::size_t(random.below(int(p.faces.size())))].normal;
+                if (trial % 3 == 1) d = Vec3::Unit(trial % 9 / 3) * (trial % 2 ? 1.0 : -1.0);
+                const auto start = std::uint32_t(random.below(int(p.vertices.size())));
+                const double found = d.dot(p.vertices[p.support(d, start)]);
+                for (const Vec3& point : points) EXPECT_LE(d.dot(point - origin), found + 1e-12);
+            }
+        }
+    }
+}
+
 TEST(Hull, RepeatedPointsAreOne) {
     std::vector<Vec3> points;
     const Polyhedron box = make_box({1.0, 1.0, 1.0});

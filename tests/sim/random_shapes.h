@@ -44,6 +44,16 @@ private:
     std::mt19937_64 engine_;
 };
 
+/// How often to try at random: all n times in optimised builds, a tenth of it in the others, which are there for the
+/// sanitizers and run fifty times as long.
+constexpr int trials(int n) {
+#ifdef NDEBUG
+    return n;
+#else
+    return (n + 9) / 10;
+#endif
+}
+
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 
 inline Vec3 mean(const std::vector<Vec3>& points) {

@@ -52,7 +52,7 @@ TriangleMesh roof(double slope, int n) {
 TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
     Random random(51);
     int touched = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < trials(400); ++trial) {
         const auto s = surface_of(bumpy(random, 2 + random.below(12)));
         const Pose pose = random.pose(4.0);
         const Vec3 center(random(-1.8, 1.8), random(-1.0, 1.0), random(-1.8, 1.8));
@@ -86,7 +86,7 @@ TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
             if (HasFailure()) return;
         }
     }
-    EXPECT_GT(touched, 100);
+    EXPECT_GT(touched, trials(100) - 1);
 }
 
 // Finer than the ball's own cap: only the floor's normal may be seen, wherever the ball is.
@@ -175,11 +175,11 @@ TEST(BallOnSurface, CentreOnTheSurfaceIsFinite) {
     }
 }
 
-// A quarter of a million triangles: the tree finds the few that matter (this test would take minutes without).
+// 125,000 triangles: the tree finds the few that matter (this test would take minutes without).
 TEST(BallOnSurface, LargeMeshStaysQuick) {
     Random random(54);
-    const auto s = surface_of(grid_mesh(250, 50.0, 0.1));
-    for (int trial = 0; trial < 20000; ++trial) {
+    const auto s = surface_of(grid_mesh(trials(250), 50.0, 0.1));
+    for (int trial = 0; trial < trials(20000); ++trial) {
         const Vec3 on(random(-49, 49), 0.0, random(-49, 49));
         const Vec3 n = Vec3(-0.1, 1.0, 0.0).normalized();
         const auto found = collide_all(s, {}, Ball{0.5}, {on + Vec3(0.0, 0.1 * on.x(), 0.0) + 0.499 * n, Mat3::Identity()}, 0.01);

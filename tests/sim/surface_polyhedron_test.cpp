@@ -52,7 +52,7 @@ double lowest(const Polyhedron& b, const Pose& pose) {
 TEST(PolyhedronOnTriangle, DepthIsExact) {
     Random random(61);
     int overlapping = 0, apart = 0, near = 0;
-    for (int trial = 0; trial < 1500; ++trial) {
+    for (int trial = 0; trial < trials(1500); ++trial) {
         TriangleMesh mesh;
         mesh.vertices = {random.vector(1.5), random.vector(1.5), random.vector(1.5)};
         mesh.triangles = {{0, 1, 2}};
@@ -79,8 +79,8 @@ TEST(PolyhedronOnTriangle, DepthIsExact) {
         }
         if (HasFailure()) return;
     }
-    EXPECT_GT(overlapping, 300);
-    EXPECT_GT(apart, 300);
+    EXPECT_GT(overlapping, trials(300));
+    EXPECT_GT(apart, trials(300));
 }
 
 // Whatever lies on a flat floor sees its normal only, and its own lowest corner as the deepest point.
