@@ -74,14 +74,14 @@ TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
             EXPECT_LT((pose.rotation.transpose() * m.normal - (center - on).normalized()).norm(), 1e-9);
             EXPECT_LE(p.separation, margin);
             for (int k = 0; k < 25; ++k) {
-                const Vec3 aside = on + random.vector(1e-4);
+                const Vec3 aside = on + random.vector(1e-6);
                 Vec3 best = on;
                 for (std::uint32_t i = 0; i < s->triangles.size(); ++i) {
                     const Vec3 t[3] = {s->corner(i, 0), s->corner(i, 1), s->corner(i, 2)};
                     const Vec3 q = nearest_of(aside, t);
-                    if ((q - on).norm() < 3e-4 && (q - center).norm() < (best - center).norm()) best = q;
+                    if ((q - on).norm() < 3e-6 && (q - center).norm() < (best - center).norm()) best = q;
                 }
-                EXPECT_GT((best - center).norm(), (on - center).norm() - 1e-9) << "the surface is nearer beside it";
+                EXPECT_GT((best - center).norm(), (on - center).norm() - 1e-10) << "the surface is nearer beside it";
             }
             if (HasFailure()) return;
         }

