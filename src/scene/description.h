@@ -16,8 +16,12 @@
 
 namespace tumble {
 
-enum class IntegratorKind { explicit_euler, symplectic_euler };
-enum class ImpactMode { stepped };
+enum class IntegratorKind { explicit_euler, symplectic_euler, splitting, runge_kutta_4, exact };
+/// stepped: impacts are resolved at the step that finds them. exact: each at its own time, between exact flights.
+enum class ImpactMode { stepped, exact };
+/// What a row of touching bodies does. propagating: the blow is handed on from contact to contact, as in a real cradle;
+/// simultaneous: Newton's law, v_rel+ >= -e v_rel- (notes eq. 14), for all contacts at once.
+enum class ImpactLaw { propagating, simultaneous };
 /// How the state holds a rotation (notes sections 1 and 3.1).
 enum class RotationForm { quaternion, matrix };
 
@@ -27,6 +31,7 @@ struct SimulationSettings {
     Vec3 gravity{0.0, -9.81, 0.0};  // m/s^2
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;
+    ImpactLaw impact_law = ImpactLaw::propagating;
     RotationForm rotation = RotationForm::quaternion;
     bool sleep = true;              // bodies at rest leave the loop until touched
     std::uint64_t seed = 1;
