@@ -6,14 +6,22 @@
 namespace tumble {
 namespace {
 
-// pi/2 in three parts of at most 33 bits each, so that k * part is exact for |k| < 2^20
+// pi/2 in four parts, the first three of 23 bits each, so that k * part is exact for |k| < 2^30
 // (Cody and Waite 1980, "Software Manual for the Elementary Functions", ch. 8).
-constexpr double half_pi_1 = 1.57079632673412561417e+00;
-constexpr double half_pi_2 = 6.07710050630396597660e-11;
-constexpr double half_pi_3 = 2.02226624879595063154e-21;
+constexpr double half_pi_1 = 0x1.921fb4p+0;
+constexpr double half_pi_2 = 0x1.4442dp-24;
+constexpr double half_pi_3 = 0x1.846988p-48;
+constexpr double half_pi_4 = 0x1.8cc51701b839ap-72;
 
-// Taylor series to x^17 and x^18: the remainder is below 1e-17 on |x| <= pi/4.
-double sin_series(double x) {
+// The nearest whole number of |x| < 2^51 without a call: adding 3/2 * 2^52 leaves no bits for a fraction.
+double nearest_whole(double x) {
+    constexpr double no_fraction = 0x1.8p+52;
+    return (x + no_fraction) - no_fraction;
+}
+
+// Taylor series to x^17 and x^18: the remainder is below 1e-17 on |x| <= pi/4. `low` is what x + low leaves of the
+// argument; its square is nothing.
+double sin_series(double x, double low) {
     const double z = x * x;
     double p = 1.0 / 355687428096000.0;
     p = p * z - 1.0 / 1307674368000.0;
@@ -23,10 +31,10 @@ double sin_series(double x) {
     p = p * z - 1.0 / 5040.0;
     p = p * z + 1.0 / 120.0;
     p = p * z - 1.0 / 6.0;
-    return x + x * z * p;
+    return x + (x * z * p + low * (1.0 - 0.5 * z));
 }
 
-double cos_series(double x) {
+double cos_series(double x, double low) {
     const double z = x * x;
     double p = -1.0 / 6402373705728000.0;
     p = p * z + 1.0 / 20922789888000.0;
@@ -36,44 +44,98 @@ double cos_series(double x) {
     p = p * z + 1.0 / 40320.0;
     p = p * z - 1.0 / 720.0;
     p = p * z + 1.0 / 24.0;
-    return 1.0 - 0.5 * z + z * z * p;
+    const double half = 0.5 * z, head = 1.0 - half;
+    return head + (((1.0 - head) - half) + (z * z * p - x * low));   // what rounding head lost comes back
 }
+
+// Taylor series to x^17 on |x| <= 1/8: the remainder is below 1e-17 of x.
+double atan_series(double x) {
+    const double z = x * x;
+    double p = 1.0 / 17.0;
+    p = 1.0 / 15.0 - p * z;
+    p = 1.0 / 13.0 - p * z;
+    p = 1.0 / 11.0 - p * z;
+    p = 1.0 / 9.0 - p * z;
+    p = 1.0 / 7.0 - p * z;
+    p = 1.0 / 5.0 - p * z;
+    p = 1.0 / 3.0 - p * z;
+    return x - x * z * p;
+}
+
+// atan(k/4), and what its rounding leaves.
+struct TwoParts {
+    double high, low;
+};
+constexpr TwoParts quarters_angle[] = {{0.0, 0.0},
+                                       {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                       {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                       {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                       {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
+constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 }  // namespace
 
 SinCos sincos(double x) {
-    const double k = std::nearbyint(x * (2.0 / pi));
-    const double r = ((x - k * half_pi_1) - k * half_pi_2) - k * half_pi_3;
-    const double s = sin_series(r), c = cos_series(r);
-    switch (static_cast<long long>(k) & 3) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+    if (!(std::fabs(x) <= 1.6e9)) {
+        x = std::remainder(x, 2.0 * pi);   // 2 pi is wrong by 4e-17 of itself, less than the rounding of x
+        if (!std::isfinite(x)) return {x, x};
     }
+    const double k = nearest_whole(x * (2.0 / pi));
+    const double rest = (x - k * half_pi_1) - k * half_pi_2;   // exact
+    const double third = k * half_pi_3, head = rest - third;
+    const double tail = ((rest - head) - third) - k * half_pi_4;
+    const double r = head + tail, low = (head - r) + tail;
+    const double s = sin_series(r, low), c = cos_series(r, low);
+    const auto quarter = static_cast<long long>(k);
+    const double a = quarter & 1 ? c : s, b = quarter & 1 ? s : c;
+    return {quarter & 2 ? -a : a, (quarter + 1) & 2 ? -b : b};
+}
+
+double arc_tangent(double x) {
+    const double t = std::fabs(x);
+    double angle;
+    if (t <= 1.0) {
+        // atan(t) = atan(c) + atan((t - c)/(1 + c t)) with c the nearest quarter.
+        const int k = static_cast<int>(4.0 * t + 0.5);
+        const double c = 0.25 * k;
+        const TwoParts& at = quarters_angle[k];
+        angle = at.high + (at.low + atan_series((t - c) / (1.0 + c * t)));
+    } else if (t <= 0x1p+60) {
+        // The same for 1/t, whose angle is a right one less.
+        const int k = static_cast<int>(4.0 / t + 0.5);
+        const double c = 0.25 * k;
+        const TwoParts& at = quarters_angle[k];
+        angle = (right_angle.high - at.high) + ((right_angle.low - at.low) - atan_series((1.0 - c * t) / (t + c)));
+    } else {
+        angle = t > 0.0 ? right_angle.high : t;   // or not a number
+    }
+    return x < 0.0 ? -angle : angle;
 }
 
 double atan2_stable(double y, double x) {
     if (x == 0.0 && y == 0.0) return 0.0;
-    // Scale onto the unit circle, then one half-angle step and Newton steps on sin(a - angle) = 0:
-    // each step cubes the error, so a rough start of 1e-2 ends at rounding after two.
-    // The larger coordinate goes first: squares of tiny and huge ones are no numbers any more.
-    const double largest = std::max(std::fabs(x), std::fabs(y));
-    const double u = x / largest, v = y / largest;
-    const double r = std::sqrt(u * u + v * v);
-    const double s = v / r, c = u / r;
-    const double ax = std::fabs(c), ay = std::fabs(s);
-    const double t = ax > ay ? ay / ax : ax / ay;
-    double a = t * (0.9724 - 0.1919 * t * t);
-    if (ay >= ax) a = 0.5 * pi - a;
-    if (c < 0.0) a = pi - a;
-    if (s < 0.0) a = -a;
-    for (int i = 0; i < 3; ++i) {
-        const SinCos at = sincos(a);
-        const double e = s * at.cos - c * at.sin;   // sin(true - a)
-        a += e + e * e * e / 6.0;
-    }
-    return a;
+    const double ax = std::fabs(x), ay = std::fabs(y);
+    double a = ay <= ax ? arc_tangent(ay / ax) : 0.5 * pi - arc_tangent(ax / ay);
+    if (x < 0.0) a = pi - a;
+    return y < 0.0 ? -a : a;
+}
+
+double exponential(double x) {
+    constexpr double ln2_1 = 0x1.62e42feep-1, ln2_2 = 0x1.a39ef35793c76p-33;   // k * ln2_1 is exact for |k| < 2^21
+    if (!(std::fabs(x) < 800.0)) return x < 0.0 ? 0.0 : x > 0.0 ? HUGE_VAL : x;
+    const double k = nearest_whole(x * (1.0 / (ln2_1 + ln2_2)));
+    const double high = x - k * ln2_1, low = k * ln2_2, r = high - low;
+    // Taylor series to r^14 on |r| <= ln(2)/2; the remainder is below 2e-19.
+    double p = 1.0;
+    for (int n = 14; n >= 2; --n) p = 1.0 + r * p / n;
+    const double tail = (high - r) - low;
+    return std::ldexp(1.0 + (r * p + tail), static_cast<int>(k));
+}
+
+TanhSech tanh_sech(double x) {
+    const double e = exponential(-std::fabs(x)), square = e * e;
+    const double t = (1.0 - square) / (1.0 + square);
+    return {x < 0.0 ? -t : t, 2.0 * e / (1.0 + square)};
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// Sine, cosine and arc tangent whose bytes are the same on every x86-64.
+// Sine, cosine, arc tangent and exponential whose bytes are the same on every x86-64.
 // glibc picks fused-multiply-add variants of its own at run time, which differ in the last bit between machines;
 // whatever the simulation's trajectory depends on uses these instead. Built from + - * / and sqrt only.
 #pragma once
@@ -9,11 +9,25 @@ struct SinCos {
     double sin, cos;
 };
 
-/// Sine and cosine of x in radians, |x| <= 1e6 (beyond that the reduction loses digits); error below 1e-15.
+/// Sine and cosine of x in radians; error below 2e-16 for |x| <= 1.6e9. Beyond, x itself is a phase known to 1e-7 rad
+/// only; the error stays of the order of the rounding of x.
 SinCos sincos(double x);
+
+/// The angle whose tangent is x, in [-pi/2, pi/2]; relative error below 4e-16.
+double arc_tangent(double x);
 
 /// The angle of the point (x, y), in (-pi, pi]; error below 1e-15. atan2_stable(0, 0) is 0.
 double atan2_stable(double y, double x);
+
+/// e^x; relative error below 4e-16. Overflows to infinity and underflows to 0.
+double exponential(double x);
+
+struct TanhSech {
+    double tanh, sech;
+};
+
+/// Hyperbolic tangent and 1/cosh; error below 4e-16, sech also relative to itself.
+TanhSech tanh_sech(double x);
 
 inline constexpr double pi = 3.14159265358979323846;
 
