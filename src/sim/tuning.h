@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace tumble::tuning {
 
@@ -36,11 +37,67 @@ inline constexpr double push_slop = 1e-5;
 /// Fastest push-out, in radii per second: deep overlaps at the start dissolve visibly, not with a bang.
 inline constexpr double push_limit = 5.0;
 
-/// Passes of an impact before what is left is taken as inelastic: a chain of n contacts needs about n, jammed sets never end.
-inline constexpr int impact_passes = 200;
-/// Sweeps of the non-negative least squares inside a pass, and the relative change at which it has converged.
-inline constexpr int impact_sweeps = 400;
-inline constexpr double impact_tolerance = 1e-14;
+/// Contacts of an impact that are projected exactly together. The cost grows with the cube of the contacts held: at 128
+/// about what the sweeps take, beyond that more.
+inline constexpr std::size_t projection_contacts = 128;
+/// A unit row is dependent on others when less than this is left of it: masses of 1 : 1e8 in one contact leave 1e-4.
+inline constexpr double projection_dependent = 1e-8;
+/// Impulses are spread over contacts whose rows depend on each other to this (the rounding of arms of some hundred
+/// metres), or clearly do not: in between the even shares would be those of rounding.
+inline constexpr double projection_spread_dependent = 1e-12;
+inline constexpr double projection_spread_independent = 1e-3;
+/// A row whose multiplier falls slower than this against the one that rises does not block it: rounding.
+inline constexpr double projection_weight = 1e-13;
+/// Sweeps of the projection by Gauss-Seidel, and the relative change at which it has converged.
+inline constexpr int projection_sweeps = 400;
+inline constexpr double projection_sweep_tolerance = 1e-14;
+
+/// Approaches below this part of the cluster's largest relative speed are rounding, or below that of its largest speed.
+inline constexpr double approach_relative = 1e-13;
+inline constexpr double approach_rounding = 4e-15;
+/// Passes of a propagating impact. Most end within some three a contact. Where more are needed (a light ball between a
+/// heavy one and a wall, 31415 for masses of 1 : 1e8) their number goes with the inverse margin of the contacts; sets
+/// without a margin are jammed and never end.
+inline constexpr int impact_passes_each = 3;
+inline constexpr int impact_passes_more = 10;
+inline constexpr double impact_passes_margin = 4.0;
+inline constexpr int impact_passes_limit = 100000;
+
+/// Rounds of friction and what it makes approach again: first with restitution, then without.
+inline constexpr int friction_bounces = 4;
+inline constexpr int friction_rounds = 12;
+/// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged.
+inline constexpr int friction_sweeps = 200;
+inline constexpr double friction_tolerance = 1e-14;
+
+/// Exact impacts. Gaps below this part of the bodies' sizes are rounding, plus a few last digits of their places.
+inline constexpr double impact_gap = 1e-13;
+inline constexpr double impact_position_rounding = 1e-15;
+/// Approaches slower than this part of the bodies' own speeds are rounding.
+inline constexpr double impact_speed_rounding = 1e-14;
+/// Nearer than this part of the smaller body, the axis is taken from the features that meet; points within the second
+/// part of it belong to a feature. Between the rounding of a search for the nearest points and its use.
+inline constexpr double impact_near = 1e-7;
+inline constexpr double impact_feature = 1e-8;
+/// Shortest step of the search for an impact, s.
+inline constexpr double impact_time = 1e-15;
+/// Poses a search looks at before it hands back what it has: 4 to 70 are the rule (spins to 100 rad/s).
+inline constexpr int impact_evaluations = 400;
+
+/// Contacts nearer than this part of the smaller body take part in one impact.
+inline constexpr double impact_touch = 1e-9;
+/// Hops shorter than this (s) are not followed: the contact holds. A bouncing ball then rests within this over 1 - e of
+/// its closed-form time, and what it still had is below g times this.
+inline constexpr double shortest_hop = 1e-7;
+/// Events of one body in one step before it is taken to be coming to rest; e = 0.9 needs about 90 from a step down.
+inline constexpr int events_before_landing = 128;
+/// Impacts in a frame, times the number of bodies: far beyond any clip (a million hits of each body a second).
+inline constexpr std::int64_t impacts_in_frame = 20000;
+/// Part of |g| with which a touching body must press to count as held.
+inline constexpr double pressing = 1e-9;
+/// A flying body's box in the search for neighbours: its way of so many radii, and so much around it.
+inline constexpr double box_way = 2.0;
+inline constexpr double box_margin = 0.2;
 
 /// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
 inline constexpr double sleep_drift = 2e-4;

@@ -100,9 +100,10 @@ void World::State::find_contacts() {
 }
 
 void World::State::resolve_collisions() {
-    const double threshold = tuning::restitution_threshold * settings.gravity.norm() * h;
+    const ImpactSettings impacts{.threshold = tuning::restitution_threshold * settings.gravity.norm() * h,
+                                 .law = settings.impact_law};
     pool.for_each(islands.size(), tuning::parallel_grain,
-                  [&](std::size_t i, std::size_t) { resolve_impacts(islands[i], contacts, bodies, threshold); });
+                  [&](std::size_t i, std::size_t) { resolve_impacts(islands[i], contacts, bodies, impacts); });
     // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
     for (const Contact& c : contacts)
         if (c.impact > 0.0) add_impulse(c, c.impact * c.normal, bodies[c.a], bodies[c.b]);

@@ -1,0 +1,177 @@
+#include "sim/contact/impact_laws.h"
+
+#include "sim/contact/projection.h"
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+double restitution_now(const ContactCluster& cluster, std::size_t i, double threshold) {
+    return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.contact(i).restitution : 0.0;
+}
+
+Projection::Demand demand(const ContactCluster& cluster, std::size_t i, double least_speed) {
+    const double length = cluster.length(i);
+    return {std::uint32_t(i), (cluster.speed(i) - least_speed) / length, cluster.rounding() / length};
+}
+
+// The change of y that multipliers make, and their work: the kinetic energy (as seen from the walls, where they move)
+// grows by lambda . s + |d|^2 / 2, with s = w . y + offset before.
+struct Change {
+    Eigen::VectorXd d;
+    double work_before = 0.0, square = 0.0;   // lambda . s, |d|^2
+
+    Change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda)
+        : d(Eigen::VectorXd::Zero(cluster.velocity().size())) {
+        for (std::size_t i = 0; i < set.size(); ++i) {
+            if (lambda[i] == 0.0) continue;
+            cluster.rows()[set[i].row].add_to(d, lambda[i]);
+            work_before += lambda[i] * cluster.speed(set[i].row) / cluster.length(set[i].row);
+        }
+        square = d.squaredNorm();
+    }
+    double gain() const { return work_before + 0.5 * square; }
+    /// The factor at which the change neither gains nor loses energy: -2 d.y / d.d of a Householder reflection.
+    double reflection() const { return square > 0.0 ? -2.0 * work_before / square : 0.0; }
+};
+
+void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+           double factor) {
+    if (!(factor > 0.0)) return;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        if (lambda[i] > 0.0) cluster.push(set[i].row, factor * lambda[i]);
+}
+
+class Propagation {
+public:
+    Propagation(ContactCluster& cluster, double threshold)
+        : cluster_(cluster), threshold_(threshold), projection_(cluster.rows(), cluster.bodies()) {}
+
+    int run() {
+        int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
+        bool depth_known = false;
+        for (int pass = 0;; ++pass) {
+            if (!gather()) return pass;
+            if (pass >= limit && !depth_known) {
+                limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
+                depth_known = true;
+            }
+            if (pass >= limit || !reflect()) {
+                stop(cluster_);
+                return pass + 1;
+            }
+        }
+    }
+
+private:
+    // The approaching contacts; false when none of them bounces.
+    bool gather() {
+        active_.clear();
+        restitution_.clear();
+        bool any = false;
+        for (std::size_t i = 0; i < cluster_.size(); ++i) {
+            if (!cluster_.approaching(i)) continue;
+            active_.push_back(demand(cluster_, i, 0.0));
+            restitution_.push_back(restitution_now(cluster_, i, threshold_));
+            any = any || restitution_.back() > 0.0;
+        }
+        return any;
+    }
+
+    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + s q). The factor
+    // f = -d.y / d.d is one but for rounding and what sweeps leave over, and makes e = 1 a Householder reflection, which
+    // keeps the energy whatever d is; s <= 1 keeps |q| <= |d|, beyond which differing restitutions could gain energy.
+    bool reflect() {
+        projection_.solve(active_, lambda_);
+        const Change stopping(cluster_, active_, lambda_);
+        const double f = 0.5 * stopping.reflection();
+        // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
+        if (!(f > 0.0 && f < 2.0)) return false;
+        weighted_ = lambda_;
+        for (std::size_t i = 0; i < active_.size(); ++i) weighted_[i] *= restitution_[i];
+        const double q = Change(cluster_, active_, weighted_).square;
+        const double s = q > stopping.square ? std::sqrt(stopping.square / q) : 1.0;
+        for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] += s * weighted_[i];
+        apply(cluster_, active_, lambda_, std::min(f, Change(cluster_, active_, lambda_).reflection()));
+        return true;
+    }
+
+    // One over the margin by which one direction can lie inside all contacts' half-spaces: |z| for the least z with
+    // w_i . z >= 1. Every reflection moves y along z by at least that margin of its own length, so that all of them
+    // together are no longer than |y| |z|. Zero for jammed sets, whose rows hold each other in balance, and for sets too
+    // large to tell: they get no more passes.
+    double depth() {
+        if (cluster_.size() > tuning::projection_contacts) return 0.0;
+        std::vector<Projection::Demand> all;
+        for (std::size_t i = 0; i < cluster_.size(); ++i) all.push_back({std::uint32_t(i), -1.0, 1e-6});
+        std::vector<double> lambda;
+        if (!projection_.solve(all, lambda)) return 0.0;
+        return std::sqrt(Change(cluster_, all, lambda).square);
+    }
+
+    ContactCluster& cluster_;
+    double threshold_;
+    Projection projection_;
+    std::vector<Projection::Demand> active_;
+    std::vector<double> restitution_, lambda_, weighted_;
+};
+
+}  // namespace
+
+bool bounces(const ContactCluster& cluster, double threshold) {
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (restitution_now(cluster, i, threshold) > 0.0) return true;
+    return false;
+}
+
+int propagate(ContactCluster& cluster, double threshold) { return Propagation(cluster, threshold).run(); }
+
+bool stop(ContactCluster& cluster) {
+    std::vector<Projection::Demand> all;
+    for (std::size_t i = 0; i < cluster.size(); ++i) all.push_back(demand(cluster, i, 0.0));
+    std::vector<double> lambda;
+    const bool met = Projection(cluster.rows(), cluster.bodies()).solve(all, lambda);
+    apply(cluster, all, lambda, std::min(1.0, Change(cluster, all, lambda).reflection()));
+    return met;
+}
+
+// Newton's law asks for more than there is energy for when restitutions differ, or when a contact that parts is hit by
+// the others. Then y lies on the way from the solution y0 of e = 0 to Newton's, where the energy is what it was: both
+// stop every approach, so all between them do.
+int resolve_together(ContactCluster& cluster, double threshold) {
+    if (!bounces(cluster, threshold)) return 0;
+    std::vector<Projection::Demand> stopping, bouncing;
+    bool elastic = true;
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const double e = restitution_now(cluster, i, threshold);
+        stopping.push_back(demand(cluster, i, 0.0));
+        bouncing.push_back(demand(cluster, i, e > 0.0 ? -e * cluster.speed(i) : 0.0));
+        elastic = elastic && (!cluster.approaching(i) || e == 1.0);
+    }
+    Projection projection(cluster.rows(), cluster.bodies());
+    std::vector<double> lambda, least;
+    const bool met = projection.solve(bouncing, lambda);
+    const Change newton(cluster, bouncing, lambda);
+    if (!met || newton.gain() > 0.0) {
+        projection.solve(stopping, least);
+        const Change stopped(cluster, stopping, least);
+        // gain(s) = g0 + s slope + s^2 bend / 2, from g0 <= 0 at s = 0.
+        const double bend = (newton.d - stopped.d).squaredNorm();
+        const double slope = newton.work_before - stopped.work_before + stopped.d.dot(newton.d - stopped.d);
+        const double root = std::sqrt(std::max(0.0, slope * slope - 2.0 * stopped.gain() * bend));
+        // The positive root, without cancellation.
+        const double s = slope > 0.0 ? -2.0 * stopped.gain() / (slope + root) : bend > 0.0 ? (root - slope) / bend : 1.0;
+        const double share = met ? std::clamp(s, 0.0, 1.0) : 0.0;
+        elastic = elastic && met;
+        for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = share * lambda[i] + (1.0 - share) * least[i];
+    }
+    const double reflection = Change(cluster, bouncing, lambda).reflection();
+    // With e = 1 all along, the energy is kept to the last digits, not only not gained.
+    apply(cluster, bouncing, lambda, elastic ? reflection : std::min(1.0, reflection));
+    return 1;
+}
+
+}  // namespace tumble

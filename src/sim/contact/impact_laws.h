@@ -1,0 +1,38 @@
+// What an impact with several contacts does. Both laws keep momentum and symmetry, let contacts break away, never pull
+// and never gain energy (Smith, Kaufman, Vouga, Tamstorf, Grinspun 2012, "Reflections on simultaneous impact"); for one
+// contact both are eq. 20. They differ where contacts hand an impulse on:
+//
+// propagating: the contacts that approach are stopped by the least change d of the velocities and reflected, y += (1+e) d,
+// again and again until nothing approaches (their section 4). A row of balls passes the blow on to the last one.
+//
+// simultaneous: one change for all contacts together, the least one with v_rel+ >= -e v_rel- where a contact approached
+// and v_rel+ >= 0 elsewhere (Newton's law as a complementarity problem). In a row of balls all those behind the first
+// leave with one speed.
+#pragma once
+
+#include "scene/description.h"
+#include "sim/contact/contact_cluster.h"
+
+namespace tumble {
+
+struct ImpactSettings {
+    double threshold = 0.0;   // m/s: slower approaches do not bounce
+    ImpactLaw law = ImpactLaw::propagating;
+    bool friction = false;    // Coulomb friction in the impact itself
+    /// Nothing is left approaching: what does not bounce is stopped (e = 0). Without it an impact in which nothing bounces
+    /// is left to the solver of resting contact.
+    bool complete = false;
+};
+
+/// Whether any contact approaches fast enough, and has the restitution, to bounce.
+bool bounces(const ContactCluster& cluster, double threshold);
+
+/// Repeats the law until nothing bounces; returns the passes. Jammed contacts (a ball between two walls) have no end: they
+/// lose their restitution and stop.
+int propagate(ContactCluster& cluster, double threshold);
+int resolve_together(ContactCluster& cluster, double threshold);
+
+/// The least change that leaves nothing approaching, e = 0. False where there is none (between closing walls).
+bool stop(ContactCluster& cluster);
+
+}  // namespace tumble
