@@ -1,0 +1,12 @@
+// The command line of every program of the benchmark: runs its variants through the cases, writes rows of
+// case,program,variant,step,error,unit,cpu_seconds_per_simulated_second to standard output.
+#pragma once
+
+#include "accuracy/simulator.h"
+
+namespace tumble::bench {
+
+/// Runs the cases and returns the exit code. Options: --case NAME (again for more), --quick, --list, --header.
+int run_accuracy(int argc, char** argv, const std::string& program, const std::vector<Variant>& variants);
+
+}  // namespace tumble::bench

@@ -1,0 +1,86 @@
+// The scenes of the accuracy benchmark as plain numbers, for Tumble and its peers alike. SI units, world frame, z up.
+// Nothing here knows a simulation library, and there is no Eigen: DART brings its own with another alignment.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace tumble::bench {
+
+struct Vector {
+    double x = 0.0, y = 0.0, z = 0.0;
+};
+inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vector operator*(double s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
+inline Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// A unit quaternion, body to world.
+struct Orientation {
+    double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
+};
+Orientation turn(const Vector& axis, double radians);
+Vector rotate(const Orientation& q, const Vector& v);
+Vector rotate_back(const Orientation& q, const Vector& v);
+
+enum class Kind { plane, box, sphere };
+
+struct Body {
+    Kind kind = Kind::sphere;
+    Vector size;                  // box: edge lengths, m
+    double radius = 0.0;          // sphere, m
+    Vector normal{0.0, 0.0, 1.0}; // plane: unit; solid are the points p with normal . p < offset
+    double offset = 0.0;          // m
+    bool fixed = false;           // planes always are
+    double mass = 1.0;            // kg, spread evenly over the volume
+    double restitution = 1.0;     // no friction anywhere
+    Vector position;              // m, of the centre of mass
+    Orientation orientation;
+    Vector velocity;              // m/s
+    Vector angular_velocity;      // rad/s, world frame
+
+    bool moves() const { return !fixed && kind != Kind::plane; }
+    Vector principal_inertia() const;   // kg m^2, about the body's own axes
+};
+
+/// F = 1/2 density drag A |w - v| (w - v) at the centre of mass, A a quarter of the surface (Cauchy's mean projection).
+struct Air {
+    Vector velocity;              // m/s
+    double density = 1.2, drag = 1.0;
+};
+/// A force fixed in the body, at a point of it.
+struct PointForce {
+    Vector point, force;          // m and N, body frame
+};
+
+struct Scene {
+    double gravity = 9.81;        // m/s^2, downwards
+    std::vector<Body> bodies;
+    std::optional<Air> air;               // acts on all that moves
+    std::optional<PointForce> push;       // acts on body 0
+};
+
+/// Where a body is and how it moves; world frame.
+struct Motion {
+    Vector position;
+    Orientation orientation;
+    Vector velocity, angular_velocity;
+};
+
+struct Wrench {
+    Vector force, torque;
+};
+/// Air and push on a body, for the peers, which take forces from outside.
+Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion);
+double mean_projected_area(const Body& body);
+
+/// Kinetic and potential energy, J.
+double energy(const Scene& scene, const std::vector<Motion>& motions);
+Vector angular_momentum(const Body& body, const Motion& motion);   // about its centre of mass, kg m^2/s
+
+}  // namespace tumble::bench

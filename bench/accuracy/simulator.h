@@ -1,0 +1,32 @@
+// What a program under test has to offer: a world that steps, and the ways (variants) in which it can be asked to.
+#pragma once
+
+#include "accuracy/scene.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble::bench {
+
+class Simulator {
+public:
+    virtual ~Simulator() = default;
+    virtual void step() = 0;
+    virtual Motion motion(std::size_t body) const = 0;   // by the scene's numbering
+};
+
+/// What a case asks of a program: free flights, impacts one by one, or rows of touching bodies struck at once, whose
+/// outcome depends on the law: the blow is handed on, or Newton's law holds for all contacts at once.
+enum class Demand { flight, impact, row_propagating, row_simultaneous };
+
+struct Variant {
+    std::string name;                       // integrator and impact mode, or the solver of a peer
+    std::function<bool(Demand)> meets;
+    /// A world that takes `rate` steps a second; null where the program cannot hold the scene.
+    std::function<std::unique_ptr<Simulator>(const Scene&, double rate)> make;
+    bool step_free = false;                 // impacts have their own times: a step may be as long as one likes
+};
+
+}  // namespace tumble::bench
