@@ -11,7 +11,7 @@
 namespace tumble::bench {
 
 struct Error {
-    std::string quantity;         // "energy", "orientation", ...
+    std::string quantity;  // "energy", "orientation", ...
     double value = 0.0;
     std::string unit;
 };
@@ -39,10 +39,11 @@ struct AccuracyCase {
 std::vector<AccuracyCase> accuracy_cases();
 
 // What accuracy_cases() is put together from; a file each.
-void add_flights(std::vector<AccuracyCase>& cases);     // torque-free, and under drag and a push
-void add_bounces(std::vector<AccuracyCase>& cases);     // sphere, flat box, tilted box; a ball that comes to rest; thin walls
-void add_crowds(std::vector<AccuracyCase>& cases);      // SimBenchmark's bouncing and elastic 666, the pit
-void add_rows(std::vector<AccuracyCase>& cases);        // cradles, Bernoulli's three balls
+void add_flights(std::vector<AccuracyCase>& cases);  // torque-free, and under drag and a push
+void add_bounces(
+    std::vector<AccuracyCase>& cases);  // sphere, flat box, tilted box; a ball that comes to rest; thin walls
+void add_crowds(std::vector<AccuracyCase>& cases);  // SimBenchmark's bouncing and elastic 666, the pit
+void add_rows(std::vector<AccuracyCase>& cases);    // cradles, Bernoulli's three balls
 
 /// The ladder: 1/30 ... 1/1920 s.
 std::vector<double> ladder(double finest = 1920.0);

@@ -14,7 +14,7 @@ constexpr double g = 9.81;
 double bouncing_clearance(double h, double e, double t) {
     double speed = std::sqrt(2.0 * g * h), start = std::sqrt(2.0 * h / g);
     if (t < start) return h - 0.5 * g * t * t;
-    if (e == 1.0) {   // all hops are alike: no summing up
+    if (e == 1.0) {  // all hops are alike: no summing up
         const double hop = 2.0 * start, s = std::fmod(t - start, hop);
         return speed * s - 0.5 * g * s * s;
     }
@@ -26,7 +26,15 @@ double bouncing_clearance(double h, double e, double t) {
     return 0.0;
 }
 
-// Largest energy error over m g 1 m; for straight falls also the height against the parabolas and the spin.
+double lowest_point(const Body& body, const Motion& motion) {
+    if (body.kind == Kind::sphere) return motion.position.z - body.radius;
+    const Vector up = rotate_back(motion.orientation, {0.0, 0.0, 1.0});
+    return motion.position.z -
+           0.5 * (std::abs(up.x) * body.size.x + std::abs(up.y) * body.size.y + std::abs(up.z) * body.size.z);
+}
+
+// Largest energy error over m g 1 m while nothing touches (MuJoCo's contacts hold energy as springs); for straight
+// falls also the height against the parabolas and the spin.
 class ElasticObserver : public Observer {
 public:
     ElasticObserver(const Scene& scene, bool straight, bool box) : scene_(scene), straight_(straight), box_(box) {}
@@ -35,7 +43,8 @@ public:
         const Body& body = scene_.bodies[0];
         const double now = energy(scene_, motions);
         if (step == 0) start_ = now;
-        energy_ = std::max(energy_, std::abs(now - start_) / (body.mass * g * 1.0));
+        if (lowest_point(body, motions[0]) >= 0.0)
+            energy_ = std::max(energy_, std::abs(now - start_) / (body.mass * g * 1.0));
         spin_ = std::max(spin_, norm(motions[0].angular_velocity));
         const double fallen = bouncing_clearance(1.0, 1.0, double(step) / rate) - 1.0;
         height_ = std::max(height_, std::abs(motions[0].position.z - (body.position.z + fallen)));
@@ -60,7 +69,8 @@ public:
     SettlingObserver(const Scene& scene, double h, double e) : ball_(scene.bodies[0]), h_(h), e_(e) {}
 
     void see(long step, double rate, const std::vector<Motion>& motions) override {
-        const double t = double(step) / rate, clearance = motions[0].position.z - ball_.radius, speed = motions[0].velocity.z;
+        const double t = double(step) / rate, clearance = motions[0].position.z - ball_.radius,
+                     speed = motions[0].velocity.z;
         height_ = std::max(height_, std::abs(clearance - bouncing_clearance(h_, e_, t)));
         // Still: slower than what gravity adds in two steps.
         if (std::abs(speed) > 2.0 * g / rate) rest_ = (double(step) + 1.0) / rate;
@@ -70,8 +80,11 @@ public:
     }
 
     std::vector<Error> errors() const override {
-        const double rest = std::sqrt(2.0 * h_ / g) * (1.0 + e_) / (1.0 - e_), path = h_ * (1.0 + e_ * e_) / (1.0 - e_ * e_);
-        return {{"height", height_, "m"}, {"time of rest", std::abs(rest_ - rest), "s"}, {"path", std::abs(path_ - path), "m"}};
+        const double rest = std::sqrt(2.0 * h_ / g) * (1.0 + e_) / (1.0 - e_),
+                     path = h_ * (1.0 + e_ * e_) / (1.0 - e_ * e_);
+        return {{"height", height_, "m"},
+                {"time of rest", std::abs(rest_ - rest), "s"},
+                {"path", std::abs(path_ - path), "m"}};
     }
 
 private:
@@ -82,7 +95,8 @@ private:
             return v0 > 0.0 && v1 < 0.0 ? (v0 * v0 + v1 * v1) / (2.0 * g) : std::abs(z1 - z0);
         const double rise = std::max(v0, 0.0), fall = std::max(-v1, 0.0);
         const double top0 = std::max(z0, 0.0) + rise * rise / (2.0 * g), top1 = std::max(z1, 0.0) + v1 * v1 / (2.0 * g);
-        double path = rise * rise / (2.0 * g) + top0 + (fall > 0.0 ? top1 + fall * fall / (2.0 * g) : std::max(z1, 0.0));
+        double path =
+            rise * rise / (2.0 * g) + top0 + (fall > 0.0 ? top1 + fall * fall / (2.0 * g) : std::max(z1, 0.0));
         const double last = std::sqrt(2.0 * g * top1);
         for (double v = e_ * std::sqrt(2.0 * g * top0); v > 1e-12 && e_ * v > 0.999 * last; v *= e_) path += v * v / g;
         return path;
@@ -146,7 +160,7 @@ AccuracyCase elastic(const std::string& name, const Body& body) {
 void add_bounces(std::vector<AccuracyCase>& cases) {
     Body sphere;
     sphere.radius = 0.5;
-    sphere.position = {0.0, 0.0, 1.5};   // 1 m of clearance
+    sphere.position = {0.0, 0.0, 1.5};  // 1 m of clearance
     cases.push_back(elastic("elastic sphere", sphere));
 
     Body box;
@@ -156,9 +170,8 @@ void add_bounces(std::vector<AccuracyCase>& cases) {
     cases.push_back(elastic("elastic box, flat", box));
 
     box.orientation = turn({1.0, 2.0, 0.0}, 0.5);
-    // 1 m under the lowest corner.
-    const Vector up = rotate_back(box.orientation, {0.0, 0.0, 1.0});
-    box.position.z = 1.0 + 0.5 * (std::abs(up.x) + std::abs(up.y) + std::abs(up.z));
+    box.position.z = 0.0;
+    box.position.z = 1.0 - lowest_point(box, {box.position, box.orientation, {}, {}});
     cases.push_back(elastic("elastic box, tilted", box));
 
     Body ball;
@@ -184,6 +197,7 @@ void add_bounces(std::vector<AccuracyCase>& cases) {
         wall.fixed = true;
         AccuracyCase c;
         c.name = thickness > 0.005 ? "500 m/s at 10 mm" : "500 m/s at 1 mm";
+        c.demand = Demand::thin_wall;
         c.scene.gravity = 0.0;
         c.scene.bodies = {cube, wall};
         c.seconds = c.quick_seconds = 0.1;

@@ -45,7 +45,7 @@ private:
 // splitmix64 (Steele, Lea and Flood 2014), so that every program gets the same scene.
 class Jitter {
 public:
-    double operator()() {   // 0 .. 1
+    double operator()() {  // 0 .. 1
         std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -79,6 +79,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
         bouncing.scene.bodies.push_back(sphere);
     }
     bouncing.scene.bodies.push_back(plane({0.0, 0.0, 1.0}, 0.0));
+    bouncing.demand = Demand::crowd;
     bouncing.seconds = bouncing.quick_seconds = 20.0;
     bouncing.rates = {10.0, 100.0, 1000.0, 10000.0};
     bouncing.observe = [](const Scene& s, double seconds) { return std::make_unique<MeanSquareObserver>(s, seconds); };
@@ -94,9 +95,10 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
         elastic.scene.bodies.push_back(sphere);
     }
     elastic.scene.bodies.push_back(plane({0.0, 0.0, 1.0}, 0.0));
+    elastic.demand = Demand::crowd;
     elastic.seconds = 10.0;
     elastic.quick_seconds = 1.0;
-    elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};   // the last is what SimBenchmark publishes
+    elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};  // the last is what SimBenchmark publishes
     elastic.observe = bouncing.observe;
     cases.push_back(elastic);
 
@@ -116,6 +118,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
         pit.scene.bodies.push_back(plane({side, 0.0, 0.0}, -3.2));
         pit.scene.bodies.push_back(plane({0.0, side, 0.0}, -3.2));
     }
+    pit.demand = Demand::crowd;
     pit.seconds = 2.0;
     pit.quick_seconds = 0.5;
     pit.rates = {60.0, 120.0, 240.0, 480.0, 960.0};

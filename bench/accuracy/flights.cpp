@@ -7,8 +7,8 @@
 namespace tumble::bench {
 namespace {
 
-// Largest errors over the frames of a 60 Hz clip (30 Hz at a step of 1/30 s). Of two turning bodies the largest angle is
-// soon pi where one flips before the other: the angle at the end tells such methods apart.
+// Largest errors over the frames of a 60 Hz clip (30 Hz at a step of 1/30 s). Of two turning bodies the largest angle
+// is soon pi where one flips before the other: the angle at the end tells such methods apart.
 class FlightObserver : public Observer {
 public:
     FlightObserver(const Scene& scene, bool free) : scene_(scene), free_(free), reference_(scene) {}
@@ -44,7 +44,8 @@ private:
     Scene scene_;
     bool free_;
     ReferenceFlight reference_;
-    double position_ = 0.0, orientation_ = 0.0, last_orientation_ = 0.0, energy_ = 0.0, energy_error_ = 0.0, spin_error_ = 0.0;
+    double position_ = 0.0, orientation_ = 0.0, last_orientation_ = 0.0, energy_ = 0.0, energy_error_ = 0.0,
+           spin_error_ = 0.0;
     Vector spin_;
 };
 

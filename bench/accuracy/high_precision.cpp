@@ -3,7 +3,7 @@
 namespace tumble::bench {
 namespace {
 
-constexpr int columns = 12;   // of the extrapolation: order 24
+constexpr int columns = 12;  // of the extrapolation: order 24
 
 QuadState plus(const QuadState& a, Quad s, const QuadState& b) {
     QuadState sum;
@@ -34,8 +34,9 @@ ReferenceFlight::ReferenceFlight(const Scene& scene) : scene_(scene) {
     const Quad x = b.size.x, y = b.size.y, z = b.size.z, m = Quad(b.mass) / 12;
     inertia_ = {m * (y * y + z * z), m * (x * x + z * z), m * (x * x + y * y)};
     const Vector w = rotate_back(b.orientation, b.angular_velocity);
-    state_ = {b.position.x, b.position.y, b.position.z, b.velocity.x, b.velocity.y, b.velocity.z,
-              b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z, w.x, w.y, w.z};
+    state_ = {
+        b.position.x,    b.position.y,    b.position.z,    b.velocity.x, b.velocity.y, b.velocity.z, b.orientation.w,
+        b.orientation.x, b.orientation.y, b.orientation.z, w.x,          w.y,          w.z};
 }
 
 QuadState ReferenceFlight::rate(const QuadState& y) const {
@@ -45,7 +46,8 @@ QuadState ReferenceFlight::rate(const QuadState& y) const {
         const Vector& wind = scene_.air->velocity;
         const std::array<Quad, 3> u{wind.x - y[3], wind.y - y[4], wind.z - y[5]};
         const Quad speed = square_root(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-        const Quad area = (Quad(body.size.x) * body.size.y + Quad(body.size.y) * body.size.z + Quad(body.size.z) * body.size.x) / 2;
+        const Quad area =
+            (Quad(body.size.x) * body.size.y + Quad(body.size.y) * body.size.z + Quad(body.size.z) * body.size.x) / 2;
         const Quad k = Quad(scene_.air->density) * scene_.air->drag * area * speed / 2;
         for (int i = 0; i < 3; ++i) force[i] += k * u[i];
     }
@@ -54,7 +56,7 @@ QuadState ReferenceFlight::rate(const QuadState& y) const {
         const std::array<Quad, 3> r{scene_.push->point.x, scene_.push->point.y, scene_.push->point.z};
         const auto world = rotated(&y[6], f);
         for (int i = 0; i < 3; ++i) force[i] += world[i];
-        torque = {r[1] * f[2] - r[2] * f[1], r[2] * f[0] - r[0] * f[2], r[0] * f[1] - r[1] * f[0]};   // body frame
+        torque = {r[1] * f[2] - r[2] * f[1], r[2] * f[0] - r[0] * f[2], r[0] * f[1] - r[1] * f[0]};  // body frame
     }
     const Quad *q = &y[6], *w = &y[10];
     const auto& I = inertia_;
@@ -63,7 +65,7 @@ QuadState ReferenceFlight::rate(const QuadState& y) const {
         d[i] = y[3 + i];
         d[3 + i] = force[i] / body.mass;
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        d[10 + i] = (torque[i] - (I[k] - I[j]) * w[j] * w[k]) / I[i];   // Euler's equations, in the body
+        d[10 + i] = (torque[i] - (I[k] - I[j]) * w[j] * w[k]) / I[i];  // Euler's equations, in the body
     }
     // dq/dt = 1/2 q (0, w)
     d[6] = (-q[1] * w[0] - q[2] * w[1] - q[3] * w[2]) / 2;
@@ -74,7 +76,7 @@ QuadState ReferenceFlight::rate(const QuadState& y) const {
 }
 
 void ReferenceFlight::advance(Quad h) {
-    std::array<QuadState, columns> row;   // row[k]: k-th extrapolation of the latest number of midpoint steps
+    std::array<QuadState, columns> row;  // row[k]: k-th extrapolation of the latest number of midpoint steps
     for (int j = 0; j < columns; ++j) {
         const int n = 2 * (j + 1);
         const Quad step = h / n;

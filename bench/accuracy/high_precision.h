@@ -1,5 +1,5 @@
-// References in 113-bit arithmetic, by code that shares nothing with the simulation: Gragg's modified midpoint rule with
-// Bulirsch and Stoer's extrapolation (Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", II.9).
+// References in 113-bit arithmetic, by code that shares nothing with the simulation: Gragg's modified midpoint rule
+// with Bulirsch and Stoer's extrapolation (Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", II.9).
 #pragma once
 
 #include "accuracy/scene.h"
@@ -24,8 +24,8 @@ public:
     void advance(Quad h);
     const QuadState& state() const { return state_; }
 
-    double position_error(const Motion& motion) const;      // m
-    double orientation_error(const Motion& motion) const;   // rad, the angle between the two
+    double position_error(const Motion& motion) const;     // m
+    double orientation_error(const Motion& motion) const;  // rad, the angle between the two
 
 private:
     QuadState rate(const QuadState& y) const;

@@ -7,7 +7,7 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double long_enough = 0.15;   // CPU s: the clock's own cost and resolution no longer show
+constexpr double long_enough = 0.15;  // CPU s: the clock's own cost and resolution no longer show
 constexpr int fewest_runs = 3, most_runs = 2000;
 
 double cpu_seconds() {

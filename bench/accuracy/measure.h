@@ -9,8 +9,8 @@ namespace tumble::bench {
 
 struct Measured {
     std::vector<Error> errors;
-    double cpu = 0.0;     // CPU seconds a simulated second, of stepping alone
-    double spent = 0.0;   // CPU seconds of the first run, looking included
+    double cpu = 0.0;    // CPU seconds a simulated second, of stepping alone
+    double spent = 0.0;  // CPU seconds of the first run, looking included
 };
 
 Measured measure(const AccuracyCase& accuracy_case, const Variant& variant, double rate, double seconds, bool timed);

@@ -23,11 +23,13 @@ struct Options {
 
 std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : '"' + text + '"'; }
 
-void write_rows(const AccuracyCase& c, const std::string& program, const Variant& variant, double rate, const Measured& m) {
+void write_rows(const AccuracyCase& c, const std::string& program, const Variant& variant, double rate,
+                const Measured& m) {
     for (const Error& e : m.errors) {
         const std::string name = c.name + ": " + e.quantity;
-        std::printf("%s,%s,%s,%.10g,%.6g,%s,%.4g\n", quoted(name).c_str(), program.c_str(), quoted(variant.name).c_str(),
-                    1.0 / rate, std::isfinite(e.value) ? e.value : HUGE_VAL, e.unit.c_str(), m.cpu);
+        std::printf("%s,%s,%s,%.10g,%.6g,%s,%.4g\n", quoted(name).c_str(), program.c_str(),
+                    quoted(variant.name).c_str(), 1.0 / rate, std::isfinite(e.value) ? e.value : HUGE_VAL,
+                    e.unit.c_str(), m.cpu);
     }
     std::fflush(stdout);
 }
@@ -73,8 +75,9 @@ int run_accuracy(int argc, char** argv, const std::string& program, const std::v
             if (!variant.meets(c.demand)) continue;
             try {
                 climb(c, program, variant, options.quick);
-            } catch (const std::exception& e) {   // a world that blew up: its row is missing, the others go on
-                std::fprintf(stderr, "%s, %s, %s: %s\n", c.name.c_str(), program.c_str(), variant.name.c_str(), e.what());
+            } catch (const std::exception& e) {  // a world that blew up: its row is missing, the others go on
+                std::fprintf(stderr, "%s, %s, %s: %s\n", c.name.c_str(), program.c_str(), variant.name.c_str(),
+                             e.what());
             }
         }
     }

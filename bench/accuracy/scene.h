@@ -32,37 +32,37 @@ enum class Kind { plane, box, sphere };
 
 struct Body {
     Kind kind = Kind::sphere;
-    Vector size;                  // box: edge lengths, m
-    double radius = 0.0;          // sphere, m
-    Vector normal{0.0, 0.0, 1.0}; // plane: unit; solid are the points p with normal . p < offset
-    double offset = 0.0;          // m
-    bool fixed = false;           // planes always are
-    double mass = 1.0;            // kg, spread evenly over the volume
-    double restitution = 1.0;     // no friction anywhere
-    Vector position;              // m, of the centre of mass
+    Vector size;                   // box: edge lengths, m
+    double radius = 0.0;           // sphere, m
+    Vector normal{0.0, 0.0, 1.0};  // plane: unit; solid are the points p with normal . p < offset
+    double offset = 0.0;           // m
+    bool fixed = false;            // planes always are
+    double mass = 1.0;             // kg, spread evenly over the volume
+    double restitution = 1.0;      // no friction anywhere
+    Vector position;               // m, of the centre of mass
     Orientation orientation;
-    Vector velocity;              // m/s
-    Vector angular_velocity;      // rad/s, world frame
+    Vector velocity;          // m/s
+    Vector angular_velocity;  // rad/s, world frame
 
     bool moves() const { return !fixed && kind != Kind::plane; }
-    Vector principal_inertia() const;   // kg m^2, about the body's own axes
+    Vector principal_inertia() const;  // kg m^2, about the body's own axes
 };
 
 /// F = 1/2 density drag A |w - v| (w - v) at the centre of mass, A a quarter of the surface (Cauchy's mean projection).
 struct Air {
-    Vector velocity;              // m/s
+    Vector velocity;  // m/s
     double density = 1.2, drag = 1.0;
 };
 /// A force fixed in the body, at a point of it.
 struct PointForce {
-    Vector point, force;          // m and N, body frame
+    Vector point, force;  // m and N, body frame
 };
 
 struct Scene {
-    double gravity = 9.81;        // m/s^2, downwards
+    double gravity = 9.81;  // m/s^2, downwards
     std::vector<Body> bodies;
-    std::optional<Air> air;               // acts on all that moves
-    std::optional<PointForce> push;       // acts on body 0
+    std::optional<Air> air;          // acts on all that moves
+    std::optional<PointForce> push;  // acts on body 0
 };
 
 /// Where a body is and how it moves; world frame.
@@ -81,6 +81,6 @@ double mean_projected_area(const Body& body);
 
 /// Kinetic and potential energy, J.
 double energy(const Scene& scene, const std::vector<Motion>& motions);
-Vector angular_momentum(const Body& body, const Motion& motion);   // about its centre of mass, kg m^2/s
+Vector angular_momentum(const Body& body, const Motion& motion);  // about its centre of mass, kg m^2/s
 
 }  // namespace tumble::bench

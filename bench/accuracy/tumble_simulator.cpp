@@ -7,7 +7,8 @@ namespace {
 using namespace tumble;
 using bench::Demand;
 
-constexpr unsigned flights = 1u << int(Demand::flight), impacts = 1u << int(Demand::impact);
+constexpr unsigned flights = 1u << int(Demand::flight), impacts = 1u << int(Demand::impact) | 1u << int(Demand::crowd);
+constexpr unsigned walls = 1u << int(Demand::thin_wall);
 constexpr unsigned handed_on = 1u << int(Demand::row_propagating), newton = 1u << int(Demand::row_simultaneous);
 
 // Every integrator and impact mode that World offers, and what it is asked to do: one line each.
@@ -20,7 +21,8 @@ struct Way {
 };
 constexpr Way ways[] = {
     {"explicit-euler", IntegratorKind::explicit_euler, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
-    {"symplectic-euler", IntegratorKind::symplectic_euler, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts | handed_on},
+    {"symplectic-euler", IntegratorKind::symplectic_euler, ImpactMode::stepped, ImpactLaw::propagating,
+     flights | impacts | walls | handed_on},
 };
 
 Vec3 vec(const bench::Vector& v) { return {v.x, v.y, v.z}; }
@@ -31,9 +33,15 @@ BodyDescription described(const bench::Body& body, std::size_t index) {
     d.name = std::to_string(index);
     if (!body.moves()) d.type = BodyType::fixed;
     switch (body.kind) {
-        case bench::Kind::plane: d.shape = PlaneShape{vec(body.normal), body.offset}; break;
-        case bench::Kind::box: d.shape = BoxShape{vec(body.size)}; break;
-        case bench::Kind::sphere: d.shape = SphereShape{body.radius}; break;
+        case bench::Kind::plane:
+            d.shape = PlaneShape{vec(body.normal), body.offset};
+            break;
+        case bench::Kind::box:
+            d.shape = BoxShape{vec(body.size)};
+            break;
+        case bench::Kind::sphere:
+            d.shape = SphereShape{body.radius};
+            break;
     }
     if (body.moves()) d.mass = body.mass;
     d.restitution = body.restitution;
@@ -46,7 +54,7 @@ BodyDescription described(const bench::Body& body, std::size_t index) {
 
 SceneDescription described(const bench::Scene& scene, double rate, const Way& way) {
     SceneDescription d;
-    d.output.fps = rate;   // a frame a step, so that step-free ways get no more help from frames than from steps
+    d.output.fps = rate;  // a frame a step, so that step-free ways get no more help from frames than from steps
     d.simulation.steps_per_frame = 1;
     d.simulation.gravity = Vec3(0.0, 0.0, -scene.gravity);
     d.simulation.integrator = way.integrator;
@@ -56,7 +64,8 @@ SceneDescription described(const bench::Scene& scene, double rate, const Way& wa
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) d.bodies.push_back(described(scene.bodies[i], i));
     if (scene.air) d.wind = WindDescription{vec(scene.air->velocity), scene.air->density, scene.air->drag};
     if (scene.push)
-        d.forces.push_back({0, vec(scene.push->point), vec(scene.push->force), true, 0.0, std::numeric_limits<double>::infinity()});
+        d.forces.push_back(
+            {0, vec(scene.push->point), vec(scene.push->force), true, 0.0, std::numeric_limits<double>::infinity()});
     return d;
 }
 

@@ -1,0 +1,141 @@
+// MuJoCo 2.2: Euler and RK4. Contacts are springs: e = 1 is an undamped one, as stiff as the step bears, e < 1 a damped
+// one with the logarithmic decrement of e.
+#include "accuracy/program.h"
+
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace {
+
+using namespace tumble::bench;
+
+std::string text(const Vector& v) {
+    std::ostringstream out;
+    out.precision(17);
+    out << v.x << ' ' << v.y << ' ' << v.z;
+    return out.str();
+}
+
+// (-stiffness, -damping) of a contact, per unit of effective mass. The period is 12 steps (a stiffer spring gains
+// energy); e = exp(-zeta pi / sqrt(1 - zeta^2)).
+std::string solref(const Scene& scene, double h) {
+    double e = 0.0;
+    for (const Body& body : scene.bodies) e = std::max(e, body.restitution);
+    const double omega = 2.0 * std::numbers::pi / (12.0 * h), decrement = -std::log(e);
+    const double zeta = decrement / std::sqrt(std::numbers::pi * std::numbers::pi + decrement * decrement);
+    std::ostringstream out;
+    out.precision(17);
+    out << -omega * omega << ' ' << -2.0 * zeta * omega;
+    return out.str();
+}
+
+std::string model_of(const Scene& scene, double h, const std::string& integrator) {
+    std::ostringstream xml;
+    xml.precision(17);
+    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << integrator
+        << "'/><size nconmax='3000' njmax='3000'/><default><geom condim='1' solref='" << solref(scene, h)
+        << "' solimp='0.9999 0.9999 0.001'/></default><worldbody>";
+    for (const Body& body : scene.bodies) {
+        const Orientation& q = body.orientation;
+        std::string geom;
+        if (body.kind == Kind::sphere) geom = "type='sphere' size='" + std::to_string(body.radius) + "'";
+        if (body.kind == Kind::box) geom = "type='box' size='" + text(0.5 * body.size) + "'";
+        if (body.kind == Kind::plane) {
+            xml << "<geom type='plane' size='0 0 1' pos='" << text(body.offset * body.normal) << "' zaxis='"
+                << text(body.normal) << "'/>";
+        } else if (body.fixed) {
+            xml << "<geom " << geom << " pos='" << text(body.position) << "'/>";
+        } else {
+            xml << "<body pos='" << text(body.position) << "' quat='" << q.w << ' ' << q.x << ' ' << q.y << ' ' << q.z
+                << "'><freejoint/><inertial pos='0 0 0' mass='" << body.mass << "' diaginertia='"
+                << text(body.principal_inertia()) << "'/><geom " << geom << "/></body>";
+        }
+    }
+    xml << "</worldbody></mujoco>";
+    return xml.str();
+}
+
+class MujocoSimulator : public Simulator {
+public:
+    MujocoSimulator(const Scene& scene, double rate, const std::string& integrator) : scene_(scene) {
+        const std::string xml = model_of(scene, 1.0 / rate, integrator);
+        auto files = std::make_unique<mjVFS>();
+        mj_defaultVFS(files.get());
+        mj_makeEmptyFileVFS(files.get(), "scene.xml", int(xml.size()));
+        std::memcpy(files->filedata[0], xml.data(), xml.size());
+        char error[1000] = "";
+        model_ = mj_loadXML("scene.xml", files.get(), error, sizeof error);
+        mj_deleteVFS(files.get());
+        if (!model_) throw std::runtime_error(error);
+        data_ = mj_makeData(model_);
+        int joints = 0;
+        for (const Body& body : scene.bodies) {
+            joint_.push_back(body.moves() ? joints++ : -1);
+            if (!body.moves()) continue;
+            const Vector w = rotate_back(body.orientation, body.angular_velocity);  // in the body's frame
+            const double velocity[6] = {body.velocity.x, body.velocity.y, body.velocity.z, w.x, w.y, w.z};
+            std::copy(velocity, velocity + 6, data_->qvel + 6 * joint_.back());
+        }
+    }
+    ~MujocoSimulator() override {
+        mj_deleteData(data_);
+        mj_deleteModel(model_);
+    }
+
+    void step() override {
+        const bool driven = scene_.air || scene_.push;
+        if (driven) {  // asked for at each stage of RK4 too
+            current_ = this;
+            mjcb_passive = &MujocoSimulator::push;
+        }
+        mj_step(model_, data_);
+        if (driven) mjcb_passive = nullptr;
+    }
+
+    Motion motion(std::size_t i) const override {
+        const double *x = data_->qpos + 7 * joint_[i], *v = data_->qvel + 6 * joint_[i];
+        const Orientation q{x[3], x[4], x[5], x[6]};
+        return {{x[0], x[1], x[2]}, q, {v[0], v[1], v[2]}, rotate(q, {v[3], v[4], v[5]})};
+    }
+
+private:
+    static void push(const mjModel*, mjData* data) {
+        const MujocoSimulator& self = *current_;
+        for (std::size_t i = 0; i < self.joint_.size(); ++i) {
+            if (self.joint_[i] < 0) continue;
+            const Motion m = self.motion(i);
+            const Wrench w = wrench(self.scene_, i, m);
+            const Vector torque = rotate_back(m.orientation, w.torque);
+            const double force[6] = {w.force.x, w.force.y, w.force.z, torque.x, torque.y, torque.z};
+            for (int k = 0; k < 6; ++k) data->qfrc_passive[6 * self.joint_[i] + k] += force[k];
+        }
+    }
+
+    static inline const MujocoSimulator* current_ = nullptr;  // MuJoCo's callback carries no pointer of ours
+
+    Scene scene_;
+    mjModel* model_ = nullptr;
+    mjData* data_ = nullptr;
+    std::vector<int> joint_;
+};
+
+Variant variant(const std::string& integrator) {
+    return {integrator,
+            [](Demand demand) {
+                // Crowds: the springs hold a share of the energy that should not be counted as lost. Thin walls:
+                // nothing in MuJoCo looks between steps. Simultaneous: springs know one outcome of a row, not a law.
+                return demand == Demand::flight || demand == Demand::impact || demand == Demand::row_propagating;
+            },
+            [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                return std::make_unique<MujocoSimulator>(scene, rate, integrator);
+            }};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_accuracy(argc, argv, "MuJoCo", {variant("Euler"), variant("RK4")}); }
