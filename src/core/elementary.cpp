@@ -19,47 +19,31 @@ double nearest_whole(double x) {
     return (x + no_fraction) - no_fraction;
 }
 
+// The series below are summed as two polynomials in z^2, even and odd, which a processor works at side by side.
+
 // Taylor series to x^17 and x^18: the remainder is below 1e-17 on |x| <= pi/4. `low` is what x + low leaves of the
 // argument; its square is nothing.
 double sin_series(double x, double low) {
-    const double z = x * x;
-    double p = 1.0 / 355687428096000.0;
-    p = p * z - 1.0 / 1307674368000.0;
-    p = p * z + 1.0 / 6227020800.0;
-    p = p * z - 1.0 / 39916800.0;
-    p = p * z + 1.0 / 362880.0;
-    p = p * z - 1.0 / 5040.0;
-    p = p * z + 1.0 / 120.0;
-    p = p * z - 1.0 / 6.0;
-    return x + (x * z * p + low * (1.0 - 0.5 * z));
+    const double z = x * x, w = z * z;
+    const double even = -1.0 / 6.0 + w * (-1.0 / 5040.0 + w * (-1.0 / 39916800.0 + w * (-1.0 / 1307674368000.0)));
+    const double odd = 1.0 / 120.0 + w * (1.0 / 362880.0 + w * (1.0 / 6227020800.0 + w * (1.0 / 355687428096000.0)));
+    return x + (x * z * (even + z * odd) + low * (1.0 - 0.5 * z));
 }
 
 double cos_series(double x, double low) {
-    const double z = x * x;
-    double p = -1.0 / 6402373705728000.0;
-    p = p * z + 1.0 / 20922789888000.0;
-    p = p * z - 1.0 / 87178291200.0;
-    p = p * z + 1.0 / 479001600.0;
-    p = p * z - 1.0 / 3628800.0;
-    p = p * z + 1.0 / 40320.0;
-    p = p * z - 1.0 / 720.0;
-    p = p * z + 1.0 / 24.0;
+    const double z = x * x, w = z * z;
+    const double even = 1.0 / 24.0 + w * (1.0 / 40320.0 + w * (1.0 / 479001600.0 + w * (1.0 / 20922789888000.0)));
+    const double odd = -1.0 / 720.0 + w * (-1.0 / 3628800.0 + w * (-1.0 / 87178291200.0 + w * (-1.0 / 6402373705728000.0)));
     const double half = 0.5 * z, head = 1.0 - half;
-    return head + (((1.0 - head) - half) + (z * z * p - x * low));   // what rounding head lost comes back
+    return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));   // what rounding head lost comes back
 }
 
 // Taylor series to x^17 on |x| <= 1/8: the remainder is below 1e-17 of x.
 double atan_series(double x) {
-    const double z = x * x;
-    double p = 1.0 / 17.0;
-    p = 1.0 / 15.0 - p * z;
-    p = 1.0 / 13.0 - p * z;
-    p = 1.0 / 11.0 - p * z;
-    p = 1.0 / 9.0 - p * z;
-    p = 1.0 / 7.0 - p * z;
-    p = 1.0 / 5.0 - p * z;
-    p = 1.0 / 3.0 - p * z;
-    return x - x * z * p;
+    const double z = x * x, w = z * z;
+    const double even = -1.0 / 3.0 + w * (-1.0 / 7.0 + w * (-1.0 / 11.0 + w * (-1.0 / 15.0)));
+    const double odd = 1.0 / 5.0 + w * (1.0 / 9.0 + w * (1.0 / 13.0 + w * (1.0 / 17.0)));
+    return x + x * z * (even + z * odd);
 }
 
 // atan(k/4), and what its rounding leaves.

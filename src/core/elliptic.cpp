@@ -21,15 +21,10 @@ constexpr int most_rounds = 600;
 double carlson_rc1(double e) {
     // The alternating series' next term is e^9/19 < 6e-17.
     if (e < 0.02) {
-        double p = 1.0 / 17.0;
-        p = 1.0 / 15.0 - p * e;
-        p = 1.0 / 13.0 - p * e;
-        p = 1.0 / 11.0 - p * e;
-        p = 1.0 / 9.0 - p * e;
-        p = 1.0 / 7.0 - p * e;
-        p = 1.0 / 5.0 - p * e;
-        p = 1.0 / 3.0 - p * e;
-        return 1.0 - p * e;
+        const double w = e * e;
+        const double even = -1.0 / 3.0 + w * (-1.0 / 7.0 + w * (-1.0 / 11.0 + w * (-1.0 / 15.0)));
+        const double odd = 1.0 / 5.0 + w * (1.0 / 9.0 + w * (1.0 / 13.0 + w * (1.0 / 17.0)));
+        return 1.0 + e * (even + e * odd);
     }
     const double root = std::sqrt(e);
     return arc_tangent(root) / root;

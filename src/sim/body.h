@@ -19,6 +19,8 @@ struct Body {
     Collider collider;
     double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
+    Vec3 principal_inertia = Vec3::Zero();   // kg m^2
+    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
     Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
     double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
@@ -43,6 +45,7 @@ struct Body {
     Vec3 push_angular_velocity = Vec3::Zero();
 
     bool asleep = false;
+    bool flying = false;   // impacts = "exact": on a path known in closed form, not stepped
 
     bool dynamic() const { return type == BodyType::dynamic; }
     bool moves() const { return dynamic() || track != nullptr; }

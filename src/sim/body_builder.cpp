@@ -77,6 +77,9 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
         body.inverse_mass = 1.0 / mass.mass;
         body.inertia_body = mass.inertia;
         body.inverse_inertia_body = mass.inertia.inverse();
+        const PrincipalInertia principal = principal_inertia(mass.inertia);
+        body.principal_inertia = principal.moments;
+        body.principal_axes = principal.axes;
         body.drag_area = mean_projected_area(body.collider);
     }
     set_motion(body, d);

@@ -106,9 +106,17 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
 
     double cn = m1 / amplitude_cn_, sn = m2 / amplitude_sn_;
     const double circle = 1.0 / std::sqrt(cn * cn + sn * sn);
-    start_phase(sn * circle, cn * circle);
-    if (kind_ == Kind::steady) return set_steady(rate / inertia[main]);
-    start_ = start_ * principal_axes * from_principal(frame(phase(phase_start_)).conjugate());
+    sn *= circle;
+    cn *= circle;
+    if (complement_squared_ > 0.0) {
+        start_periodic(sn, cn);
+    } else {
+        if (cn * cn < nothing) return set_steady(rate / inertia[main]);
+        start_separatrix(sn, cn);
+    }
+    const Phase start = phase(phase_start_);
+    integral_start_ = start.integral;
+    start_ = start_ * principal_axes * from_principal(frame(start).conjugate());
 }
 
 void FreeRotation::set_steady(double rate) {
@@ -116,21 +124,19 @@ void FreeRotation::set_steady(double rate) {
     rate_ = rate;
 }
 
-// u0 from the start's sn and cn, and what belongs to the modulus.
-void FreeRotation::start_phase(double sn, double cn) {
-    if (complement_squared_ == 0.0) {
-        if (cn * cn < nothing) return set_steady(0.0);
-        kind_ = Kind::separatrix;
-        // cn = dn = sech: m1 keeps its sign too.
-        if (cn < 0.0) {
-            amplitude_cn_ = -amplitude_cn_;
-            amplitude_sn_ = -amplitude_sn_;
-            sn = -sn;
-        }
-        phase_start_ = sn * carlson_rf(cn * cn, cn * cn, 1.0);   // asinh(sn / cn)
-        integral_start_ = phase(phase_start_).integral;
-        return;
+// u0 from the start's sn and cn, where cn = dn = sech: m1 keeps its sign too.
+void FreeRotation::start_separatrix(double sn, double cn) {
+    kind_ = Kind::separatrix;
+    if (cn < 0.0) {
+        amplitude_cn_ = -amplitude_cn_;
+        amplitude_sn_ = -amplitude_sn_;
+        sn = -sn;
     }
+    phase_start_ = sn * carlson_rf(cn * cn, cn * cn, 1.0);   // asinh(sn / cn)
+}
+
+// The same elsewhere, and what belongs to the modulus.
+void FreeRotation::start_periodic(double sn, double cn) {
     kind_ = Kind::periodic;
     // Descending Landen transformation: k1 = (1 - k')/(1 + k'), k1'^2 = 4 k'/(1 + k')^2 (DLMF 19.8.12).
     double k = std::sqrt(modulus_squared_), complement = std::sqrt(complement_squared_);
@@ -147,7 +153,6 @@ void FreeRotation::start_phase(double sn, double cn) {
     const double dn_squared = complement_squared_ + modulus_squared_ * cn * cn;
     const double first = sn * carlson_rf(cn * cn, dn_squared, 1.0);
     phase_start_ = cn >= 0.0 ? first : std::copysign(half_period_, sn) - first;
-    integral_start_ = phase(phase_start_).integral;
 }
 
 // DLMF 22.7.2-4, upwards from the last level, where sn and cn are sine and cosine.

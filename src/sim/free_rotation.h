@@ -52,7 +52,8 @@ private:
 
     void begin(const Vec3& principal_inertia, const Quat& principal_axes, const Vec3& angular_momentum);
     void set_steady(double rate);
-    void start_phase(double sn, double cn);
+    void start_periodic(double sn, double cn);
+    void start_separatrix(double sn, double cn);
     Jacobi jacobi(double u) const;
     double integral(const Jacobi& value) const;
     Phase phase(double u) const;

@@ -25,4 +25,14 @@ MassProperties mesh_mass(const TriangleMesh& mesh, double density);
 /// The same body with another mass.
 MassProperties with_mass(const MassProperties& properties, double mass);
 
+struct PrincipalInertia {
+    Vec3 moments = Vec3::Zero();       // kg m^2, in no particular order
+    Quat axes = Quat::Identity();      // turns principal coordinates into the tensor's
+};
+
+/// tensor = R diag(moments) R^T, by Jacobi's rotations (Golub and Van Loan 2013, "Matrix Computations", section 8.5).
+/// A diagonal tensor keeps its axes; moments that differ only by a mesh's rounding come out equal to the last bit, and of
+/// a body with three equal ones every axis is principal: it gets the tensor's own.
+PrincipalInertia principal_inertia(const Mat3& tensor);
+
 }  // namespace tumble

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace tumble;
 using namespace tumble::testing;
 
@@ -61,4 +64,57 @@ TEST(Inertia, GivenMassScalesTheTensor) {
     EXPECT_DOUBLE_EQ(r.mass, 7.0);
     EXPECT_NEAR(r.principal_inertia.x(), r.principal_inertia.z(), 1e-12);   // by symmetry
     EXPECT_EQ(r.hull_vertices, 12u);
+}
+
+namespace {
+
+Mat3 tensor_of(const PrincipalInertia& p) {
+    const Mat3 r = p.axes.toRotationMatrix();
+    return r * p.moments.asDiagonal() * r.transpose();
+}
+
+}  // namespace
+
+TEST(PrincipalInertia, RebuildsTheTensor) {
+    for (int i = 1; i <= 2000; ++i) {
+        // Axes all over, moments of matter from spheres to needles.
+        const Quat axes = turn({std::sin(1.0 * i), std::cos(2.3 * i), std::sin(0.7 * i + 1.0)}, 0.37 * i);
+        const double thin = std::pow(10.0, -(i % 7));
+        const Vec3 size(1.0, i % 3 == 0 ? 1.0 : 0.3 + thin, thin);
+        Vec3 moments(size.y() * size.y() + size.z() * size.z(), size.z() * size.z() + size.x() * size.x(),
+                     size.x() * size.x() + size.y() * size.y());
+        const Mat3 r = axes.toRotationMatrix();
+        Mat3 tensor = r * moments.asDiagonal() * r.transpose();
+        tensor = 0.5 * (tensor + tensor.transpose()).eval();
+        PrincipalInertia p = principal_inertia(tensor);
+        EXPECT_LT((tensor_of(p) - tensor).cwiseAbs().maxCoeff(), 1.5e-14 * moments.maxCoeff()) << i;
+        EXPECT_NEAR(p.axes.norm(), 1.0, 1e-15);
+        std::sort(moments.begin(), moments.end());
+        std::sort(p.moments.begin(), p.moments.end());
+        EXPECT_LT((p.moments - moments).cwiseAbs().maxCoeff(), 2e-15 * moments.maxCoeff()) << i;
+    }
+}
+
+TEST(PrincipalInertia, DiagonalTensorsKeepTheirAxes) {
+    for (const Vec3& moments : {Vec3(1, 2, 3), Vec3(3, 2, 1.5), Vec3(1, 1, 1e-9), Vec3(2, 2, 2), Vec3(1, 1 + 1e-13, 1.5)}) {
+        const PrincipalInertia p = principal_inertia(moments.asDiagonal());
+        EXPECT_EQ(p.axes.coeffs(), Quat::Identity().coeffs());
+        EXPECT_EQ(p.moments, moments);
+    }
+}
+
+TEST(PrincipalInertia, EqualWhereTheShapeMakesThemSo) {
+    const Vec3 ball = principal_inertia(sphere_mass(0.37, 911.0).inertia).moments;
+    EXPECT_TRUE(ball.x() == ball.y() && ball.y() == ball.z());
+    const Vec3 cube = principal_inertia(box_mass({0.3, 0.3, 0.3}, 700.0).inertia).moments;
+    EXPECT_TRUE(cube.x() == cube.y() && cube.y() == cube.z());
+    const Vec3 rod = principal_inertia(box_mass({0.3, 0.7, 0.3}, 700.0).inertia).moments;
+    EXPECT_TRUE(rod.x() == rod.z() && rod.x() > rod.y());
+    // Meshes, whose integrals round: a cube far from its origin, an icosahedron.
+    const Vec3 low(3.1, -7.3, 0.9);
+    const PrincipalInertia far = principal_inertia(mesh_mass(box_mesh(low, low + Vec3(0.5, 0.5, 0.5)), 700.0).inertia);
+    EXPECT_TRUE(far.moments.x() == far.moments.y() && far.moments.y() == far.moments.z());
+    EXPECT_EQ(far.axes.coeffs(), Quat::Identity().coeffs());
+    const Vec3 icosahedral = principal_inertia(mesh_mass(icosahedron(0.7)->surface, 700.0).inertia).moments;
+    EXPECT_TRUE(icosahedral.x() == icosahedral.y() && icosahedral.y() == icosahedral.z());
 }
