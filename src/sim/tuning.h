@@ -37,9 +37,9 @@ inline constexpr double push_slop = 1e-5;
 /// Fastest push-out, in radii per second: deep overlaps at the start dissolve visibly, not with a bang.
 inline constexpr double push_limit = 5.0;
 
-/// Contacts of an impact that are projected exactly together. The cost grows with the cube of the contacts held: at 128
-/// about what the sweeps take, beyond that more.
-inline constexpr std::size_t projection_contacts = 128;
+/// Contacts of an impact that are projected exactly together: the cost grows with the cube of the contacts held, 1 ms at
+/// 100, 30 ms at 256. The sweeps taken beyond that stop short of the solution in long chains.
+inline constexpr std::size_t projection_contacts = 256;
 /// A unit row is dependent on others when less than this is left of it: masses of 1 : 1e8 in one contact leave 1e-4.
 inline constexpr double projection_dependent = 1e-8;
 /// Impulses are spread over contacts whose rows depend on each other to this (the rounding of arms of some hundred
@@ -62,6 +62,9 @@ inline constexpr int impact_passes_each = 3;
 inline constexpr int impact_passes_more = 10;
 inline constexpr double impact_passes_margin = 4.0;
 inline constexpr int impact_passes_limit = 100000;
+/// Sum over the passes of the squared number of contacts in each: some 50 ms. Elastic impacts of hundreds of contacts need
+/// a tenth; what goes on longer is a slow inelastic approach of many contacts to one common speed.
+inline constexpr double impact_work = 3e5;
 
 /// Rounds of friction and what it makes approach again: first with restitution, then without.
 inline constexpr int friction_bounces = 4;
@@ -69,6 +72,8 @@ inline constexpr int friction_rounds = 12;
 /// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged.
 inline constexpr int friction_sweeps = 200;
 inline constexpr double friction_tolerance = 1e-14;
+/// Newton steps to the edge of a friction disc: it converges quadratically, in 4 to 8 whatever the compliances.
+inline constexpr int friction_newton = 50;
 
 /// Exact impacts. Gaps below this part of the bodies' sizes are rounding, plus a few last digits of their places.
 inline constexpr double impact_gap = 1e-13;
@@ -98,6 +103,21 @@ inline constexpr double pressing = 1e-9;
 /// A flying body's box in the search for neighbours: its way of so many radii, and so much around it.
 inline constexpr double box_way = 2.0;
 inline constexpr double box_margin = 0.2;
+
+/// A way in a step longer than this part of the thinner body's inner radius is looked along (impacts = "stepped"):
+/// overlaps up to half of it are still pushed out of the right side.
+inline constexpr double fast_share = 0.5;
+/// Rounds in which bodies that stop one another are looked at again.
+inline constexpr int motion_limit_rounds = 8;
+
+/// Phase (rad) that a step of the extrapolation of tenth order may cover: its error is then about 1e-14.
+inline constexpr double extrapolation_phase = 0.2;
+/// Drag |u| u is not smooth where the body comes to rest in the air: the time to get there counts for so much phase, until
+/// the force is below this part of what changes the velocity.
+inline constexpr double extrapolation_rest_in_air = 2.0;
+inline constexpr double extrapolation_no_drag = 1e-14;
+/// Its steps at most in a span: rates that ask for more belong to bodies lighter than the air they push.
+inline constexpr double most_substeps = 1e6;
 
 /// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
 inline constexpr double sleep_drift = 2e-4;

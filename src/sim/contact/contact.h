@@ -34,6 +34,7 @@ struct Contact {
     double inverse_tangent_mass = 0.0;      // 1/kg, of the direction across the normal that gives way most
 
     double impact = 0.0;                    // N s, the impulse of this step's collision
+    Vec3 impact_friction = Vec3::Zero();    // N s on B, across the normal: the collision's own friction, if asked for
     double bounce_velocity = 0.0;           // m/s, v_rel after the collision: gravity's step must not eat it
     double impulse = 0.0;                   // N s along the normal, of resting contact
     Vec3 friction_impulse = Vec3::Zero();   // N s on B, across the normal

@@ -31,6 +31,7 @@ public:
     std::size_t bodies() const { return roots_.size(); }
     const std::vector<VelocityRow>& rows() const { return rows_; }
     const Contact& contact(std::size_t i) const { return contacts_[index_[i]]; }
+    std::uint32_t contact_index(std::size_t i) const { return index_[i]; }
 
     /// v_rel, m/s.
     double speed(std::size_t i) const { return length_[i] * (rows_[i].dot(velocity_) + offset_[i]); }

@@ -53,13 +53,15 @@ public:
     int run() {
         int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
         bool depth_known = false;
+        double work = 0.0;
         for (int pass = 0;; ++pass) {
             if (!gather()) return pass;
-            if (pass >= limit && !depth_known) {
+            if (pass == limit && !depth_known) {
                 limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
                 depth_known = true;
             }
-            if (pass >= limit || !reflect()) {
+            work += double(active_.size()) * double(active_.size());
+            if (pass >= limit || work > tuning::impact_work || !reflect()) {
                 stop(cluster_);
                 return pass + 1;
             }

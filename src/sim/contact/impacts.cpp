@@ -1,6 +1,7 @@
 #include "sim/contact/impacts.h"
 
-#include <algorithm>
+#include "sim/contact/impact_friction.h"
+#include "sim/tuning.h"
 
 namespace tumble {
 namespace {
@@ -17,16 +18,28 @@ bool may_collide(const Island& island, const std::vector<Contact>& contacts, con
     return false;
 }
 
+bool approaching(const ContactCluster& cluster) {
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (cluster.approaching(i)) return true;
+    return false;
+}
+
 int resolve_normally(ContactCluster& cluster, const ImpactSettings& settings) {
-    int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold)
+    const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold)
                                                         : resolve_together(cluster, settings.threshold);
-    if (!settings.complete) return passes;
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
-        if (!cluster.approaching(i)) continue;
-        stop(cluster);
-        return passes + 1;
+    if (!settings.complete || !approaching(cluster)) return passes;
+    stop(cluster);
+    return passes + 1;
+}
+
+// Friction may turn a body so that it approaches again: then there is more of the impact, with friction's disc grown by
+// it. A bounded number of rounds, the later ones without restitution; the last word is that nothing approaches.
+void add_friction(ContactCluster& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
+    for (int round = 0; round < tuning::friction_rounds; ++round) {
+        if (!friction.apply(cluster) || !approaching(cluster)) return;
+        if (round < tuning::friction_bounces) resolve_normally(cluster, settings);
+        else stop(cluster);
     }
-    return passes;
 }
 
 }  // namespace
@@ -36,7 +49,13 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     if (!may_collide(island, contacts, bodies, settings)) return 0;
     ContactCluster cluster(island, contacts, bodies);
     const int passes = resolve_normally(cluster, settings);
-    if (passes > 0) cluster.store(contacts, bodies);
+    if (passes == 0) return 0;
+    if (settings.friction) {
+        ImpactFriction friction(cluster);
+        add_friction(cluster, settings, friction);
+        friction.store(cluster, contacts);
+    }
+    cluster.store(contacts, bodies);
     return passes;
 }
 

@@ -1,0 +1,95 @@
+#include "sim/contact/impact_friction.h"
+
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Minimises k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
+// with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
+// "Computing a trust region step").
+std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius) {
+    double f0 = -g0 / k0, f1 = -g1 / k1;
+    double length = std::sqrt(f0 * f0 + f1 * f1);
+    if (length <= radius) return {f0, f1};
+    if (!(radius > 0.0)) return {0.0, 0.0};
+    double nu = 0.0;
+    for (int i = 0; i < tuning::friction_newton && length - radius > tuning::friction_tolerance * radius; ++i) {
+        const double slope = f0 * f0 / (k0 + nu) + f1 * f1 / (k1 + nu);
+        nu += length * length / slope * (length - radius) / radius;
+        f0 = -g0 / (k0 + nu);
+        f1 = -g1 / (k1 + nu);
+        length = std::sqrt(f0 * f0 + f1 * f1);
+    }
+    const double back = std::min(1.0, radius / length);
+    return {back * f0, back * f1};
+}
+
+}  // namespace
+
+ImpactFriction::ImpactFriction(const ContactCluster& cluster) {
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const Contact& c = cluster.contact(i);
+        if (c.friction <= 0.0) continue;
+        Block block;
+        block.contact = i;
+        const Vec3 t = c.normal.unitOrthogonal(), s = c.normal.cross(t);
+        const VelocityRow along_t = cluster.relative_row(c, t), along_s = cluster.relative_row(c, s);
+        const double tt = along_t.squared_norm(), ss = along_s.squared_norm(), ts = along_t.dot(along_s);
+        // Eigenvectors of the two-by-two compliance.
+        const double half = 0.5 * (tt - ss), root = std::sqrt(half * half + ts * ts);
+        double cosine = 1.0, sine = 0.0;
+        if (root > 0.0) {
+            const double x = half >= 0.0 ? half + root : std::abs(ts), y = half >= 0.0 ? ts : std::copysign(root - half, ts);
+            const double norm = std::sqrt(x * x + y * y);
+            cosine = x / norm;
+            sine = y / norm;
+        }
+        block.first = cosine * t + sine * s;
+        block.second = cosine * s - sine * t;
+        block.first_row = cluster.relative_row(c, block.first);
+        block.second_row = cluster.relative_row(c, block.second);
+        block.first_offset = cluster.offset(c, block.first);
+        block.second_offset = cluster.offset(c, block.second);
+        block.first_compliance = block.first_row.squared_norm();
+        block.second_compliance = block.second_row.squared_norm();
+        blocks_.push_back(block);
+    }
+}
+
+// Returns the change of speed made, m/s.
+double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
+    const double radius = cluster.contact(block.contact).friction * cluster.impulse(block.contact);
+    if (radius == 0.0 && block.f0 == 0.0 && block.f1 == 0.0) return 0.0;
+    const double k0 = block.first_compliance, k1 = block.second_compliance;
+    const double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
+    const double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
+    const auto [f0, f1] = least_in_disc(k0, k1, slip0 - k0 * block.f0, slip1 - k1 * block.f1, radius);
+    const double step0 = f0 - block.f0, step1 = f1 - block.f1;
+    cluster.push_along(block.first_row, step0);
+    cluster.push_along(block.second_row, step1);
+    block.f0 = f0;
+    block.f1 = f1;
+    return std::max(std::abs(step0) * k0, std::abs(step1) * k1);
+}
+
+bool ImpactFriction::apply(ContactCluster& cluster) {
+    double most = 0.0;
+    for (int sweep = 0; sweep < tuning::friction_sweeps; ++sweep) {
+        double change = 0.0;
+        for (Block& block : blocks_) change = std::max(change, relax(cluster, block));
+        most = std::max(most, change);
+        if (blocks_.size() < 2 || change <= tuning::friction_tolerance * most) break;
+    }
+    return most > cluster.rounding();
+}
+
+void ImpactFriction::store(const ContactCluster& cluster, std::vector<Contact>& contacts) const {
+    for (const Block& block : blocks_)
+        contacts[cluster.contact_index(block.contact)].impact_friction = block.f0 * block.first + block.f1 * block.second;
+}
+
+}  // namespace tumble
