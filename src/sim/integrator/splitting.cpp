@@ -1,0 +1,52 @@
+#include "sim/integrator/splitting.h"
+
+#include "core/elementary.h"
+
+namespace tumble {
+namespace {
+
+// P and L over h with x and q held, by the midpoint rule: forces that depend on the velocity keep the second order.
+void kick(RigidState& s, const RigidMass& mass, const ForceLaw& forces, double h) {
+    const Mat3 rotation = rotation_of(s.orientation);
+    const Vec3 half_way = s.momentum + 0.5 * h * forces(mass.inverse_mass * s.momentum, rotation).force;
+    const Wrench wrench = forces(mass.inverse_mass * half_way, rotation);
+    s.momentum += h * wrench.force;
+    s.angular_momentum += h * wrench.torque;
+}
+
+// The part of the kinetic energy m_i^2 / 2 I_i alone: a turn about the body's axis i at m_i / I_i, which stays.
+void turn(Quat& q, Vec3& m, const Vec3& inertia, int i, double h) {
+    const auto [s, c] = sincos(0.5 * h * m[i] / inertia[i]);
+    Quat about(c, 0.0, 0.0, 0.0);
+    about.vec()[i] = s;
+    q = q * about;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double cosine = 1.0 - 2.0 * s * s, sine = 2.0 * s * c;
+    const double mj = m[j], mk = m[k];
+    m[j] = cosine * mj + sine * mk;
+    m[k] = cosine * mk - sine * mj;
+}
+
+void drift(RigidState& s, const RigidMass& mass, double h) {
+    s.position += h * mass.inverse_mass * s.momentum;
+    if (s.angular_momentum.isZero(0.0)) return;
+    Quat q = s.orientation * mass.principal_axes;
+    Vec3 m = q.conjugate() * s.angular_momentum;   // in principal axes
+    const Vec3& inertia = mass.principal_inertia;
+    turn(q, m, inertia, 0, 0.5 * h);
+    turn(q, m, inertia, 1, 0.5 * h);
+    turn(q, m, inertia, 2, h);
+    turn(q, m, inertia, 1, 0.5 * h);
+    turn(q, m, inertia, 0, 0.5 * h);
+    s.orientation = (q * mass.principal_axes.conjugate()).normalized();
+}
+
+}  // namespace
+
+void splitting_step(RigidState& state, const RigidMass& mass, const ForceLaw& forces, double h) {
+    kick(state, mass, forces, 0.5 * h);
+    drift(state, mass, h);
+    kick(state, mass, forces, 0.5 * h);
+}
+
+}  // namespace tumble
