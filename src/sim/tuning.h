@@ -116,8 +116,8 @@ inline constexpr double extrapolation_phase = 0.2;
 /// the force is below this part of what changes the velocity.
 inline constexpr double extrapolation_rest_in_air = 2.0;
 inline constexpr double extrapolation_no_drag = 1e-14;
-/// Its steps at most in a span: rates that ask for more belong to bodies lighter than the air they push.
-inline constexpr double most_substeps = 1e6;
+/// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
+inline constexpr int most_substeps = 200000;
 
 /// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
 inline constexpr double sleep_drift = 2e-4;

@@ -1,10 +1,13 @@
 #include "sim/integrator/advance.h"
 
+#include "core/error.h"
 #include "sim/free_rotation.h"
 #include "sim/integrator/extrapolation.h"
 #include "sim/integrator/runge_kutta_4.h"
 #include "sim/integrator/splitting.h"
 #include "sim/tuning.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,18 +99,19 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
             RigidMass moved = mass;
             const Vec3 angular_momentum = state.angular_momentum;
             if (!turns) state.angular_momentum.setZero();
-            // Never more steps than this: a rate that grows beyond all bounds shows as numbers that are none.
-            const double least = span / tuning::most_substeps;
             double done = 0.0;
-            while (done < span) {
+            for (int step = 0; done < span; ++step) {
+                if (step == tuning::most_substeps) {
+                    throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more than {} "
+                                               "steps: the forces on it are too large for its mass",
+                                               body.name, start, end, tuning::most_substeps));
+                }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
-                const double rest = span - done;
-                // The rest in equal steps, at the present rate; the next one decides anew.
-                const double count = std::ceil(std::min(rest * rate / tuning::extrapolation_phase, rest / least));
-                const double h = rest / std::max(1.0, count);
-                extrapolation_step(state, moved, ForceLaw(law), h);
-                if (count <= 1.0) break;
-                done += h;
+                // The rest in equal steps at the present rate; the next one decides anew.
+                const double rest = span - done, count = std::ceil(rest * rate / tuning::extrapolation_phase);
+                extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
+                if (!(count > 1.0)) break;
+                done += rest / count;
             }
             if (!turns) state.angular_momentum = angular_momentum;
         }
