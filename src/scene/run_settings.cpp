@@ -12,6 +12,8 @@ namespace {
 constexpr Choice<IntegratorKind> integrators[] = {
     {"symplectic-euler", IntegratorKind::symplectic_euler},
     {"explicit-euler", IntegratorKind::explicit_euler},
+    {"splitting", IntegratorKind::splitting},
+    {"rk4", IntegratorKind::runge_kutta_4},
 };
 constexpr Choice<ImpactMode> impact_modes[] = {
     {"stepped", ImpactMode::stepped},

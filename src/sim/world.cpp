@@ -7,8 +7,10 @@
 #include "sim/contact/islands.h"
 #include "sim/contact/rest_solver.h"
 #include "sim/contact/sleep.h"
+#include "sim/flight/flights.h"
 #include "sim/forces.h"
 #include "sim/integrator.h"
+#include "sim/integrator/advance.h"
 #include "sim/measurement.h"
 #include "sim/narrow_phase.h"
 #include "sim/thread_pool.h"
@@ -33,22 +35,35 @@ struct World::State {
     std::vector<Contact> contacts, previous_contacts;
     std::vector<Island> islands;      // of the awake bodies
     SleepMonitor sleep;
+    std::unique_ptr<Flights> flights;   // with exact impacts
     ThreadPool pool;
     // Velocities before this step's forces: what explicit Euler moves by.
     std::vector<Vec3> old_velocity, old_angular_velocity;
+    // Momenta before and after this step's forces: what the integrators of higher order begin with, and whether contact
+    // has added anything since.
+    struct Momenta {
+        Vec3 momentum, angular_momentum;
+        bool operator==(const Momenta&) const = default;
+    };
+    std::vector<Momenta> before_forces, after_forces;
 
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene), narrow_phase(threads),
           sleep(scene.bodies.size()), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
-          old_angular_velocity(scene.bodies.size(), Vec3::Zero()) {
+          old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
+          after_forces(scene.bodies.size()) {
         BodyBuilder builder;
         for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         place_kinematic_bodies();
+        if (settings.impacts == ImpactMode::exact) flights = std::make_unique<Flights>(bodies, settings, fps);
     }
 
     double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
-    bool awake(const Body& body) const { return body.dynamic() && !body.asleep; }
+    /// In the loop of the steps: neither asleep nor in exact flight.
+    bool awake(const Body& body) const { return body.dynamic() && !body.asleep && !body.flying; }
 
+    void advance(std::int64_t to);
+    void step();
     void place_kinematic_bodies();
     void find_contacts();
     void resolve_collisions();
@@ -59,20 +74,31 @@ struct World::State {
     void check_finite() const;
 };
 
-void World::step() {
-    State& s = *state_;
-    s.find_contacts();            // pairs: broad phase, exact manifolds, islands
-    s.resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
-    s.apply_forces();             // F and tau at t_n change P and L
-    s.solve_resting_contacts();   // non-penetration and friction
-    s.move();                     // x and q to t_n+1
-    s.fall_asleep();              // islands at rest leave the loop
-    s.check_finite();
+void World::State::step() {
+    find_contacts();            // pairs: broad phase, exact manifolds, islands
+    resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
+    apply_forces();             // F and tau at t_n change P and L
+    solve_resting_contacts();   // non-penetration and friction
+    move();                     // x and q to t_n+1; free flights from impact to impact
+    fall_asleep();              // islands at rest leave the loop
+    check_finite();
 }
 
-void World::advance_frame() {
-    for (int i = 0; i < state_->settings.steps_per_frame; ++i) step();
+// Steps only while something has to be stepped: bodies in free flight need none.
+void World::State::advance(std::int64_t to) {
+    while (steps < to) {
+        if (!flights || flights->stepping(bodies) || forces.ever_changes()) {
+            step();
+            continue;
+        }
+        steps = flights->run(bodies, sleep, forces, to);
+        flights->place(bodies, steps);
+        check_finite();
+    }
 }
+
+void World::step() { state_->advance(state_->steps + 1); }
+void World::advance_frame() { state_->advance(state_->steps + state_->settings.steps_per_frame); }
 
 // Kinematic bodies go where their keyframes say; during the step they have the constant velocity that takes them there.
 void World::State::place_kinematic_bodies() {
@@ -96,6 +122,8 @@ void World::State::find_contacts() {
         // The woken ones need the contacts among themselves too, which were not looked for.
         make_contacts(narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool), bodies, previous_contacts, contacts);
     }
+    if (flights && flights->take_off(contacts, bodies, forces, steps))
+        std::erase_if(contacts, [&](const Contact& c) { return bodies[c.a].flying || bodies[c.b].flying; });
     islands = find_islands(contacts, bodies);
 }
 
@@ -119,7 +147,9 @@ void World::State::apply_forces() {
         old_velocity[i] = body.velocity;
         old_angular_velocity[i] = body.angular_velocity;
         const Wrench wrench = forces.at(i, body, now);
+        before_forces[i] = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
+        after_forces[i] = {body.momentum, body.angular_momentum};
         body.derive();
     }
 }
@@ -137,10 +167,26 @@ void World::State::solve_resting_contacts() {
 }
 
 void World::State::move() {
+    if (flights) {
+        flights->begin_step(bodies, forces, steps);
+        steps = flights->run(bodies, sleep, forces, steps + 1);
+        flights->place(bodies, steps);
+        place_kinematic_bodies();
+        return;
+    }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         Body& body = bodies[i];
         if (!awake(body)) continue;
-        const bool symplectic = body.integrator == IntegratorKind::symplectic_euler;
+        // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
+        const bool touched = after_forces[i] != Momenta{body.momentum, body.angular_momentum} ||
+                             !body.push_velocity.isZero(0.0) || !body.push_angular_velocity.isZero(0.0);
+        if (steps_whole_state(body.integrator) && !touched) {
+            body.momentum = before_forces[i].momentum;
+            body.angular_momentum = before_forces[i].angular_momentum;
+            advance_one_step(body, body.integrator, forces, i, time(steps), time(steps + 1));
+            continue;
+        }
+        const bool symplectic = body.integrator != IntegratorKind::explicit_euler;
         const Vec3 velocity = symplectic ? body.velocity : old_velocity[i];
         const Vec3 spin = symplectic ? body.angular_velocity : old_angular_velocity[i];
         advance_pose(body, velocity + body.push_velocity, spin + body.push_angular_velocity, h, settings.rotation);
@@ -158,7 +204,7 @@ void World::State::fall_asleep() {
 
 void World::State::check_finite() const {
     for (const Body& body : bodies) {
-        if (!awake(body)) continue;
+        if (!body.dynamic() || body.asleep) continue;
         if (body.position.allFinite() && body.orientation.coeffs().allFinite() && body.momentum.allFinite() &&
             body.angular_momentum.allFinite())
             continue;

@@ -1,5 +1,7 @@
 // Prints the bytes of a trajectory that goes through every part of the simulation: boxes, spheres, hulls, a triangle
-// surface, a kinematic paddle, wind, a point force, friction, restitution, sleep. Argument: the number of threads.
+// surface, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number of threads.
+#include "sim/body_builder.h"
+#include "sim/integrator/advance.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 
@@ -8,6 +10,29 @@
 
 using namespace tumble;
 using namespace tumble::testing;
+
+namespace {
+
+// Free rotation in closed form, drag, and the extrapolation for the body under the point force.
+void print_exact_motion(const SceneDescription& scene) {
+    const ForceField forces(scene);
+    BodyBuilder builder;
+    SceneDescription calm = scene;
+    calm.wind.reset();
+    const ForceField no_wind(calm);
+    for (std::size_t i = 1; i < 20; ++i) {
+        const Body body = builder.build(scene.bodies[i], IntegratorKind::exact);
+        for (const ForceField* field : {&forces, &no_wind}) {
+            const RigidState s = advance_exactly(body, *field, i, 0.0, 0.7);
+            std::fwrite(s.position.data(), sizeof(double), 3, stdout);
+            std::fwrite(s.orientation.coeffs().data(), sizeof(double), 4, stdout);
+            std::fwrite(s.momentum.data(), sizeof(double), 3, stdout);
+            std::fwrite(s.angular_momentum.data(), sizeof(double), 3, stdout);
+        }
+    }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
     SceneDescription scene = ground_scene(0.3, 0.6, 8);
@@ -21,6 +46,8 @@ int main(int argc, char** argv) {
         body.restitution = 0.1 * (i % 5);
         body.rotation = Quat(1.0, 0.1 * (i % 7), 0.2, -0.05 * (i % 3)).normalized();
         body.angular_velocity = Vec3(0.3 * i, 1.0, -0.2 * i);
+        if (i % 5 == 0) body.integrator = IntegratorKind::splitting;
+        if (i % 5 == 1) body.integrator = IntegratorKind::runge_kutta_4;
     }
     BodyDescription& ramp = add_body(scene, MeshShape{open_ramp()}, Vec3(-3.0, 0.0, 0.0));
     ramp.type = BodyType::fixed;
@@ -31,6 +58,7 @@ int main(int argc, char** argv) {
                         {0.7, Vec3(2.0, 0.6, 1.5), turn(Vec3::UnitY(), 0.4)},
                         {1.0, Vec3(5.0, 0.5, 1.5), Quat::Identity()}};
     scene.forces.push_back({2, Vec3(0.2, 0.0, 0.0), Vec3(0.0, 30.0, 5.0), false, 0.3, 0.6});
+    print_exact_motion(scene);
     World world(scene, argc > 1 ? std::atoi(argv[1]) : 1);
     for (int frame = 0; frame < 70; ++frame) {
         world.advance_frame();

@@ -95,7 +95,8 @@ TEST(Overrides, ErrorsNameTheOption) {
     EXPECT_EQ(error([](auto& o) { o.height = 99999; }), "error: --size: must be from 1 to 16384 (given 99999)");
     EXPECT_EQ(error([](auto& o) { o.samples = 3; }), "error: --samples: must be 1, 2 or 4 (given 3)");
     EXPECT_EQ(error([](auto& o) { o.integrator = "exact"; }),
-              "error: --integrator: must be one of \"symplectic-euler\", \"explicit-euler\" (given \"exact\")");
+              "error: --integrator: must be one of \"symplectic-euler\", \"explicit-euler\", \"splitting\", "
+         "\"rk4\" (given \"exact\")");
     EXPECT_EQ(error([](auto& o) { o.impacts = "exact"; }),
               "error: --impacts: must be one of \"stepped\" (given \"exact\")");
     EXPECT_EQ(error([](auto& o) { o.duration = 1e6; }),

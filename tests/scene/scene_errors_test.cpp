@@ -102,7 +102,8 @@ TEST(SceneErrors, OfTheSimulation) {
         {"format = 1\n[simulation]\ngravity = [0, @inf, 0]", "gravity must be a finite number"},
         {"format = 1\n[simulation]\ngravity = [0, @\"g\", 0]", "gravity must be a number (given \"g\")"},
         {"format = 1\n[simulation]\nintegrator = @\"exact\"",
-         "integrator must be one of \"symplectic-euler\", \"explicit-euler\" (given \"exact\")"},
+         "integrator must be one of \"symplectic-euler\", \"explicit-euler\", \"splitting\", "
+         "\"rk4\" (given \"exact\")"},
         {"format = 1\n[simulation]\nimpacts = @\"exact\"", "impacts must be one of \"stepped\" (given \"exact\")"},
         {"format = 1\n[simulation]\nrotation = @\"euler\"", "rotation must be one of \"quaternion\", \"matrix\""},
         {"format = 1\n[simulation]\nsleep = @1", "sleep must be true or false (given 1)"},

@@ -1,0 +1,109 @@
+// The better integrators in the world's steps: bodies without contact move by them, bodies in contact as ever.
+#include "support/rotation_reference.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+
+constexpr IntegratorKind better[] = {IntegratorKind::splitting, IntegratorKind::runge_kutta_4};
+
+}  // namespace
+
+// Both are exact for constant forces: the parabola to rounding, however long the steps.
+TEST(BetterIntegrators, FallOnTheParabola) {
+    for (const auto integrator : better) {
+        SceneDescription scene;
+        scene.simulation.steps_per_frame = 1;
+        scene.output.fps = 10.0;
+        scene.simulation.integrator = integrator;
+        BodyDescription& body = add_box(scene, {1.0, 0.5, 0.3}, {1.0, 50.0, -3.0});
+        body.velocity = Vec3(2.0, 3.0, -1.0);
+        World world(scene);
+        for (int n = 1; n <= 30; ++n) {
+            world.advance_frame();
+            const double t = n / 10.0;
+            const BodyState b = world.snapshot().bodies[0];
+            EXPECT_LT((b.center_of_mass - body.position - t * body.velocity - Vec3(0.0, -0.5 * 9.81 * t * t, 0.0)).norm(), 1e-13 * 50);
+            EXPECT_LT((b.velocity - body.velocity - Vec3(0.0, -9.81 * t, 0.0)).norm(), 1e-13 * 50);
+        }
+    }
+}
+
+TEST(BetterIntegrators, TurnAFreeBodyAtTheirOrder) {
+    for (const auto integrator : better) {
+        double error[2];
+        for (int k = 0; k < 2; ++k) {
+            SceneDescription scene = empty_scene(4 << k);
+            scene.simulation.integrator = integrator;
+            BodyDescription& body = add_box(scene, {1.0, 0.6, 0.2}, Vec3::Zero());
+            body.angular_velocity = Vec3(1.0, 3.0, 2.0);
+            World world(scene);
+            const Vec3 momentum = world.measure().angular_momentum;
+            RotationReference<long double> truth(Vec3(0.4, 1.04, 1.36) / 12.0, Quat::Identity(), momentum);
+            truth.advance(2.0);
+            run(world, scene, 2.0);
+            error[k] = truth.angle_to(world.snapshot().bodies[0].orientation);
+            EXPECT_EQ(world.measure().angular_momentum, momentum);
+        }
+        const double order = integrator == IntegratorKind::splitting ? 2.0 : 4.0;
+        EXPECT_NEAR(std::log2(error[0] / error[1]), order, 0.1) << error[0];
+        EXPECT_LT(error[1], integrator == IntegratorKind::splitting ? 1e-3 : 1e-6);
+    }
+}
+
+// A body can have its own: two side by side.
+TEST(BetterIntegrators, ABodyOfItsOwn) {
+    SceneDescription scene;
+    scene.simulation.steps_per_frame = 1;
+    add_sphere(scene, 0.5, {0.0, 20.0, 0.0});
+    add_sphere(scene, 0.5, {5.0, 20.0, 0.0}).integrator = IntegratorKind::splitting;
+    World world(scene);
+    run(world, scene, 1.0);
+    EXPECT_NEAR(world.snapshot().bodies[0].center_of_mass.y(), 20.0 - 0.5 * 9.81 * (1.0 + 1.0 / 60.0), 1e-12);
+    EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.y(), 20.0 - 0.5 * 9.81, 1e-12);
+}
+
+// In contact every integrator but the explicit one is symplectic Euler, to the last bit.
+TEST(BetterIntegrators, RestAndSlideAsSymplecticEulerDoes) {
+    for (const auto integrator : better) {
+        Snapshot last[2];
+        for (int k = 0; k < 2; ++k) {
+            SceneDescription scene = ground_scene(0.0, 0.5);
+            scene.simulation.integrator = k == 0 ? IntegratorKind::symplectic_euler : integrator;
+            BodyDescription& box = add_box(scene, {1.0, 0.4, 0.8}, {0.0, 0.2, 0.0});
+            box.friction = 0.5;
+            box.velocity = Vec3(2.0, 0.0, 0.5);
+            World world(scene);
+            run(world, scene, 1.0);
+            last[k] = world.snapshot();
+        }
+        EXPECT_EQ(last[0].bodies[1].center_of_mass, last[1].bodies[1].center_of_mass);
+        EXPECT_EQ(last[0].bodies[1].orientation.coeffs(), last[1].bodies[1].orientation.coeffs());
+        EXPECT_EQ(last[0].bodies[1].velocity, last[1].bodies[1].velocity);
+    }
+}
+
+// Bounces, lands, comes to rest and falls asleep on the ground, above it to within what a contact may overlap.
+TEST(BetterIntegrators, BounceAndComeToRest) {
+    for (const auto integrator : better) {
+        SceneDescription scene = ground_scene(0.5, 0.6);
+        scene.simulation.integrator = integrator;
+        BodyDescription& box = add_box(scene, {0.5, 0.3, 0.4}, {0.0, 2.0, 0.0});
+        box.restitution = 0.5;
+        box.friction = 0.6;
+        box.rotation = turn({1.0, 0.4, 0.2}, 0.5);
+        box.angular_velocity = Vec3(1.0, 2.0, -1.0);
+        World world(scene);
+        const double energy = world.measure().kinetic + world.measure().potential;
+        run(world, scene, 6.0);
+        const Measurement m = world.measure();
+        EXPECT_LT(m.kinetic + m.potential, energy);
+        EXPECT_LT(m.kinetic, 1e-6);
+        EXPECT_LT(m.max_penetration, 1e-3);
+        EXPECT_GE(m.contacts, 3);
+    }
+}
