@@ -97,7 +97,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     elastic.scene.bodies.push_back(plane({0.0, 0.0, 1.0}, 0.0));
     elastic.demand = Demand::crowd;
     elastic.seconds = 10.0;
-    elastic.quick_seconds = 1.0;
+    elastic.quick_seconds = 0.6;
     elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};  // the last is what SimBenchmark publishes
     elastic.observe = bouncing.observe;
     cases.push_back(elastic);
@@ -120,7 +120,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     }
     pit.demand = Demand::crowd;
     pit.seconds = 2.0;
-    pit.quick_seconds = 0.5;
+    pit.quick_seconds = 0.25;
     pit.rates = {60.0, 120.0, 240.0, 480.0, 960.0};
     pit.observe = [](const Scene& s, double) { return std::make_unique<RelativeObserver>(s); };
     cases.push_back(pit);

@@ -23,6 +23,10 @@ constexpr Way ways[] = {
     {"explicit-euler", IntegratorKind::explicit_euler, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
     {"symplectic-euler", IntegratorKind::symplectic_euler, ImpactMode::stepped, ImpactLaw::propagating,
      flights | impacts | walls | handed_on},
+    {"symplectic-euler, simultaneous", IntegratorKind::symplectic_euler, ImpactMode::stepped, ImpactLaw::simultaneous,
+     newton},
+    {"splitting", IntegratorKind::splitting, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
+    {"rk4", IntegratorKind::runge_kutta_4, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
 };
 
 Vec3 vec(const bench::Vector& v) { return {v.x, v.y, v.z}; }

@@ -111,12 +111,13 @@ Variant variant(const std::string& name, const Settings& settings, std::vector<D
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Which gyroscopic term is taken matters in flight alone. Newton's law for a whole row is nothing Bullet knows of.
-    return run_accuracy(
-        argc, argv, "Bullet",
-        {variant("gyro implicit body", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY},
-                 {Demand::flight, Demand::impact, Demand::crowd, Demand::row_propagating}),
-         variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
-         variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
-         variant("swept sphere", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY, true}, {Demand::thin_wall})});
+    // Which gyroscopic term is taken matters in flight alone.
+    const int body = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+    return run_accuracy(argc, argv, "Bullet",
+                        {variant("gyro implicit body", {body}, {Demand::flight}),
+                         variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
+                         variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
+                         variant("sequential impulses", {body},
+                                 {Demand::impact, Demand::crowd, Demand::row_propagating, Demand::row_simultaneous}),
+                         variant("swept sphere", {body, true}, {Demand::thin_wall})});
 }

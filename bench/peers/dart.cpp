@@ -90,8 +90,7 @@ private:
 
 int main(int argc, char** argv) {
     // Thin walls: nothing in DART looks between steps. Blows below 0.1 m/s never bounce (a constant of the library).
-    const Variant euler{"semi-implicit Euler",
-                        [](Demand demand) { return demand != Demand::thin_wall && demand != Demand::row_simultaneous; },
+    const Variant euler{"semi-implicit Euler", [](Demand demand) { return demand != Demand::thin_wall; },
                         [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                             return std::make_unique<DartSimulator>(scene, rate);
                         }};

@@ -1,0 +1,75 @@
+"""The accuracy benchmark in its quick form: every case runs, rows are well formed, errors lie below generous bounds.
+
+    smoke_test.py BENCH_ACCURACY
+"""
+
+import csv
+import re
+import subprocess
+import sys
+import unittest
+
+PROGRAM = sys.argv.pop(1)
+HEADER = ["case", "program", "variant", "step", "error", "unit", "cpu_seconds_per_simulated_second"]
+
+# (case, variant, coarsest step in s, bound, why): at that step and all finer ones the error is at most the bound.
+BOUNDS = [
+    # First order: 1 s of the quick form at omega = 5 rad/s errs by about 0.1 omega^2 h.
+    ("torque-free box: orientation", "explicit-euler|symplectic-euler", 1 / 30, 0.1, "first order"),
+    ("torque-free box: orientation", "splitting", 1 / 30, 1e-3, "second order"),
+    ("torque-free box: orientation", "rk4", 1 / 30, 1e-4, "fourth order"),
+    ("torque-free box: energy", "explicit-euler|symplectic-euler|splitting|rk4", 1 / 30, 1e-4, "hardly leaves its axis in 1 s"),
+    ("torque-free box: angular momentum", ".*", 1 / 30, 1e-13, "kept to rounding"),
+    ("box in the wind, pushed: .*", "explicit-euler|symplectic-euler", 1 / 240, 0.1, "first order: a h t, the spin's share"),
+    ("box in the wind, pushed: .*", "splitting", 1 / 240, 1e-4, "second order"),
+    ("box in the wind, pushed: .*", "rk4", 1 / 240, 1e-7, "fourth order"),
+    # Symplectic Euler retraces its fall: the error stays that of one step, g h v / (g 1 m) = 4.4 h, doubled to be safe.
+    ("elastic (sphere|box, flat|box, tilted): energy", "symplectic-euler", 1 / 30, 0.3, "one step's"),
+    ("elastic (sphere|box, flat|box, tilted): energy", "symplectic-euler", 1 / 240, 0.04, "one step's"),
+    ("elastic box, flat: spin", ".*", 1 / 30, 1e-4, "nothing turns it but rounding and the solver's tolerance"),
+    ("ball coming to rest: height", "symplectic-euler", 1 / 240, 0.2, "a step's share of each bounce"),
+    ("ball coming to rest: path", "symplectic-euler", 1 / 240, 0.2, "as the height"),
+    ("elastic spheres in a pit: energy", "symplectic-euler", 1 / 60, 0.02, "one step's"),
+    ("cradle of .*", "symplectic-euler.*", 1 / 60, 1e-12, "no force acts: the law alone shows"),
+    # The blow falls where the step found the balls, up to v h past touching: the normals are turned by about as much.
+    ("Bernoulli's three balls.*", "symplectic-euler.*", 1 / 60, 0.05, "v h"),
+]
+# ODE's published column of SimBenchmark's "bouncing" at 0.1 and 0.01 s, to every digit printed.
+PUBLISHED = {"0.1": "2.03326e+06", "0.01": "18808.3"}
+
+
+class Smoke(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cases = subprocess.run([PROGRAM, "--list"], check=True, capture_output=True, text=True).stdout.splitlines()
+        done = subprocess.run([PROGRAM, "--header", "--quick"], check=True, capture_output=True, text=True)
+        cls.messages = done.stderr
+        cls.header, *cls.rows = csv.reader(done.stdout.splitlines())
+
+    def test_rows_are_well_formed(self):
+        self.assertEqual(self.header, HEADER)
+        for row in self.rows:
+            self.assertEqual(len(row), len(HEADER), row)
+            self.assertEqual(row[1], "Tumble")
+            step, error, cpu = float(row[3]), float(row[4]), float(row[6])
+            self.assertTrue(0.0 < step <= 0.1 and error >= 0.0 and cpu >= 0.0, row)
+
+    def test_every_case_runs(self):
+        self.assertEqual(self.messages, "")
+        for case in self.cases:
+            self.assertTrue(any(row[0].startswith(case + ":") for row in self.rows), case)
+
+    def test_errors_lie_below_their_bounds(self):
+        for case, variant, coarsest, bound, why in BOUNDS:
+            rows = [r for r in self.rows if re.fullmatch(case, r[0]) and re.fullmatch(variant, r[2]) and float(r[3]) <= 1.001 * coarsest]
+            self.assertTrue(rows, (case, variant))
+            for row in rows:
+                self.assertLessEqual(float(row[4]), bound, (row, why))
+
+    def test_bouncing_is_the_published_column(self):
+        found = {r[3]: r[4] for r in self.rows if r[0] == "SimBenchmark bouncing: energy" and r[2] == "symplectic-euler"}
+        self.assertEqual(found, PUBLISHED)
+
+
+if __name__ == "__main__":
+    unittest.main()
