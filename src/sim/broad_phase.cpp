@@ -23,7 +23,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
     bool escaped = !built_;
     for (std::size_t i = 0; i < moving_.size() && !escaped; ++i) {
         const Body& body = bodies[moving_[i]];
-        if (body.asleep) continue;
+        if (body.asleep || body.flying) continue;
         const Bounds now = world_bounds(body.collider, body.pose()).grown(contact_margin(body, h));
         const Bounds& fat = moving_tree_.item(std::uint32_t(i));
         escaped = (now.min.array() < fat.min.array()).any() || (now.max.array() > fat.max.array()).any();

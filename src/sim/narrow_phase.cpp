@@ -9,6 +9,9 @@ namespace {
 
 bool at_work(const Body& body) { return body.moves() && !body.asleep; }
 
+// Exact flights meet others at impacts, not at steps.
+bool either_flies(const Body& a, const Body& b) { return a.flying || b.flying; }
+
 }  // namespace
 
 const std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs,
@@ -19,7 +22,7 @@ const std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pai
         found_[i].clear();
         double margin = tuning::touch * std::min(a.radius, b.radius);
         if (mode_ == Mode::step) {
-            if (!at_work(a) && !at_work(b)) return;
+            if ((!at_work(a) && !at_work(b)) || either_flies(a, b)) return;
             margin = contact_margin(a, h) + contact_margin(b, h);
         }
         collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_[thread], found_[i]);

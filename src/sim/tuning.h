@@ -62,6 +62,10 @@ inline constexpr int impact_passes_each = 3;
 inline constexpr int impact_passes_more = 10;
 inline constexpr double impact_passes_margin = 4.0;
 inline constexpr int impact_passes_limit = 100000;
+/// Between walls that move nothing is thrown faster than so many times the walls' and its own speed: a wedge of 30 degrees.
+inline constexpr double impact_wedge = 4.0;
+/// Contacts whose margin is below one over this are jammed where walls move: the two sides of a box in a press.
+inline constexpr double impact_deepest = 100.0;
 /// Sum over the passes of the squared number of contacts in each: some 50 ms. Elastic impacts of hundreds of contacts need
 /// a tenth; what goes on longer is a slow inelastic approach of many contacts to one common speed.
 inline constexpr double impact_work = 3e5;
@@ -98,8 +102,8 @@ inline constexpr double shortest_hop = 1e-7;
 inline constexpr int events_before_landing = 128;
 /// Impacts in a frame, times the number of bodies: far beyond any clip (a million hits of each body a second).
 inline constexpr std::int64_t impacts_in_frame = 20000;
-/// Part of |g| with which a touching body must press to count as held.
-inline constexpr double pressing = 1e-9;
+/// Accelerations of touching points against each other below this part of what they are the difference of are rounding.
+inline constexpr double pressing_rounding = 1e-12;
 /// A flying body's box in the search for neighbours: its way of so many radii, and so much around it.
 inline constexpr double box_way = 2.0;
 inline constexpr double box_margin = 0.2;

@@ -10,8 +10,13 @@
 
 namespace tumble {
 
+/// Between axes that separate about equally well. steady: the same from step to step, for contacts that stay. nearest: the
+/// better one to the last digits, for the moment of an impact.
+enum class AxisChoice { steady, nearest };
+
 /// Working space, kept from pair to pair so that nothing is allocated in the loop.
 struct CollisionScratch {
+    AxisChoice choice = AxisChoice::steady;
     std::vector<ContactPoint> points;
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;

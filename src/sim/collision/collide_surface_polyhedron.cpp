@@ -28,14 +28,15 @@ bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
 
 // All in the polyhedron's frame: t are the triangle's corners, n its normal on the body's side.
 TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], const Vec3& n, double margin,
-                                EdgeSearch search, std::vector<std::uint32_t>& edges) {
+                                EdgeSearch search, CollisionScratch& scratch) {
+    std::vector<std::uint32_t>& edges = scratch.edges_b;
     const auto triangle_reach = [&](const Vec3& d) { return std::max({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])}); };
     TriangleAxis axis;
     axis.separation = n.dot(shape.vertices[shape.support(-n)]) - n.dot(t[0]);
     if (axis.separation > margin) return axis;
     axis.kind = TriangleAxis::Kind::triangle;
     axis.normal = n;
-    double best = axis.separation + axis_preference(shape.radius);
+    double best = axis.separation + axis_preference(shape.radius, scratch.choice);
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
         const Polyhedron::Face& face = shape.faces[f];
@@ -130,7 +131,7 @@ void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, co
         if (behind && a.closed) continue;
         if (behind) n = -n;
         for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
-            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch.edges_b);
+            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch);
             if (axis.kind == TriangleAxis::Kind::none) break;
             if (axis.kind != TriangleAxis::Kind::triangle && !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
                 axis.kind = TriangleAxis::Kind::triangle;

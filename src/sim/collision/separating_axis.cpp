@@ -1,5 +1,7 @@
 #include "sim/collision/separating_axis.h"
 
+#include "sim/tuning.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -175,7 +177,9 @@ double edge_reach(EdgeSearch search, double margin, double best_separation) {
     return search == EdgeSearch::all ? std::numeric_limits<double>::infinity() : std::max(margin, -best_separation);
 }
 
-double axis_preference(double smaller_radius) { return 1e-3 * smaller_radius; }
+double axis_preference(double smaller_radius, AxisChoice choice) {
+    return (choice == AxisChoice::steady ? 1e-3 : tuning::impact_touch) * smaller_radius;
+}
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
     return std::all_of(shape.faces.begin(), shape.faces.end(),
@@ -189,7 +193,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     const FaceAxis face_b = best_face(b, a, inverse(b_in_a), margin);
     if (face_b.separation > margin) return {};
 
-    const double preference = axis_preference(std::min(a.radius, b.radius));
+    const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
     SeparatingAxis axis;
     if (face_b.separation > face_a.separation + preference) {
         axis = {SeparatingAxis::Kind::face_b, face_b.separation, 0, face_b.face,

@@ -30,9 +30,9 @@ double edge_reach(EdgeSearch search, double margin, double best_separation);
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch);
 
-/// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's: for shapes of this
-/// size the choice then stays the same from step to step.
-double axis_preference(double smaller_radius);
+/// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's, for shapes of this
+/// size.
+double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::steady);
 
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);

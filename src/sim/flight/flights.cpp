@@ -1,0 +1,343 @@
+#include "sim/flight/flights.h"
+
+#include "core/error.h"
+#include "sim/contact/rest_solver.h"
+#include "sim/flight/landing.h"
+#include "sim/integrator.h"
+#include "sim/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr Moment never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
+
+bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asleep; }
+
+}  // namespace
+
+Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps)
+    : settings_(settings),
+      clock_{fps, settings.steps_per_frame},
+      h_(clock_.seconds(1)),
+      fliers_(bodies.size()),
+      neighbourhood_(bodies),
+      queue_(bodies.size()) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
+        if (bodies[i].moves()) movers_.push_back(i);
+    }
+}
+
+Moment Flights::later(const Moment& now, double seconds) const {
+    const double offset = now.offset + seconds;
+    if (!(offset < 1e12 * h_)) return never;
+    const auto steps = std::int64_t(std::floor(offset / h_));
+    return {now.step + steps, offset - clock_.seconds(steps)};
+}
+
+void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until) {
+    Flier& f = fliers_[i];
+    f.path = path;
+    f.start = now;
+    f.until = until;
+    f.driven = false;
+    ++f.version;
+}
+
+// Sets a body free from its present state.
+void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    Body& body = bodies[i];
+    body.flying = true;
+    if (forces.only_gravity(i)) {
+        start(i, Path::flight(body, settings_.gravity), now, never);
+        return;
+    }
+    const Moment end{now.step + 1, 0.0};
+    start(i, Path::flight(body, settings_.gravity), now, end);
+    fliers_[i].driven = true;
+    fliers_[i].turn_from = fliers_[i].turn_to = body.angular_momentum;
+}
+
+Traveller Flights::traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const {
+    return {&bodies[i], &fliers_[i].path, clock_.between(fliers_[i].start, now)};
+}
+
+void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+    Body& body = bodies[i];
+    if (!body.moves() || body.asleep) return;
+    const Flier& f = fliers_[i];
+    const double t = clock_.between(f.start, now);
+    const Motion motion = f.path.at(t);
+    body.position = motion.position;
+    body.orientation = motion.orientation;
+    body.rotation = motion.rotation;
+    if (!body.dynamic()) return;
+    if (body.flying) body.momentum = body.mass * motion.velocity;
+    if (f.driven) {
+        const double span = clock_.between(f.start, f.until);
+        body.angular_momentum = f.turn_from + (t / span) * (f.turn_to - f.turn_from);
+    }
+    body.derive();
+}
+
+void Flights::place(std::vector<Body>& bodies, std::int64_t step) const {
+    for (const std::uint32_t i : movers_)
+        if (bodies[i].dynamic()) bring(i, bodies, {step, 0.0});
+}
+
+bool Flights::stepping(const std::vector<Body>& bodies) const {
+    return std::any_of(movers_.begin(), movers_.end(), [&](std::uint32_t i) {
+        const Body& body = bodies[i];
+        return body.flying ? fliers_[i].driven : !body.asleep;
+    });
+}
+
+bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+    // Held is what touches and neither parts faster than gravity could bring it back within a step or two, nor would
+    // part by itself; what overlaps is held too, to be pushed out.
+    const double release = settings_.gravity.norm() * h_;
+    held_.assign(bodies.size(), false);
+    for (bool more = true; more;) {
+        more = false;
+        for (const Contact& c : contacts) {
+            const Body &a = bodies[c.a], &b = bodies[c.b];
+            if (!c.touching() || (held_[c.a] && held_[c.b])) continue;
+            const bool overlap = c.separation < -c.touch_distance;
+            if (!overlap) {
+                if (relative_velocity(c, a, b) > release) continue;
+                const bool a_stands = !a.dynamic() || a.asleep || held_[c.a], b_stands = !b.dynamic() || b.asleep || held_[c.b];
+                if (!(pressing_acceleration(c, a, b, settings_.gravity, a_stands, b_stands) < 0.0)) continue;
+            }
+            for (const std::uint32_t k : {c.a, c.b}) {
+                if (!bodies[k].dynamic() || held_[k]) continue;
+                held_[k] = more = true;
+            }
+        }
+    }
+    bool any = false;
+    for (const std::uint32_t i : movers_) {
+        if (!held(bodies[i]) || held_[i]) continue;
+        fly(i, bodies, forces, {step, 0.0});
+        taken_off_.push_back(i);
+        any = true;
+    }
+    return any;
+}
+
+void Flights::begin_step(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+    const Moment now{step, 0.0}, end{step + 1, 0.0};
+    changed_.swap(taken_off_);
+    taken_off_.clear();
+    for (const std::uint32_t i : movers_) {
+        const Body& body = bodies[i];
+        if (body.flying) {
+            if (!fliers_[i].driven || fliers_[i].start == now) continue;
+            bring(i, bodies, now);
+            fly(i, bodies, forces, now);
+        } else if (body.asleep) {
+            if (fliers_[i].path.still()) continue;
+            start(i, Path::uniform(body, Vec3::Zero(), Vec3::Zero()), now, never);
+        } else {
+            start(i, Path::uniform(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity), now, end);
+        }
+        changed_.push_back(i);
+    }
+    predict_changed(bodies, now);
+}
+
+void Flights::predict_changed(const std::vector<Body>& bodies, const Moment& now) {
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    for (const std::uint32_t i : changed_) box(i, bodies, now);
+    for (const std::uint32_t i : changed_) predict(i, bodies, now);
+    changed_.clear();
+}
+
+// A box that holds the body for about the time it takes to leave its own place; at least for the step.
+void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    f.boxed_until = never;
+    if (!neighbourhood_.crowded()) {
+        if (!neighbourhood_.known(i)) neighbourhood_.enclose(i, Bounds{Vec3::Zero(), Vec3::Zero()});
+        return;
+    }
+    const double r = bodies[i].radius, t = clock_.between(f.start, now);
+    const double v = f.path.velocity(t).norm(), a = f.path.acceleration(t).norm();
+    const double way = tuning::box_way * r;
+    double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way)) : std::numeric_limits<double>::infinity();
+    time = std::min(std::max(time, h_), clock_.between(now, f.until));
+    if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
+    else f.boxed_until = later(now, time);
+    const double margin = tuning::box_margin * r;
+    const Bounds swept = f.path.swept(t, t + time).grown(r);
+    if (!neighbourhood_.encloses(i, swept)) neighbourhood_.enclose(i, swept.grown(margin));
+}
+
+void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    const bool flying = bodies[i].flying;
+    f.event = Flier::Event::leaves_box;
+    Moment next = std::min(f.boxed_until, f.until);
+    double horizon = clock_.between(now, next);
+    const Traveller self = traveller(i, bodies, now);
+    const auto look = [&](std::uint32_t j) {
+        const double limit = std::min(horizon, clock_.between(now, fliers_[j].until));
+        const TimeOfImpact found = search_.find(self, traveller(j, bodies, now), limit);
+        if (found.kind == TimeOfImpact::Kind::none || !(found.time < horizon)) return;
+        horizon = found.time;
+        next = later(now, found.time);
+        f.event = found.kind == TimeOfImpact::Kind::impact ? Flier::Event::impact : Flier::Event::looks_again;
+        f.partner = j;
+        f.partner_version = fliers_[j].version;
+    };
+    if (flying)
+        for (const std::uint32_t j : neighbourhood_.fixed(i)) look(j);
+    for (const std::uint32_t j : neighbourhood_.moving(i))
+        if (flying || bodies[j].flying) look(j);
+    // Nothing more within its path: World takes it up at the end of the step.
+    if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
+    else queue_.set(i, next);
+}
+
+std::int64_t Flights::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until) {
+    until_ = until;
+    while (!queue_.empty() && queue_.first_moment() < Moment{until_, 0.0}) {
+        const std::uint32_t i = queue_.first();
+        const Moment now = queue_.first_moment();
+        const Flier& f = fliers_[i];
+        if (f.event == Flier::Event::leaves_box) box(i, bodies, now);
+        if (f.event == Flier::Event::impact && fliers_[f.partner].version == f.partner_version) {
+            collide(i, f.partner, bodies, sleep, forces, now);
+        } else {
+            predict(i, bodies, now);
+        }
+    }
+    return until_;
+}
+
+// A run of more events than any motion has: somewhere bodies are jammed.
+void Flights::count_event(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    if (f.counted_step != now.step) {
+        f.counted_step = now.step;
+        f.events_in_step = 0;
+    }
+    ++f.events_in_step;
+    const std::int64_t frame = now.step / settings_.steps_per_frame;
+    if (frame != frame_) {
+        frame_ = frame;
+        impacts_in_frame_ = 0;
+    }
+    ++impacts_;
+    const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
+    if (++impacts_in_frame_ > limit)
+        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
+                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, bodies[i].name));
+}
+
+// Hops are followed down to a stated time; a body with very many events in one step is taken to be coming to rest, and
+// longer and longer hops, up to the step itself, count as short.
+double Flights::landing_time(std::uint32_t i) const {
+    const int excess = std::max(0, fliers_[i].events_in_step - tuning::events_before_landing) / 8;
+    return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
+}
+
+void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now) {
+    count_event(i, bodies, now);
+    if (bodies[j].dynamic()) count_event(j, bodies, now);
+    const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
+    const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body, {.law = settings_.impact_law, .friction = true, .complete = true});
+    if (!changed) {
+        // Touching without approaching, by rounding: looked at again after a while, a longer one each time.
+        Flier& f = fliers_[i];
+        f.event = Flier::Event::looks_again;
+        queue_.set(i, later(now, std::min(h_, std::ldexp(tuning::shortest_hop, std::min(f.events_in_step, 60)))));
+        return;
+    }
+    const Moment end{now.step + 1, 0.0};
+    for (const std::uint32_t k : cluster_.struck()) {
+        if (bodies[k].asleep) wake(k, bodies, sleep, now);
+        changed_.push_back(k);
+    }
+    land(bodies, forces, now);
+    for (const std::uint32_t k : changed_) {
+        const Body& body = bodies[k];
+        if (body.flying) fly(k, bodies, forces, now);
+        else start(k, Path::uniform(body, body.velocity, body.angular_velocity), now, end);
+    }
+    predict_changed(bodies, now);
+}
+
+void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now) {
+    was_asleep_.clear();
+    for (const std::uint32_t k : movers_)
+        if (bodies[k].asleep) was_asleep_.push_back(k);
+    sleep.wake(i, bodies);
+    for (const std::uint32_t k : was_asleep_)
+        if (!bodies[k].asleep) changed_.push_back(k);
+    until_ = std::min(until_, now.step + 1);
+}
+
+// What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
+void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    std::vector<std::uint32_t> landed;
+    for (bool more = true; more;) {
+        more = false;
+        for (const Contact& c : cluster_.contacts()) {
+            const Body &a = bodies[c.a], &b = bodies[c.b];
+            if (!a.flying && !b.flying) continue;
+            const double acceleration = pressing_acceleration(c, a, b, settings_.gravity, !a.flying, !b.flying);
+            const double time = std::max(a.flying ? landing_time(c.a) : 0.0, b.flying ? landing_time(c.b) : 0.0);
+            if (!hop_is_shorter(c, a, b, acceleration, time)) continue;
+            for (const std::uint32_t k : {c.a, c.b}) {
+                if (!bodies[k].flying) continue;
+                bodies[k].flying = false;
+                landed.push_back(k);
+            }
+            more = true;
+        }
+    }
+    if (landed.empty()) return;
+    until_ = std::min(until_, now.step + 1);
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    if (!(rest > 0.0)) return;
+    for (const std::uint32_t k : landed) {
+        Body& body = bodies[k];
+        const Wrench wrench = forces.at(k, body, clock_.seconds(now));
+        advance_momenta(body, wrench.force, wrench.torque, rest);
+        body.derive();
+    }
+    std::vector<Contact> contacts;
+    Island island;
+    for (const Contact& c : cluster_.contacts()) {
+        const bool lands = std::find(landed.begin(), landed.end(), c.a) != landed.end() || std::find(landed.begin(), landed.end(), c.b) != landed.end();
+        if (!lands || bodies[c.a].flying || bodies[c.b].flying) continue;
+        island.contacts.push_back(std::uint32_t(contacts.size()));
+        contacts.push_back(c);
+        contacts.back().impact = 0.0;   // the little it would still bounce is given up
+        for (const std::uint32_t k : {c.a, c.b})
+            if (bodies[k].dynamic() && !bodies[k].asleep) island.bodies.push_back(k);
+    }
+    std::sort(island.bodies.begin(), island.bodies.end());
+    island.bodies.erase(std::unique(island.bodies.begin(), island.bodies.end()), island.bodies.end());
+    const double gravity_step = settings_.gravity.norm() * rest;
+    solve_rest(island, contacts, bodies, {rest, 0.0, std::max(tuning::solver_floor, tuning::solver_tolerance * gravity_step)});
+    for (const Contact& c : contacts) add_impulse(c, c.impulse * c.normal + c.friction_impulse, bodies[c.a], bodies[c.b]);
+    for (const std::uint32_t k : island.bodies) {
+        bodies[k].push_velocity.setZero();
+        bodies[k].push_angular_velocity.setZero();
+        bodies[k].derive();
+        changed_.push_back(k);
+    }
+    for (const std::uint32_t k : landed) changed_.push_back(k);
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+}
+
+}  // namespace tumble

@@ -1,0 +1,88 @@
+// Impacts at the moment they happen (impacts = "exact"). Every body that nothing holds flies on a path known in closed
+// form; its next event is predicted, the earliest of all events happens, and only those it concerns are predicted again
+// (Mirtich 2000, "Timewarp rigid body simulation", each body on its own clock; Sigurgeirsson, Stuart, Wan 2001 for the
+// queue). A scene costs its impacts, not its steps.
+//
+// Bodies held by contacts are stepped by World and take part here with their way through the step. A bounce that has
+// become too short to follow passes into contact ("landing"), a body that nothing holds any more takes off.
+#pragma once
+
+#include "sim/contact/contact.h"
+#include "sim/contact/impacts.h"
+#include "sim/contact/sleep.h"
+#include "sim/flight/event_queue.h"
+#include "sim/flight/impact_cluster.h"
+#include "sim/flight/moment.h"
+#include "sim/flight/neighbourhood.h"
+#include "sim/flight/path.h"
+#include "sim/flight/time_of_impact.h"
+#include "sim/forces.h"
+
+#include <vector>
+
+namespace tumble {
+
+class Flights {
+public:
+    Flights(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps);
+
+    /// Stepped bodies that none of the contacts holds begin to fly at `step`. Returns whether any did.
+    bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
+    /// Whether something has to be stepped: a body in contact, a moving kinematic one, one under forces that change.
+    bool stepping(const std::vector<Body>& bodies) const;
+    /// The ways of stepped and kinematic bodies through the step that begins, for their present velocities.
+    void begin_step(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
+    /// All events up to the beginning of step `until`, or of the step after the first landing if that is earlier; returns
+    /// which. Throws RunError when a frame holds more impacts than it can mean.
+    std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
+    /// Brings all moving bodies to where they are at the beginning of a step.
+    void place(std::vector<Body>& bodies, std::int64_t step) const;
+
+    std::int64_t impacts() const { return impacts_; }   // so far
+
+private:
+    struct Flier {
+        Path path;
+        Moment start;                 // of the path
+        Moment until;                 // the path is not known beyond; far away for free flights
+        std::uint32_t version = 0;    // counts the paths
+        bool driven = false;          // free, but under forces that are not constant
+        Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();   // L at the path's ends, of a driven body
+        Moment boxed_until;           // in its box of the neighbourhood up to then
+        // The next event.
+        enum class Event { leaves_box, looks_again, impact } event = Event::leaves_box;
+        std::uint32_t partner = 0, partner_version = 0;
+        int events_in_step = 0;
+        std::int64_t counted_step = -1;
+    };
+
+    void start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until);
+    void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    void bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const;
+    void box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
+    void predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
+    void predict_changed(const std::vector<Body>& bodies, const Moment& now);
+    void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
+    void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
+    void count_event(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
+    double landing_time(std::uint32_t i) const;
+    Moment later(const Moment& now, double seconds) const;
+    Traveller traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const;
+
+    SimulationSettings settings_;
+    StepClock clock_;
+    double h_;
+    std::vector<Flier> fliers_;
+    std::vector<std::uint32_t> movers_;   // dynamic and kinematically moving bodies
+    Neighbourhood neighbourhood_;
+    EventQueue queue_;
+    ImpactSearch search_;
+    ImpactCluster cluster_;
+    std::int64_t impacts_ = 0, impacts_in_frame_ = 0, frame_ = 0;
+    std::int64_t until_ = 0;              // of the run under way
+    std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // whose paths are new
+    std::vector<bool> held_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,48 @@
+#include "sim/flight/landing.h"
+
+#include "sim/tuning.h"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Of the body's point at `arm`, without contacts: g + alpha x r + omega x (omega x r), alpha = -I^-1 (omega x L).
+Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, bool supported) {
+    if (supported || !body.dynamic()) return Vec3::Zero();
+    const Vec3& omega = body.angular_velocity;
+    const Vec3 alpha = -(body.inverse_inertia * omega.cross(body.angular_momentum));
+    return gravity + alpha.cross(arm) + omega.cross(omega.cross(arm));
+}
+
+// A sum whose terms cancel but for rounding is none.
+double beyond_rounding(double sum, double terms) { return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0; }
+
+}  // namespace
+
+double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported) {
+    const auto *ball_a = std::get_if<Ball>(&a.collider), *ball_b = std::get_if<Ball>(&b.collider);
+    if (ball_a || ball_b) {
+        // Of a ball only the centre counts. Two balls' normal turns with the line between them: + v_t^2 / d.
+        const Vec3 of_a = ball_a ? (a_supported || !a.dynamic() ? Vec3(Vec3::Zero()) : gravity) : free_acceleration(a, c.arm_a, gravity, a_supported);
+        const Vec3 of_b = ball_b ? (b_supported || !b.dynamic() ? Vec3(Vec3::Zero()) : gravity) : free_acceleration(b, c.arm_b, gravity, b_supported);
+        double turning = 0.0;
+        if (ball_a && ball_b) {
+            const Vec3 v = b.velocity - a.velocity, across = v - c.normal.dot(v) * c.normal;
+            turning = across.squaredNorm() / (ball_a->radius + ball_b->radius);
+        }
+        return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + turning);
+    }
+    const Vec3 v = b.point_velocity(c.arm_b) - a.point_velocity(c.arm_a);
+    // The normal turns with A: d/dt (n.v) = n.a + 2 (omega_a x n).v (Baraff 1997, "Physically Based Modeling", resting contact).
+    const Vec3 of_a = free_acceleration(a, c.arm_a, gravity, a_supported), of_b = free_acceleration(b, c.arm_b, gravity, b_supported);
+    const double turning = 2.0 * a.angular_velocity.cross(c.normal).dot(v);
+    return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + std::abs(turning));
+}
+
+bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time) {
+    if (acceleration >= 0.0) return false;
+    return 2.0 * relative_velocity(c, a, b) < -acceleration * time;
+}
+
+}  // namespace tumble

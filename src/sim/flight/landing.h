@@ -1,0 +1,19 @@
+// Where bouncing ends. A contact whose next hop would be too short to follow holds from then on: its body lands, and
+// passes to the stepped contact solver. The condition belongs to a contact, not to a body: a box may rock on one edge
+// while the other still hops.
+#pragma once
+
+#include "sim/contact/contact.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// n . (p_b'' - p_a'') of the contact's points (m/s^2) if nothing held the bodies but what is said to be supported: gravity,
+/// the turning of the bodies, and the turning of the normal. Negative: they press against each other.
+double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported);
+
+/// Whether the hop that begins with the contact's present v_rel would end before `time` s.
+bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
+
+}  // namespace tumble

@@ -1,0 +1,28 @@
+// A moment between two steps: whole steps are counted, only what is left over is a floating-point number of seconds.
+// An hour into a clip an impact's time is so still known to 1e-18 s instead of 1e-12.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+namespace tumble {
+
+struct Moment {
+    std::int64_t step = 0;
+    double offset = 0.0;   // s after that step's beginning; may exceed a step's length
+
+    friend auto operator<=>(const Moment&, const Moment&) = default;
+};
+
+/// How long a step is, as the two whole and given numbers it is made of.
+struct StepClock {
+    double fps = 60.0;
+    int steps_per_frame = 1;
+
+    double seconds(std::int64_t steps) const { return double(steps) / (fps * steps_per_frame); }
+    /// b - a, s.
+    double between(const Moment& a, const Moment& b) const { return seconds(b.step - a.step) + (b.offset - a.offset); }
+    double seconds(const Moment& m) const { return seconds(m.step) + m.offset; }
+};
+
+}  // namespace tumble

@@ -1,0 +1,66 @@
+// How a body moves from a moment on, until something happens to it: its centre on a polynomial of time, its orientation
+// at rest, turning uniformly, or in free rotation. Everything that asks where a body is between two events asks its path;
+// it is always evaluated from its beginning, so that rounding does not add up.
+#pragma once
+
+#include "core/vector.h"
+#include "sim/flight/motion.h"
+#include "sim/free_rotation.h"
+
+#include <variant>
+
+namespace tumble {
+
+struct Body;
+
+struct UniformTurn {
+    Quat from = Quat::Identity();
+    Vec3 axis = Vec3::UnitY();
+    double rate = 0.0;   // rad/s
+};
+struct FreeTurn {
+    FreeRotation rotation;
+    Mat3 inverse_inertia = Mat3::Zero();    // body frame
+    Vec3 angular_momentum = Vec3::Zero();   // world
+};
+
+class Path {
+public:
+    Path() = default;
+
+    /// Free flight from the body's present state under a constant acceleration (m/s^2): a parabola and torque-free
+    /// rotation, both in closed form.
+    static Path flight(const Body& body, const Vec3& acceleration);
+    /// From the body's present pose with these velocities (m/s, rad/s), held.
+    static Path uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
+    /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), uniform in the
+    /// orientation. For bodies under forces that are not constant: error O(span^4) and O(span^2) in between.
+    static Path towards(const Body& body, const Motion& end, double span);
+
+    /// t: s since the path's beginning.
+    Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }
+    Vec3 velocity(double t) const { return velocity_ + t * (acceleration_ + 0.5 * t * jerk_); }
+    Vec3 acceleration(double t) const { return acceleration_ + t * jerk_; }
+    Quat orientation(double t) const;
+    Motion at(double t) const;
+
+    /// Bounds of the centre's way between two times.
+    Bounds swept(double from, double to) const;
+
+    bool parabolic() const { return jerk_.isZero(0.0); }
+    bool still() const { return spin_bound_ == 0.0 && velocity_.isZero(0.0) && acceleration_.isZero(0.0) && parabolic(); }
+    bool turns() const { return spin_bound_ > 0.0; }
+    /// Largest |omega| (rad/s) that the path ever has.
+    double spin_bound() const { return spin_bound_; }
+    /// Largest |omega|^2 + |alpha| (rad/s^2): times r it bounds the acceleration of a point at distance r from the centre.
+    double turning_bound() const { return turning_bound_; }
+
+private:
+    Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
+    std::variant<UniformTurn, FreeTurn> turning_;
+    double spin_bound_ = 0.0, turning_bound_ = 0.0;
+
+    void turn_uniformly(const Quat& from, const Vec3& angular_velocity);
+};
+
+}  // namespace tumble

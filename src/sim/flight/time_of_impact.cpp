@@ -1,0 +1,285 @@
+#include "sim/flight/time_of_impact.h"
+
+#include "sim/flight/closest_axis.h"
+#include "sim/flight/separation_bound.h"
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+using PolyhedronRef = std::shared_ptr<const Polyhedron>;
+using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+
+// Where on its way a pair is, for what rounding does to it.
+struct Scale {
+    double touch;   // m: gaps below are rounding
+    double speed;   // m/s: rates below are rounding
+};
+
+Scale scale_of(const Traveller& a, const Traveller& b) {
+    const auto of = [](const Traveller& t) {
+        const double size = std::isfinite(t.body->radius) ? t.body->radius : 0.0;
+        return std::pair{size + t.path->position(t.since).cwiseAbs().maxCoeff() * tuning::impact_position_rounding / tuning::impact_gap,
+                         t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
+    };
+    const auto [size_a, speed_a] = of(a);
+    const auto [size_b, speed_b] = of(b);
+    return {tuning::impact_gap * (size_a + size_b), tuning::impact_speed_rounding * (speed_a + speed_b)};
+}
+
+// First time at which h + v t + a t^2 / 2 falls to zero, for h > 0; for touching bodies (h within `touch`) the next time.
+double fall_time(double h, double v, double a, const Scale& scale) {
+    if (h <= scale.touch) {
+        if (v < -scale.speed) return 0.0;
+        return a < 0.0 && v > 0.0 ? -2.0 * v / a : infinity;
+    }
+    const double square = v * v - 2.0 * a * h;
+    if (square < 0.0) return infinity;
+    const double root = std::sqrt(square);
+    if (v < 0.0) return 2.0 * h / (root - v);
+    return a < 0.0 ? -(v + root) / a : infinity;
+}
+
+// First time at which two points that move evenly against each other (d + v t) come within r of each other.
+double approach_time(const Vec3& d, const Vec3& v, double r, const Scale& scale) {
+    const double b = d.dot(v), distance = d.norm();
+    const double gap = distance - r;
+    if (gap <= scale.touch) return b < -scale.speed * distance ? 0.0 : infinity;
+    if (b >= 0.0) return infinity;
+    // c = d^2 - r^2 without the squares' cancellation.
+    const double c = gap * (distance + r), square = b * b - v.squaredNorm() * c;
+    return square < 0.0 ? infinity : c / (std::sqrt(square) - b);
+}
+
+TimeOfImpact result(double time, double horizon) {
+    if (time <= horizon) return {TimeOfImpact::Kind::impact, time};
+    return {};
+}
+
+double rounding_of(const Collider& collider) {
+    const auto* ball = std::get_if<Ball>(&collider);
+    return ball ? ball->radius : 0.0;
+}
+
+// What of the cloud does not change on the way.
+void prepare(Cloud& cloud, const Traveller& t, double horizon) {
+    cloud.spin_bound = t.path->spin_bound();
+    cloud.turning_bound = t.path->turning_bound();
+    cloud.radius = rounding_of(t.body->collider);
+    cloud.reach = 0.0;
+    cloud.arms.assign(1, Vec3::Zero());
+    if (const auto* hull = std::get_if<PolyhedronRef>(&t.body->collider)) {
+        cloud.reach = (*hull)->radius;
+        cloud.arms.resize((*hull)->vertices.size());
+    }
+    cloud.acceleration_change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
+}
+
+void pose(Cloud& cloud, const Traveller& t, double time, const Motion& motion) {
+    cloud.center = motion.position;
+    cloud.velocity = motion.velocity;
+    cloud.acceleration = t.path->acceleration(t.since + time);
+    cloud.angular_velocity = motion.angular_velocity;
+    if (const auto* hull = std::get_if<PolyhedronRef>(&t.body->collider))
+        for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = motion.rotation * (*hull)->vertices[i];
+}
+
+// A ball does not need its orientation.
+Motion motion_of(const Traveller& t, double time) {
+    const double at = t.since + time;
+    if (!std::holds_alternative<Ball>(t.body->collider)) return t.path->at(at);
+    Motion motion;
+    motion.position = t.path->position(at);
+    motion.velocity = t.path->velocity(at);
+    return motion;
+}
+
+// The half-space as the point of its plane below the other's centre.
+void pose_half_space(Cloud& cloud, const HalfSpace& space, const Motion& motion, const Vec3& other) {
+    const Vec3 normal = motion.rotation * space.normal;
+    const Vec3 foot = other - (normal.dot(other - motion.position) - space.offset) * normal;
+    cloud.velocity = motion.point_velocity(foot - motion.position);
+    cloud.acceleration_change += cloud.turning_bound * (foot - motion.position).norm();
+    cloud.center = foot;
+}
+
+}  // namespace
+
+struct ImpactSearch::Pair {
+    Traveller a, b;
+    Scale scale;
+    double size;                                      // m, of the smaller body
+    const HalfSpace* plane = nullptr;                 // of A
+    const TriangleSurface* surface = nullptr;         // of A, which then is
+    std::uint32_t triangle = 0;                       // one of its triangles
+};
+
+TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon) {
+    const Collider &shape_a = a.body->collider, &shape_b = b.body->collider;
+    // Planes and surfaces come first; the search does not care which is which.
+    if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
+        if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
+        return find(b, a, horizon);
+    }
+    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon);
+
+    Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), std::get_if<HalfSpace>(&shape_a), nullptr, 0};
+    const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
+    const bool parabolic = a.path->parabolic() && b.path->parabolic();
+    double from = 0.0;
+    if (pair.plane && parabolic && !a.path->turns()) {
+        // Exact for a ball; for anything else its bounding ball's time, before which nothing touches.
+        const Vec3 normal = a.path->orientation(a.since) * pair.plane->normal;
+        const double height = normal.dot(b.path->position(b.since) - a.path->position(a.since)) - pair.plane->offset - b.body->radius;
+        const double rate = normal.dot(b.path->velocity(b.since) - a.path->velocity(a.since));
+        const double acceleration = normal.dot(b.path->acceleration(b.since) - a.path->acceleration(a.since));
+        if (ball_b) return result(fall_time(height, rate, acceleration, pair.scale), horizon);
+        if (height > 0.0) from = fall_time(height, rate, acceleration, pair.scale);
+    } else if (!pair.plane && parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0)) {
+        const Vec3 d = b.path->position(b.since) - a.path->position(a.since);
+        const Vec3 v = b.path->velocity(b.since) - a.path->velocity(a.since);
+        const double reach = a.body->radius + b.body->radius;
+        if (ball_a && ball_b) return result(approach_time(d, v, reach, pair.scale), horizon);
+        if (d.squaredNorm() > reach * reach) from = approach_time(d, v, reach, pair.scale);
+    }
+    if (!(from < horizon)) return {};
+    return search(pair, from, horizon);
+}
+
+TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon) {
+    prepare(a_, pair.a, horizon);
+    prepare(b_, pair.b, horizon);
+    const double own_change = a_.acceleration_change;
+    const double near = tuning::impact_near * pair.size;
+    double t = from;
+    for (int round = 0; round < tuning::impact_evaluations; ++round) {
+        if (!(t < horizon)) return {};
+        ++evaluations_;
+        const Motion motion_a = motion_of(pair.a, t), motion_b = motion_of(pair.b, t);
+        pose(b_, pair.b, t, motion_b);
+        if (pair.surface) {
+            const auto& corners = pair.surface->triangles[pair.triangle].vertices;
+            a_.center = motion_a.to_world(pair.surface->vertices[corners[0]]);
+            a_.arms.resize(3);
+            a_.reach = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                a_.arms[i] = motion_a.to_world(pair.surface->vertices[corners[i]]) - a_.center;
+                a_.reach = std::max(a_.reach, a_.arms[i].norm());
+            }
+        } else {
+            pose(a_, pair.a, t, motion_a);
+            a_.acceleration_change = own_change;
+            if (pair.plane) pose_half_space(a_, *pair.plane, motion_a, b_.center);
+        }
+        propose(pair, motion_a, motion_b, near);
+
+        // The axis with the widest gap, turning with its features or resting: both bounds are certain, the longer is taken.
+        SeparationBound best;
+        Axis best_axis;
+        best.gap = -infinity;
+        double safe = 0.0;
+        for (const Vec3& normal : normals_) {
+            const Axis axis = pair.plane ? Axis{normal, a_.angular_velocity.cross(normal)}
+                                         : tracking_axis(a_, b_, normal, tuning::impact_feature * pair.size);
+            const SeparationBound bound = bound_separation(a_, b_, axis, horizon - t, 2.0 * pair.scale.touch);
+            if (bound.gap > 0.0) safe = std::max(safe, bound.safe_time);
+            if (bound.gap <= best.gap) continue;
+            best = bound;
+            best_axis = axis;
+        }
+        last_axis_ = best_axis.normal;
+        safe = std::max(safe, best.safe_time);
+        if (!best_axis.rate.isZero(0.0))
+            safe = std::max(safe, bound_separation(a_, b_, {best_axis.normal, Vec3::Zero()}, horizon - t, 0.0).safe_time);
+        if (best.gap <= pair.scale.touch) {
+            if (best.rate < -pair.scale.speed) return {TimeOfImpact::Kind::impact, t};
+            // Touching and not approaching. A touch that parts more slowly than the bound allows for would take ever
+            // smaller steps: within this one nothing can come to overlap by more than rounding.
+            safe = std::max(safe, std::sqrt(8.0 * pair.scale.touch / std::max(best.curvature, 1e-300)));
+        } else if (safe < tuning::impact_time && best.rate < 0.0) {
+            return result(t + safe, horizon);
+        }
+        t += std::max({safe, tuning::impact_time, 4e-16 * t});
+    }
+    return t < horizon ? TimeOfImpact{TimeOfImpact::Kind::check, t} : TimeOfImpact{};
+}
+
+void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, double near) {
+    normals_.clear();
+    if (pair.plane) {
+        normals_.push_back(a.rotation * pair.plane->normal);
+        return;
+    }
+    const auto v = closest_vector(a_, b_, last_axis_);
+    const double distance = v ? v->norm() : 0.0;
+    if (distance > near) {
+        normals_.push_back(*v / distance);
+        return;
+    }
+    // So near, only the features themselves give the axis to the last digit.
+    if (pair.surface) {
+        if (const auto* shape = std::get_if<PolyhedronRef>(&pair.b.body->collider)) propose_triangle_axes(**shape, b);
+    } else {
+        manifolds_.clear();
+        collide(pair.a.body->collider, {a.position, a.rotation}, pair.b.body->collider, {b.position, b.rotation}, 16.0 * near,
+                scratch_, manifolds_);
+        for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
+    }
+    if (distance > 0.0) normals_.push_back(*v / distance);
+    if (normals_.empty()) normals_.push_back((b_.center - a_.center).normalized());
+}
+
+// The separating axes of a triangle and a polyhedron: both shapes' face normals and the cross products of their edges.
+void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Motion& motion) {
+    Vec3 best = Vec3::Zero();
+    double most = -infinity;
+    const Vec3 d = b_.center - a_.center;
+    const auto consider = [&](Vec3 n) {
+        const double length = n.norm();
+        if (length < 1e-9) return;
+        n /= length;
+        for (const double sign : {1.0, -1.0}) {
+            double low = infinity, high = -infinity;
+            for (const Vec3& arm : b_.arms) low = std::min(low, sign * n.dot(arm));
+            for (const Vec3& arm : a_.arms) high = std::max(high, sign * n.dot(arm));
+            const double gap = sign * n.dot(d) + low - high;
+            if (gap <= most) continue;
+            most = gap;
+            best = sign * n;
+        }
+    };
+    consider((a_.arms[1] - a_.arms[0]).cross(a_.arms[2] - a_.arms[0]));
+    for (const Polyhedron::Face& face : shape.faces) consider(motion.rotation * face.normal);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 own = (a_.arms[(i + 1) % 3] - a_.arms[i]).normalized();
+        for (const Polyhedron::Edge& e : shape.edges)
+            consider(own.cross((b_.arms[e.head] - b_.arms[e.tail]).normalized()));
+    }
+    if (most > -infinity) normals_.push_back(best);
+}
+
+TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon) {
+    const TriangleSurface& triangles = *std::get<SurfaceRef>(surface.body->collider);
+    // The triangles that the other can reach, looked up in the surface's frame; surfaces are fixed.
+    const Motion frame = surface.path->at(surface.since);
+    const Bounds world = other.path->swept(other.since, other.since + horizon).grown(other.body->radius);
+    const Vec3 center = frame.rotation.transpose() * (world.center() - frame.position);
+    const Vec3 half = frame.rotation.transpose().cwiseAbs() * (0.5 * world.extent());
+    candidates_.clear();
+    triangles.tree.query({center - half, center + half}, [&](std::uint32_t i) { candidates_.push_back(i); });
+    std::sort(candidates_.begin(), candidates_.end());
+    TimeOfImpact first;
+    for (const std::uint32_t triangle : candidates_) {
+        const Pair pair{surface, other, scale_of(surface, other), other.body->radius, nullptr, &triangles, triangle};
+        const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
+        if (found.kind != TimeOfImpact::Kind::none) first = found;
+    }
+    return first;
+}
+
+}  // namespace tumble

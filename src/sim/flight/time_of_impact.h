@@ -1,0 +1,56 @@
+// When do two moving bodies first touch? Balls against balls and planes by the roots of a quadratic; every other pair by
+// conservative advancement along separating axes (separation_bound.h), which never misses a first contact and ends
+// within 1e-13 s, or where rounding ends.
+#pragma once
+
+#include "sim/body.h"
+#include "sim/collision/collide.h"
+#include "sim/flight/cloud.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// A body on its way: its path, and how long it has been on it when the search begins.
+struct Traveller {
+    const Body* body = nullptr;
+    const Path* path = nullptr;
+    double since = 0.0;   // s
+};
+
+struct TimeOfImpact {
+    enum class Kind {
+        none,    // apart up to the horizon
+        impact,  // touching and approaching at `time`
+        check,   // apart up to `time`, and the search is to be taken up from there: it had used up its evaluations
+    };
+    Kind kind = Kind::none;
+    double time = 0.0;   // s from the search's beginning
+};
+
+class ImpactSearch {
+public:
+    ImpactSearch() { scratch_.choice = AxisChoice::nearest; }
+
+    /// Bodies that touch at the beginning and part, or rest against each other, have no impact there.
+    TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon);
+
+    std::int64_t evaluations() const { return evaluations_; }   // of poses, in all searches so far
+
+private:
+    struct Pair;
+    TimeOfImpact search(const Pair& pair, double from, double horizon);
+    TimeOfImpact search_surface(const Traveller& surface, const Traveller& other, double horizon);
+    void propose(const Pair& pair, const Motion& a, const Motion& b, double near);
+    void propose_triangle_axes(const Polyhedron& shape, const Motion& motion);
+
+    Cloud a_, b_;
+    Vec3 last_axis_ = Vec3::UnitY();
+    std::vector<Vec3> normals_;          // proposed, from A to B
+    CollisionScratch scratch_;
+    std::vector<Manifold> manifolds_;
+    std::vector<std::uint32_t> candidates_;   // triangles
+    std::int64_t evaluations_ = 0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,216 @@
+// The moment of impact: never missed, never early, to the last digits; grazing and touching starts.
+#include "random_shapes.h"
+#include "sim/collision/separating_axis.h"
+#include "sim/flight/time_of_impact.h"
+#include "support/bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+
+const Vec3 gravity(0.0, -9.81, 0.0);
+
+struct Flying {
+    Body body;
+    Path path;
+    explicit Flying(const Body& b, const Vec3& acceleration = gravity) : body(b), path(Path::flight(b, acceleration)) {}
+    Traveller traveller(double since = 0.0) const { return {&body, &path, since}; }
+};
+
+const Polyhedron& shape_of(const Body& body) { return *std::get<std::shared_ptr<const Polyhedron>>(body.collider); }
+
+double lowest(const Flying& f, double t) {
+    const Motion m = f.path.at(t);
+    double height = 1e300;
+    for (const Vec3& v : shape_of(f.body).vertices) height = std::min(height, m.to_world(v).y());
+    return height;
+}
+
+// By separating axes, all of them: the distance of boxes or, where vertices are nearest, a little less.
+double gap(const Flying& a, const Flying& b, double t) {
+    const Motion ma = a.path.at(t), mb = b.path.at(t);
+    CollisionScratch scratch;
+    scratch.choice = AxisChoice::nearest;
+    const Pose b_in_a{ma.rotation.transpose() * (mb.position - ma.position), ma.rotation.transpose() * mb.rotation};
+    return find_separating_axis(shape_of(a.body), shape_of(b.body), b_in_a, 1e9, EdgeSearch::all, scratch).separation;
+}
+
+struct Ground {
+    Body body;
+    Path path;
+    Ground() {
+        body.type = BodyType::fixed;
+        body.collider = HalfSpace{Vec3::UnitY(), 0.0};
+        body.radius = std::numeric_limits<double>::infinity();
+        path = Path::uniform(body, Vec3::Zero(), Vec3::Zero());
+    }
+    Traveller traveller() const { return {&body, &path, 0.0}; }
+};
+
+}  // namespace
+
+TEST(TimeOfImpact, BallOnPlaneIsTheQuadratic) {
+    const Ground ground;
+    ImpactSearch search;
+    Random random(7);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double r = random(0.01, 1.0), height = r + random(0.0, 10.0), v = random(-10.0, 10.0);
+        const Flying ball(free_ball(r, 1.0, {0.0, height, 0.0}, {1.0, v, 0.0}));
+        const TimeOfImpact found = search.find(ground.traveller(), ball.traveller(), 100.0);
+        ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+        const double exact = (v + std::sqrt(v * v + 2.0 * 9.81 * (height - r))) / 9.81;
+        EXPECT_NEAR(found.time, exact, 1e-14 * (1.0 + exact));
+    }
+}
+
+TEST(TimeOfImpact, BallsMeetWhereTheirCentresAreARadiusSumApart) {
+    ImpactSearch search;
+    Random random(7);
+    int hits = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Flying a(free_ball(random(0.1, 0.5), 1.0, Vec3::Zero(), random.vector(1.0)));
+        const Vec3 from = random.direction();
+        const Flying b(free_ball(random(0.1, 0.5), 1.0, random(1.0, 3.0) * from, random.vector(2.0) - 2.0 * from));
+        const double reach = a.body.radius + b.body.radius;
+        const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 5.0);
+        const auto distance = [&](double t) { return (b.path.position(t) - a.path.position(t)).norm() - reach; };
+        const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 5.0;
+        for (int k = 0; k < 100; ++k) EXPECT_GT(distance(end * k / 100.0), -1e-12);
+        if (found.kind != TimeOfImpact::Kind::impact) continue;
+        ++hits;
+        EXPECT_NEAR(distance(found.time), 0.0, 1e-12);
+    }
+    EXPECT_GT(hits, 100);
+}
+
+// A tumbling box reaches the ground for the first time: on it to 1e-12 m there, above it before, below it after.
+TEST(TimeOfImpact, TumblingBoxOnPlane) {
+    const Ground ground;
+    ImpactSearch search;
+    Random random(7);
+    for (const double spin : {0.0, 1.0, 10.0, 100.0, 1000.0}) {
+        for (int trial = 0; trial < 100; ++trial) {
+            const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, random(1.0, 2.0), 0.0}, random.vector(3.0), random.turn(), random.vector(spin)));
+            const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 5.0);
+            ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+            EXPECT_NEAR(lowest(box, found.time), 0.0, 1e-12);
+            EXPECT_LT(lowest(box, found.time + 1e-9), 0.0);
+            for (int k = 0; k < 500; ++k) ASSERT_GT(lowest(box, found.time * (k + 0.5) / 500.0), -1e-12) << spin;
+        }
+    }
+}
+
+TEST(TimeOfImpact, TumblingBoxes) {
+    ImpactSearch search;
+    Random random(7);
+    for (const double spin : {0.0, 1.0, 10.0, 100.0}) {
+        int hits = 0;
+        for (int trial = 0; trial < 60; ++trial) {
+            const Flying a(free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(spin)));
+            const Vec3 from = Vec3(random(-1, 1), random(-1, 1), random(-0.4, 0.4)).normalized();
+            const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, 2.0 * from, random.vector(0.6) - 4.0 * from, random.turn(), random.vector(spin)));
+            const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
+            ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
+            const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
+            for (int k = 0; k < 300; ++k) ASSERT_GT(gap(a, b, end * (k + 0.5) / 300.0), -1e-10) << spin << " " << trial;
+            if (found.kind != TimeOfImpact::Kind::impact) continue;
+            ++hits;
+            EXPECT_NEAR(gap(a, b, found.time), 0.0, 1e-12);
+            EXPECT_LT(gap(a, b, found.time + 1e-8), 0.0);
+        }
+        EXPECT_GT(hits, 40);
+    }
+}
+
+// Round hulls, for which the nearest points have to be searched for.
+TEST(TimeOfImpact, TumblingHulls) {
+    ImpactSearch search;
+    Random random(7);
+    int hits = 0;
+    for (int trial = 0; trial < 40; ++trial) {
+        std::vector<Vec3> points_a, points_b;
+        for (int i = 0; i < 40; ++i) points_a.push_back(0.5 * random.direction());
+        for (int i = 0; i < 40; ++i) points_b.push_back(0.4 * random.direction());
+        const Flying a(free_hull(points_a, 1.0, Vec3::Zero(), Vec3::Zero(), random.vector(10.0)));
+        const Flying b(free_hull(points_b, 1.0, {2.0, random(-0.5, 0.5), random(-0.5, 0.5)}, {-4.0, 0.0, 0.0}, random.vector(10.0)));
+        const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
+        ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
+        const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
+        for (int k = 0; k < 50; ++k) ASSERT_GT(gap(a, b, end * (k + 0.5) / 50.0), -1e-10) << trial;
+        if (found.kind != TimeOfImpact::Kind::impact) continue;
+        ++hits;
+        EXPECT_NEAR(gap(a, b, found.time), 0.0, 1e-11);
+    }
+    EXPECT_GT(hits, 30);
+}
+
+// A corner that just passes the ground: between starting heights that differ by 1e-12 m lies touching or not.
+TEST(TimeOfImpact, GrazingIsDecidedToTheLastDigits) {
+    const Ground ground;
+    ImpactSearch search;
+    const auto box = [&](double height) {
+        return Flying(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, height, 0.0}, {0.0, 3.0, 0.0}, Quat(0.3, 0.5, 0.2, 0.7).normalized(), {3.0, 7.0, 2.0}));
+    };
+    const auto touches = [&](double height) {
+        const Flying f = box(height);
+        return lowest(f, 0.0) <= 0.0 || search.find(ground.traveller(), f.traveller(), 0.4).kind == TimeOfImpact::Kind::impact;
+    };
+    double low = 0.2, high = 1.5;
+    for (int i = 0; i < 80; ++i) (touches(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    for (const double offset : {1e-3, 1e-6, 1e-9, 1e-12}) {
+        EXPECT_FALSE(touches(high + offset)) << offset;
+        EXPECT_TRUE(touches(high - offset)) << offset;
+    }
+}
+
+TEST(TimeOfImpact, TouchingAtTheBeginning) {
+    const Ground ground;
+    ImpactSearch search;
+    // Parting: the impact is the next one. Flat, upwards at 3 m/s: back after 2 v / g.
+    const Flying up(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, 3.0, 0.0}, Quat::Identity(), Vec3::Zero()));
+    TimeOfImpact found = search.find(ground.traveller(), up.traveller(), 5.0);
+    ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+    EXPECT_NEAR(found.time, 6.0 / 9.81, 1e-13);
+    // Approaching: at once.
+    const Flying down(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, -1e-6, 0.0}, Quat::Identity(), Vec3::Zero()));
+    found = search.find(ground.traveller(), down.traveller(), 5.0);
+    ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+    EXPECT_EQ(found.time, 0.0);
+    // At rest against each other with nothing that moves them: never.
+    const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
+    const Flying right(free_box({1, 1, 1}, 1.0, {1, 0, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
+    EXPECT_EQ(search.find(left.traveller(), right.traveller(), 5.0).kind, TimeOfImpact::Kind::none);
+}
+
+TEST(TimeOfImpact, HugeAndTinySpeeds) {
+    const Ground ground;
+    ImpactSearch search;
+    for (const double v : {1e-9, 1e-3, 1.0, 1e3, 1e6}) {
+        const Flying box(free_box({0.1, 0.1, 0.1}, 1.0, {0.0, 1.0, 0.0}, {0.0, -v, 0.0}, Quat(1.0, 0.1, 0.2, 0.3).normalized(), Vec3::Zero()), Vec3::Zero());
+        const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 1e10);
+        ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact) << v;
+        EXPECT_NEAR(found.time * v, lowest(box, 0.0), 1e-12) << v;
+    }
+}
+
+// The same impact, whichever body is asked first and however long they have been on their way.
+TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
+    ImpactSearch search;
+    Random random(7);
+    for (int trial = 0; trial < 30; ++trial) {
+        const Flying a(free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(5.0)));
+        const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, {2.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, random.turn(), random.vector(5.0)));
+        const TimeOfImpact first = search.find(a.traveller(), b.traveller(), 1.0), second = search.find(b.traveller(), a.traveller(), 1.0);
+        ASSERT_EQ(first.kind, second.kind);
+        EXPECT_NEAR(first.time, second.time, 1e-12);
+        const TimeOfImpact later = search.find(a.traveller(0.1), b.traveller(0.1), 1.0);
+        if (first.kind == TimeOfImpact::Kind::impact && first.time > 0.1) {
+            EXPECT_NEAR(later.time + 0.1, first.time, 1e-12);
+        }
+    }
+}
