@@ -93,12 +93,11 @@ private:
     double path_between(double z0, double v0, double z1, double v1, double h) const {
         if (std::abs(v1 - v0 + g * h) < 1e-6 * g * h)
             return v0 > 0.0 && v1 < 0.0 ? (v0 * v0 + v1 * v1) / (2.0 * g) : std::abs(z1 - z0);
-        const double rise = std::max(v0, 0.0), fall = std::max(-v1, 0.0);
-        const double top0 = std::max(z0, 0.0) + rise * rise / (2.0 * g), top1 = std::max(z1, 0.0) + v1 * v1 / (2.0 * g);
-        double path =
-            rise * rise / (2.0 * g) + top0 + (fall > 0.0 ? top1 + fall * fall / (2.0 * g) : std::max(z1, 0.0));
-        const double last = std::sqrt(2.0 * g * top1);
-        for (double v = e_ * std::sqrt(2.0 * g * top0); v > 1e-12 && e_ * v > 0.999 * last; v *= e_) path += v * v / g;
+        const double up = std::max(v0, 0.0), down = std::max(-v1, 0.0), low = std::max(z0, 0.0),
+                     high = std::max(z1, 0.0);
+        double path = up * up / g + low + high + down * down / g;
+        const double hit = std::sqrt(v0 * v0 + 2.0 * g * low), last = std::sqrt(v1 * v1 + 2.0 * g * high);
+        for (double v = e_ * hit; v > 1e-12 && e_ * v > 0.999 * last; v *= e_) path += v * v / g;
         return path;
     }
 
