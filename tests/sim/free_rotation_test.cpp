@@ -137,7 +137,7 @@ TEST(FreeRotation, Needles) {
 
 TEST(FreeRotation, FastSpins) {
     const Flight f = Flight::spinning(box_inertia(1.0, 0.6, 0.2), 1e4 * Vec3(0.3, 0.7, 0.2));
-    EXPECT_LT(f.error(0.2), 2e-12);   // a phase of 2000 rad
+    EXPECT_LT(f.error(0.05), 1e-12);   // a phase of 500 rad
 }
 
 TEST(FreeRotation, ExactSeparatrix) {
@@ -169,7 +169,7 @@ TEST(FreeRotation, RandomFlights) {
 
 TEST(FreeRotation, PrincipalAxesTurnedInTheBody) {
     Random random(32);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < trials(300); ++i) {
         const Flight f = random_flight(random, i);
         const Quat axes = random.turn();
         const FreeRotation turned(f.inertia, axes, f.orientation * axes.conjugate(), f.angular_momentum);
@@ -181,7 +181,7 @@ TEST(FreeRotation, PrincipalAxesTurnedInTheBody) {
 // Sums over what came before: at(s), started anew there, at(t) is at(s + t); and back again.
 TEST(FreeRotation, IsAGroup) {
     Random random(33);
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < trials(3000); ++i) {
         Flight f = random_flight(random, i);
         const double s = random(-5.0, 5.0), t = random(-5.0, 5.0);
         const Quat whole = f.closed().at(s + t), start = f.orientation;
@@ -194,7 +194,7 @@ TEST(FreeRotation, IsAGroup) {
 // With L turned round, the body retraces its way.
 TEST(FreeRotation, ReversesInTime) {
     Random random(34);
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < trials(3000); ++i) {
         Flight f = random_flight(random, i);
         const double t = random(0.0, 5.0);
         const Quat back = f.closed().at(-t);
@@ -205,7 +205,7 @@ TEST(FreeRotation, ReversesInTime) {
 
 TEST(FreeRotation, KeepsEnergyAndLengthForHours) {
     Random random(35);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < trials(1000); ++i) {
         const Flight f = random_flight(random, i);
         const FreeRotation closed = f.closed();
         const long double before = twice_energy(f, f.orientation);
@@ -254,7 +254,7 @@ TEST(FreeRotation, MiddleAxisBoxAtEveryFrame) {
 
 TEST(FreeRotation, SteadySpins) {
     Random random(36);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < trials(300); ++i) {
         Flight f;
         f.inertia = random_inertia(random, i / 3);
         // Turned by nothing or a half turn: about the middle axis, rounding would not stay small.
@@ -281,7 +281,7 @@ TEST(FreeRotation, AtRestNothingChanges) {
 TEST(FreeRotation, TinyAndHugeNumbers) {
     Random random(37);
     const double scales[] = {1e-300, 1e-160, 1e-30, 1.0, 1e30, 1e150};
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < trials(3000); ++i) {
         Flight f = random_flight(random, i);
         const double scale = scales[i % 6];
         const Quat plain = f.closed().at(1.5);
@@ -306,7 +306,7 @@ TEST(FreeRotation, TinyAndHugeNumbers) {
 // The same turn, not its negative quaternion: what is drawn between two frames does not jump.
 TEST(FreeRotation, QuaternionsDoNotJump) {
     Random random(38);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < trials(300); ++i) {
         const FreeRotation closed = random_flight(random, i).closed();
         Quat last = closed.at(0.0);
         for (int k = 1; k <= 200; ++k) {
