@@ -186,7 +186,9 @@ TEST(Convergence, EnergyInTheLongRun) {
     band(method(runge_kutta_4_step), early, late);
     EXPECT_GT(late, 2.5 * early);
     // In proportion to time, once that is long enough.
-    if (steps == 10000) EXPECT_NEAR(late / early, 10.0, 2.0) << early << ", " << late;
+    if (steps == 10000) {
+        EXPECT_NEAR(late / early, 10.0, 2.0) << early << ", " << late;
+    }
     band(euler(true, RotationForm::quaternion), early, late);
     EXPECT_GT(late, 0.01);
 }
