@@ -102,7 +102,9 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
                             ->type_name("H");
     command->add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
         ->excludes(step)->type_name("N");
-    command->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting or rk4")->type_name("NAME");
+    command
+        ->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting or rk4")
+        ->type_name("NAME");
     command->add_option("--impacts", c.overrides.impacts, "stepped: impacts are resolved at the step")->type_name("MODE");
     add_frames_of_time(*command, c.overrides);
     add_run(*command, c.threads, c.quiet);

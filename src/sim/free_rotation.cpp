@@ -142,7 +142,7 @@ void FreeRotation::start_periodic(double sn, double cn) {
     double k = std::sqrt(modulus_squared_), complement = std::sqrt(complement_squared_);
     while (k > smallest_modulus && levels_ < most_levels) {
         const double sum = 1.0 + complement;
-        k = complement > 0.99 ? k * k / (sum * sum) : (1.0 - complement) / sum;
+        k = (1.0 - complement) / sum;   // to an absolute rounding, which is what it is worth
         complement = 2.0 * std::sqrt(complement) / sum;
         level_[std::size_t(levels_++)] = {k, complement * complement};
         landen_scale_ /= 1.0 + k;
