@@ -12,11 +12,13 @@ namespace {
 constexpr Choice<IntegratorKind> integrators[] = {
     {"symplectic-euler", IntegratorKind::symplectic_euler},
     {"explicit-euler", IntegratorKind::explicit_euler},
+    {"exact", IntegratorKind::exact},
     {"splitting", IntegratorKind::splitting},
     {"rk4", IntegratorKind::runge_kutta_4},
 };
 constexpr Choice<ImpactMode> impact_modes[] = {
     {"stepped", ImpactMode::stepped},
+    {"exact", ImpactMode::exact},
 };
 constexpr Choice<RotationForm> rotation_forms[] = {
     {"quaternion", RotationForm::quaternion},

@@ -8,6 +8,8 @@
 #include "sim/contact/rest_solver.h"
 #include "sim/contact/sleep.h"
 #include "sim/flight/flights.h"
+#include "sim/flight/free_flights.h"
+#include "sim/flight/motion_limit.h"
 #include "sim/forces.h"
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
@@ -36,6 +38,9 @@ struct World::State {
     std::vector<Island> islands;      // of the awake bodies
     SleepMonitor sleep;
     std::unique_ptr<Flights> flights;   // with exact impacts
+    FreeFlights free_flights;           // with exact motion between stepped ones
+    MotionLimit motion_limit;
+    std::vector<StepMotion> motions;
     ThreadPool pool;
     // Velocities before this step's forces: what explicit Euler moves by.
     std::vector<Vec3> old_velocity, old_angular_velocity;
@@ -49,7 +54,8 @@ struct World::State {
 
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene), narrow_phase(threads),
-          sleep(scene.bodies.size()), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
+          sleep(scene.bodies.size()),
+          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
           after_forces(scene.bodies.size()) {
         BodyBuilder builder;
@@ -68,6 +74,11 @@ struct World::State {
     void find_contacts();
     void resolve_collisions();
     void apply_forces();
+    bool by_whole_state(const Body& body) const {
+        return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
+    }
+    const std::vector<StepMotion>& step_motions();
+    void carry(Body& body, const Body& carrier, double span) const;
     void solve_resting_contacts();
     void move();
     void fall_asleep();
@@ -166,6 +177,25 @@ void World::State::solve_resting_contacts() {
     }
 }
 
+// The velocities that poses are moved with.
+const std::vector<StepMotion>& World::State::step_motions() {
+    motions.assign(bodies.size(), {});
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = bodies[i];
+        if (body.asleep || !body.moves()) continue;
+        const bool before = body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
+        motions[i].velocity = (before ? old_velocity[i] : body.velocity) + body.push_velocity;
+        motions[i].angular_velocity = (before ? old_angular_velocity[i] : body.angular_velocity) + body.push_angular_velocity;
+    }
+    return motions;
+}
+
+// What a kinematic body has run into goes along with it for the rest of the step.
+void World::State::carry(Body& body, const Body& carrier, double span) const {
+    const Vec3 arm = body.position - carrier.position;
+    body.position += span * carrier.point_velocity(arm);
+}
+
 void World::State::move() {
     if (flights) {
         flights->begin_step(bodies, forces, steps);
@@ -174,25 +204,26 @@ void World::State::move() {
         place_kinematic_bodies();
         return;
     }
+    const auto& limits = motion_limit.limits(broad_phase.update(bodies, h), contacts, bodies, step_motions(), h);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         Body& body = bodies[i];
         if (!awake(body)) continue;
+        const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
         const bool touched = after_forces[i] != Momenta{body.momentum, body.angular_momentum} ||
                              !body.push_velocity.isZero(0.0) || !body.push_angular_velocity.isZero(0.0);
-        if (steps_whole_state(body.integrator) && !touched) {
+        if (by_whole_state(body) && !touched) {
             body.momentum = before_forces[i].momentum;
             body.angular_momentum = before_forces[i].angular_momentum;
-            advance_one_step(body, body.integrator, forces, i, time(steps), time(steps + 1));
-            continue;
+            if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
+            else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
+        } else {
+            advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
+            body.push_velocity.setZero();
+            body.push_angular_velocity.setZero();
+            body.derive();
         }
-        const bool symplectic = body.integrator != IntegratorKind::explicit_euler;
-        const Vec3 velocity = symplectic ? body.velocity : old_velocity[i];
-        const Vec3 spin = symplectic ? body.angular_velocity : old_angular_velocity[i];
-        advance_pose(body, velocity + body.push_velocity, spin + body.push_angular_velocity, h, settings.rotation);
-        body.push_velocity.setZero();
-        body.push_angular_velocity.setZero();
-        body.derive();
+        if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], (1.0 - share) * h);
     }
     ++steps;
     place_kinematic_bodies();

@@ -52,8 +52,9 @@ private:
         // The next event.
         enum class Event { leaves_box, looks_again, impact } event = Event::leaves_box;
         std::uint32_t partner = 0, partner_version = 0;
-        int events_in_step = 0;
-        std::int64_t counted_step = -1;
+        Moment last_impact;
+        double since_impact = 0.0;    // s, between the last two
+        int impacts_in_row = 0;
     };
 
     void start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until);
@@ -65,7 +66,8 @@ private:
     void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
-    void count_event(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
+    void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
+    bool stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double landing_time(std::uint32_t i) const;
     Moment later(const Moment& now, double seconds) const;
     Traveller traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const;

@@ -14,9 +14,10 @@ namespace {
 double depth(const Body& body) {
     if (const auto* ball = std::get_if<Ball>(&body.collider)) return ball->radius;
     if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider)) return (*hull)->inner_radius;
-    if (std::holds_alternative<HalfSpace>(body.collider)) return std::numeric_limits<double>::infinity();
-    return 0.0;   // a surface is as thin as its triangles
+    return std::numeric_limits<double>::infinity();   // what counts of a surface is how thin the other body is
 }
+
+bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
 
 double way(const Body& body, const StepMotion& motion, double h) {
     return body.moves() && !body.asleep ? h * (motion.velocity.norm() + motion.angular_velocity.norm() * body.radius) : 0.0;
@@ -25,15 +26,17 @@ double way(const Body& body, const StepMotion& motion, double h) {
 }  // namespace
 
 // The first touch in the step, with each body standing still once its share is used up; h if there is none.
-double MotionLimit::first_touch(const Body& a, const Body& b, std::uint32_t i, std::uint32_t j, double h) {
+double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
+    const std::uint32_t i = pair.a, j = pair.b;
+    const Body &a = bodies[i], &b = bodies[j];
     const double end_a = limits_[i].share * h, end_b = limits_[j].share * h, both = std::min(end_a, end_b);
-    TimeOfImpact found = search_.find({&a, &paths_[i], 0.0}, {&b, &paths_[j], 0.0}, both);
+    TimeOfImpact found = search_.find({&a, &paths_[i], 0.0}, {&b, &paths_[j], 0.0}, both, pair.left_out);
     if (found.kind != TimeOfImpact::Kind::none) return found.time;
     const double rest = std::max(end_a, end_b) - both;
     if (!(rest > 0.0)) return h;
     const Traveller going_a = end_a > both ? Traveller{&a, &paths_[i], both} : Traveller{&a, &still_[i], 0.0};
     const Traveller going_b = end_b > both ? Traveller{&b, &paths_[j], both} : Traveller{&b, &still_[j], 0.0};
-    found = search_.find(going_a, going_b, rest);
+    found = search_.find(going_a, going_b, rest, pair.left_out);
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
@@ -44,20 +47,24 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     std::size_t next = 0;   // both lists ascend
     for (const BroadPhase::Pair& pair : pairs) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
-        const double thin = tuning::fast_share * std::min({depth(a), depth(b), a.radius, b.radius});
+        if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
+        const double thin = tuning::fast_share * std::min(depth(a), depth(b));
         if (way(a, motions[pair.a], h) + way(b, motions[pair.b], h) <= thin) continue;
-        if (std::isinf(depth(a)) || std::isinf(depth(b))) continue;
+        FastPair fast{pair.a, pair.b, {}};
         bool touching = false;
         while (next < contacts.size() && std::tie(contacts[next].a, contacts[next].b) < std::tie(pair.a, pair.b)) ++next;
-        for (std::size_t k = next; k < contacts.size() && contacts[k].a == pair.a && contacts[k].b == pair.b; ++k)
-            touching = touching || contacts[k].touching();
-        if (!touching) fast_.push_back(pair);
+        for (std::size_t k = next; k < contacts.size() && contacts[k].a == pair.a && contacts[k].b == pair.b; ++k) {
+            if (!contacts[k].touching()) continue;
+            touching = true;
+            fast.left_out.push_back(contacts[k].part);
+        }
+        if (!touching || surface(a) || surface(b)) fast_.push_back(fast);
     }
     if (fast_.empty()) return limits_;
 
     paths_.resize(bodies.size());
     still_.resize(bodies.size());
-    for (const BroadPhase::Pair& pair : fast_) {
+    for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
             paths_[k] = Path::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
             still_[k] = paths_[k];
@@ -65,8 +72,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     }
     for (int round = 0; round < tuning::motion_limit_rounds; ++round) {
         bool shorter = false;
-        for (const BroadPhase::Pair& pair : fast_) {
-            const double share = first_touch(bodies[pair.a], bodies[pair.b], pair.a, pair.b, h) / h;
+        for (const FastPair& pair : fast_) {
+            const double share = first_touch(pair, bodies, h) / h;
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
                 const std::uint32_t other = k == pair.a ? pair.b : pair.a;
@@ -76,7 +83,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
         }
         if (!shorter) return limits_;
         // A body that stops earlier stands in others' way: where it stops.
-        for (const BroadPhase::Pair& pair : fast_) {
+        for (const FastPair& pair : fast_) {
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 Body there = bodies[k];
                 const Motion end = paths_[k].at(limits_[k].share * h);
@@ -88,8 +95,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     }
     // Still changing: all of them stop with the first, which certainly keeps them apart.
     double least = 1.0;
-    for (const BroadPhase::Pair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
-    for (const BroadPhase::Pair& pair : fast_)
+    for (const FastPair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
+    for (const FastPair& pair : fast_)
         for (const std::uint32_t k : {pair.a, pair.b})
             if (bodies[k].dynamic()) limits_[k].share = std::min(limits_[k].share, least);
     return limits_;

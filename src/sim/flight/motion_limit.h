@@ -30,12 +30,16 @@ public:
                                          const std::vector<Body>& bodies, const std::vector<StepMotion>& motions, double h);
 
 private:
-    double first_touch(const Body& a, const Body& b, std::uint32_t i, std::uint32_t j, double h);
+    struct FastPair {
+        std::uint32_t a, b;
+        std::vector<std::uint32_t> left_out;   // triangles that touch already
+    };
+    double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
     ImpactSearch search_;
     std::vector<StepLimit> limits_;
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
-    std::vector<BroadPhase::Pair> fast_;
+    std::vector<FastPair> fast_;
 };
 
 }  // namespace tumble

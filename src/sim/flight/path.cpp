@@ -14,12 +14,17 @@ Path Path::flight(const Body& body, const Vec3& acceleration) {
     path.start_ = body.position;
     path.velocity_ = body.velocity;
     path.acceleration_ = acceleration;
+    path.turn_freely(body);
+    return path;
+}
+
+void Path::turn_freely(const Body& body) {
     if (body.angular_momentum.isZero(0.0)) {
-        path.turn_uniformly(body.orientation, Vec3::Zero());
-        return path;
+        turn_uniformly(body.orientation, Vec3::Zero());
+        return;
     }
     const Vec3& inertia = body.principal_inertia;
-    path.turning_ = FreeTurn{FreeRotation(inertia, body.principal_axes, body.orientation, body.angular_momentum),
+    turning_ = FreeTurn{FreeRotation(inertia, body.principal_axes, body.orientation, body.angular_momentum),
                          body.inverse_inertia_body, body.angular_momentum};
     // With J = 1/I and m the momentum in body axes: |omega|^2 <= min(2 T Jmax, |L|^2 Jmax^2), and Euler's equations
     // alpha_i = J_i (J_k - J_j) m_j m_k with 2 |m_j m_k| <= |L|^2 give the bound of each component; the three cannot be
@@ -32,9 +37,8 @@ Path Path::flight(const Body& body, const Vec3& acceleration) {
     const Vec3 component = 0.5 * square * Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]));
     const double angular = std::min(component.norm(), 1.1547005383792517 * component.maxCoeff());
     // Rounding must not take the bounds below the truth.
-    path.spin_bound_ = std::sqrt(spin_square) * (1.0 + 1e-12);
-    path.turning_bound_ = (spin_square + angular) * (1.0 + 1e-12);
-    return path;
+    spin_bound_ = std::sqrt(spin_square) * (1.0 + 1e-12);
+    turning_bound_ = (spin_square + angular) * (1.0 + 1e-12);
 }
 
 Path Path::uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity) {
@@ -45,14 +49,15 @@ Path Path::uniform(const Body& body, const Vec3& velocity, const Vec3& angular_v
     return path;
 }
 
-Path Path::towards(const Body& body, const Motion& end, double span) {
+Path Path::towards(const Body& body, const Motion& end, double span, bool torque_free) {
     Path path;
     path.start_ = body.position;
     path.velocity_ = body.velocity;
     const Vec3 way = (end.position - body.position) / span;
     path.acceleration_ = (6.0 * way - 4.0 * body.velocity - 2.0 * end.velocity) / span;
     path.jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * way) / (span * span);
-    path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
+    if (torque_free) path.turn_freely(body);
+    else path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
     return path;
 }
 

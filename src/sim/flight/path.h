@@ -33,9 +33,10 @@ public:
     static Path flight(const Body& body, const Vec3& acceleration);
     /// From the body's present pose with these velocities (m/s, rad/s), held.
     static Path uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
-    /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), uniform in the
-    /// orientation. For bodies under forces that are not constant: error O(span^4) and O(span^2) in between.
-    static Path towards(const Body& body, const Motion& end, double span);
+    /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), error O(span^4)
+    /// in between. For bodies under forces that are not constant. Without a torque the rotation is free, in closed form;
+    /// else uniform, error O(span^2) in between.
+    static Path towards(const Body& body, const Motion& end, double span, bool torque_free);
 
     /// t: s since the path's beginning.
     Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }
@@ -61,6 +62,7 @@ private:
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 
     void turn_uniformly(const Quat& from, const Vec3& angular_velocity);
+    void turn_freely(const Body& body);
 };
 
 }  // namespace tumble

@@ -119,14 +119,14 @@ struct ImpactSearch::Pair {
     std::uint32_t triangle = 0;                       // one of its triangles
 };
 
-TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon) {
+TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, std::span<const std::uint32_t> left_out) {
     const Collider &shape_a = a.body->collider, &shape_b = b.body->collider;
     // Planes and surfaces come first; the search does not care which is which.
     if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
-        return find(b, a, horizon);
+        return find(b, a, horizon, left_out);
     }
-    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon);
+    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, left_out);
 
     Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), std::get_if<HalfSpace>(&shape_a), nullptr, 0};
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
@@ -263,7 +263,8 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Motion& 
     if (most > -infinity) normals_.push_back(best);
 }
 
-TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon) {
+TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon,
+                                          std::span<const std::uint32_t> left_out) {
     const TriangleSurface& triangles = *std::get<SurfaceRef>(surface.body->collider);
     // The triangles that the other can reach, looked up in the surface's frame; surfaces are fixed.
     const Motion frame = surface.path->at(surface.since);
@@ -275,6 +276,7 @@ TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Travel
     std::sort(candidates_.begin(), candidates_.end());
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {
+        if (std::find(left_out.begin(), left_out.end(), triangle) != left_out.end()) continue;
         const Pair pair{surface, other, scale_of(surface, other), other.body->radius, nullptr, &triangles, triangle};
         const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
         if (found.kind != TimeOfImpact::Kind::none) first = found;

@@ -1,0 +1,38 @@
+#include "sim/flight/free_flights.h"
+
+#include "sim/body.h"
+#include "sim/integrator/advance.h"
+
+namespace tumble {
+
+FreeFlights::FreeFlights(std::size_t bodies, const Vec3& gravity, const StepClock& clock)
+    : gravity_(gravity), clock_(clock), flights_(bodies) {}
+
+void FreeFlights::advance(std::size_t index, Body& body, const ForceField& forces, std::int64_t step, double share) {
+    Flight& flight = flights_[index];
+    const double from = clock_.seconds(step), to = from + share * clock_.seconds(1);
+    if (share < 1.0 || !forces.constant(index, from, to)) {
+        set_state(body, advance_exactly(body, forces, index, from, to));
+        return;
+    }
+    const bool goes_on = flight.reached == step && flight.position == body.position && flight.momentum == body.momentum &&
+                         flight.angular_momentum == body.angular_momentum;
+    if (!goes_on) {
+        body.derive();
+        flight.path = Path::flight(body, gravity_);
+        flight.start = step;
+    }
+    const double t = clock_.seconds(step + 1 - flight.start);
+    const Motion motion = flight.path.at(t);
+    body.position = motion.position;
+    body.orientation = motion.orientation;
+    body.rotation = motion.rotation;
+    body.momentum = body.mass * motion.velocity;
+    body.derive();
+    flight.reached = step + 1;
+    flight.position = body.position;
+    flight.momentum = body.momentum;
+    flight.angular_momentum = body.angular_momentum;
+}
+
+}  // namespace tumble
