@@ -33,7 +33,8 @@ double sin_series(double x, double low) {
 double cos_series(double x, double low) {
     const double z = x * x, w = z * z;
     const double even = 1.0 / 24.0 + w * (1.0 / 40320.0 + w * (1.0 / 479001600.0 + w * (1.0 / 20922789888000.0)));
-    const double odd = -1.0 / 720.0 + w * (-1.0 / 3628800.0 + w * (-1.0 / 87178291200.0 + w * (-1.0 / 6402373705728000.0)));
+    const double odd =
+        -1.0 / 720.0 + w * (-1.0 / 3628800.0 + w * (-1.0 / 87178291200.0 + w * (-1.0 / 6402373705728000.0)));
     const double half = 0.5 * z, head = 1.0 - half;
     return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));   // what rounding head lost comes back
 }
@@ -60,6 +61,7 @@ constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 }  // namespace
 
 SinCos sincos(double x) {
+    if (std::fabs(x) <= 0.25 * pi) return {sin_series(x, 0.0), cos_series(x, 0.0)};
     if (!(std::fabs(x) <= 1.6e9)) {
         x = std::remainder(x, 2.0 * pi);   // 2 pi is wrong by 4e-17 of itself, less than the rounding of x
         if (!std::isfinite(x)) return {x, x};

@@ -11,7 +11,8 @@ ForceField::ForceField(const SceneDescription& scene)
     changes_ = !scene.forces.empty();
 }
 
-Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation, double time) const {
+Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation,
+                      double time) const {
     Wrench sum;
     sum.force = body.mass * gravity_;
     if (wind_) {

@@ -83,9 +83,10 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     complement_squared_ = std::min(1.0, d31 * std::fabs(side) / (d32 * b));
 
     // The azimuth is that of one body axis, the pole, which may be axis 1 or 3: its rate is, for 1,
-    //   |L| (m2^2/I2 + m3^2/I3) / (m2^2 + m3^2) = |L| (1/I3 + (1/I2 - 1/I3) M2^2/M3^2 sn^2 / (1 + nu sn^2)), nu = M1^2/M3^2,
+    //   |L| (m2^2/I2 + m3^2/I3) / (m2^2 + m3^2) = |L| (1/I3 + (1/I2 - 1/I3) M2^2/M3^2 sn^2 / (1 + nu sn^2))
+    // with nu = M1^2/M3^2,
     // for 3 the same with the axes 1 and 3 exchanged, sn^2 M2^2/M1^2 and nu = M2^2/M1^2 - 1. Either is right; chosen is
-    // the one whose two parts are the smaller phases, as their roundings remain. Theirs are, over |L| t with t of a turn:
+    // the one whose two parts are smaller, as their roundings remain. Per |L| t, with t the time of about a turn, they are:
     const double slowness = 1.0 + 1.0 / (i2 * phase_rate_ / rate);   // of u: its start counts as much as its way
     const double phases_1 = 1.0 / i3 + d31 * a / (i3 * (i3 * b + i1 * a)) * slowness;
     const double phases_3 = 1.0 / i1 + phase_rate_ / rate + d21 / (i1 * i2) * slowness;
@@ -148,7 +149,8 @@ void FreeRotation::start_periodic(double sn, double cn) {
         landen_scale_ /= 1.0 + k;
     }
     half_period_ = pi / landen_scale_;
-    if (azimuth_factor_ != 0.0) integral_half_period_ = 2.0 / 3.0 * carlson_rj(0.0, complement_squared_, 1.0, 1.0 + nu_);
+    if (azimuth_factor_ != 0.0)
+        integral_half_period_ = 2.0 / 3.0 * carlson_rj(0.0, complement_squared_, 1.0, 1.0 + nu_);
 
     const double dn_squared = complement_squared_ + modulus_squared_ * cn * cn;
     const double first = sn * carlson_rf(cn * cn, dn_squared, 1.0);

@@ -1,16 +1,16 @@
-// Torque-free rotation of a rigid body in closed form: what Euler's equations say about any later or earlier time, at the
-// same cost and with the same error for all of them. There is no step.
+// Torque-free rotation of a rigid body in closed form: what Euler's equations say about any later or earlier time, at
+// the same cost and with the same error for all of them. There is no step.
 //
 // The momentum in body axes, m(t), moves along the curve where the sphere |m| = |L| meets the energy's ellipsoid; its
 // components are Jacobi's elliptic functions cn, sn and dn of a phase u = lambda t + u0. That gives the orientation but
-// for a turn about L: the azimuth phi of one body axis, whose rate is an elliptic integral of the third kind. So
-// q(t) = (frame of m at 0)^-1, turn by phi about L, (frame of m at t).
+// for a turn about L: the azimuth of one body axis, the pole, whose rate is an elliptic integral of the third kind. So
+// q(t) = (frame of m and the pole at 0)^-1, turn by the azimuth about L, (the same frame at t).
 //
 // van Zon and Schofield 2007, "Numerical implementation of the exact dynamics of free rigid bodies", J. Comput. Phys.
 // 225; Landau and Lifshitz, "Mechanics", section 37; Jacobi's functions by the ascending Landen transformation (DLMF
-// 22.7), the integrals by Carlson's method (core/elliptic.h). Written so that nothing cancels: differences of moments of
-// inertia are taken first, the complementary modulus is kept instead of 1 - k^2, and the azimuth is that of the axis of
-// the least moment, whose rate lies between |L|/Imid and |L|/Imax.
+// 22.7), the integrals by Carlson's method (core/elliptic.h). Written so that nothing cancels: differences of moments
+// of inertia are taken first, the complementary modulus is kept instead of 1 - k^2, and the pole is the axis whose
+// azimuth is the smaller phase.
 //
 // Error: a few roundings of the phase, about 1e-15 (1 + |omega| t) rad, also near the separatrix and for needles.
 #pragma once

@@ -72,7 +72,8 @@ bool steps_whole_state(IntegratorKind kind) {
     return kind == IntegratorKind::splitting || kind == IntegratorKind::runge_kutta_4;
 }
 
-void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from, double to) {
+void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from,
+                      double to) {
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
     for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
@@ -89,7 +90,8 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
     for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
         const double span = end - start;
         const bool turns = !forces.torque_free(index, 0.5 * (start + end));
-        const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation, state.angular_momentum);
+        const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation,
+                                    state.angular_momentum);
         if (forces.constant(index, start, end)) {
             const Vec3 force = ForceLaw(law)(Vec3::Zero(), Mat3::Identity()).force;
             state.position += span * mass.inverse_mass * (state.momentum + 0.5 * span * force);
@@ -102,8 +104,8 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
             double done = 0.0;
             for (int step = 0; done < span; ++step) {
                 if (step == tuning::most_substeps) {
-                    throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more than {} "
-                                               "steps: the forces on it are too large for its mass",
+                    throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
+                                               "than {} steps: the forces on it are too large for its mass",
                                                body.name, start, end, tuning::most_substeps));
                 }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);

@@ -1,5 +1,5 @@
-// What the integrators of higher order work on: the state of one body, its mass, and a law of force; nothing else of the
-// simulation. World frame unless said otherwise.
+// What the integrators of higher order work on: the state of one body, its mass, and a law of force; nothing else of
+// the simulation. World frame unless said otherwise.
 #pragma once
 
 #include "core/vector.h"

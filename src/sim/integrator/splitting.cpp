@@ -15,12 +15,16 @@ void kick(RigidState& s, const RigidMass& mass, const ForceLaw& forces, double h
 }
 
 // The part of the kinetic energy m_i^2 / 2 I_i alone: a turn about the body's axis i at m_i / I_i, which stays.
-void turn(Quat& q, Vec3& m, const Vec3& inertia, int i, double h) {
+template <int i>
+void turn(Quat& q, Vec3& m, const Vec3& inertia, double h) {
+    constexpr int j = (i + 1) % 3, k = (i + 2) % 3;
     const auto [s, c] = sincos(0.5 * h * m[i] / inertia[i]);
-    Quat about(c, 0.0, 0.0, 0.0);
-    about.vec()[i] = s;
-    q = q * about;
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    // q times (c, s e_i).
+    const double w = q.w(), qi = q.vec()[i], qj = q.vec()[j], qk = q.vec()[k];
+    q.w() = c * w - s * qi;
+    q.vec()[i] = c * qi + s * w;
+    q.vec()[j] = c * qj + s * qk;
+    q.vec()[k] = c * qk - s * qj;
     const double cosine = 1.0 - 2.0 * s * s, sine = 2.0 * s * c;
     const double mj = m[j], mk = m[k];
     m[j] = cosine * mj + sine * mk;
@@ -33,11 +37,11 @@ void drift(RigidState& s, const RigidMass& mass, double h) {
     Quat q = s.orientation * mass.principal_axes;
     Vec3 m = q.conjugate() * s.angular_momentum;   // in principal axes
     const Vec3& inertia = mass.principal_inertia;
-    turn(q, m, inertia, 0, 0.5 * h);
-    turn(q, m, inertia, 1, 0.5 * h);
-    turn(q, m, inertia, 2, h);
-    turn(q, m, inertia, 1, 0.5 * h);
-    turn(q, m, inertia, 0, 0.5 * h);
+    turn<0>(q, m, inertia, 0.5 * h);
+    turn<1>(q, m, inertia, 0.5 * h);
+    turn<2>(q, m, inertia, h);
+    turn<1>(q, m, inertia, 0.5 * h);
+    turn<0>(q, m, inertia, 0.5 * h);
     s.orientation = (q * mass.principal_axes.conjugate()).normalized();
 }
 

@@ -3,7 +3,7 @@
 // Leimkuhler, McLachlan 1997, "Symplectic splitting methods for rigid body molecular dynamics", J. Chem. Phys. 107).
 //
 // Symplectic and time-reversible: energy stays near its value for ever, and a motion run back ends where it began.
-// Without torque L keeps every bit. Error O(h^2); a step takes one evaluation of forces at either end, two for drag's sake.
+// Without torque L keeps every bit. Error O(h^2); forces are evaluated twice at either end of a step, for drag's sake.
 #pragma once
 
 #include "sim/integrator/rigid_state.h"
