@@ -60,7 +60,7 @@ ContactCluster::ContactCluster(const Island& island, const std::vector<Contact>&
         velocity_.segment<6>(6 * Eigen::Index(i)) = roots_.back().weighted(body);
     }
     start_ = velocity_;
-    double fastest = 0.0, largest = 0.0;
+    double fastest = 0.0, largest = 0.0, fastest_wall = 0.0, mass = 0.0;
     for (const std::uint32_t k : island.contacts) {
         const Contact& c = contacts[k];
         if (!c.touching()) continue;
@@ -74,10 +74,13 @@ ContactCluster::ContactCluster(const Island& island, const std::vector<Contact>&
         length_.push_back(length);
         offset_.push_back(offset(c, c.normal) / length);
         fastest = std::max(fastest, std::abs(speed(rows_.size() - 1)));
+        fastest_wall = std::max(fastest_wall, std::abs(offset_.back()) * length);
         for (const auto& [body, arm] : {std::pair(c.a, c.arm_a), std::pair(c.b, c.arm_b)})
             largest = std::max(largest, bodies[body].velocity.norm() + bodies[body].angular_velocity.norm() * arm.norm());
     }
     impulse_.assign(rows_.size(), 0.0);
+    for (const std::uint32_t body : island.bodies) mass += bodies[body].mass;
+    wall_velocity_ = std::sqrt(mass) * fastest_wall;
     rounding_ = tuning::approach_relative * fastest + tuning::approach_rounding * largest;
 }
 

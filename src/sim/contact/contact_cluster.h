@@ -39,6 +39,8 @@ public:
     /// Approaches slower than this are rounding, m/s. Follows from the velocities at the start.
     double rounding() const { return rounding_; }
     bool approaching(std::size_t i) const { return speed(i) < -rounding_; }
+    /// |y| of all the cluster's bodies if they went along with the fastest moving wall; 0 where none moves.
+    double wall_velocity() const { return wall_velocity_; }
     const Eigen::VectorXd& velocity() const { return velocity_; }
 
     /// n . (velocity of B's point - velocity of A's point) along any direction as a form of y, and its offset, m/s.
@@ -68,7 +70,7 @@ private:
     std::vector<std::uint32_t> index_;               // row to contact
     std::vector<VelocityRow> rows_;
     std::vector<double> length_, offset_, impulse_;
-    double rounding_ = 0.0;
+    double rounding_ = 0.0, wall_velocity_ = 0.0;
 };
 
 }  // namespace tumble

@@ -18,6 +18,14 @@ Projection::Demand demand(const ContactCluster& cluster, std::size_t i, double l
     return {std::uint32_t(i), (cluster.speed(i) - least_speed) / length, cluster.rounding() / length};
 }
 
+// Stopped at walls that all move with w, |y|^2 grows by 2 w.d - |d|^2 <= |w|^2. Much more is a way out between walls that
+// move against each other and are all but parallel, and none. Without moving walls |y| cannot grow.
+VelocityBound bound(const ContactCluster& cluster) {
+    if (cluster.wall_velocity() == 0.0) return {};
+    const double wall = tuning::impact_wedge * cluster.wall_velocity();
+    return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
+}
+
 // The change of y that multipliers make, and their work: the kinetic energy (as seen from the walls, where they move)
 // grows by lambda . s + |d|^2 / 2, with s = w . y + offset before.
 struct Change {
@@ -48,7 +56,7 @@ void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, 
 class Propagation {
 public:
     Propagation(ContactCluster& cluster, double threshold)
-        : cluster_(cluster), threshold_(threshold), projection_(cluster.rows(), cluster.bodies()) {}
+        : cluster_(cluster), threshold_(threshold), projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts) {}
 
     int run() {
         int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
@@ -56,12 +64,12 @@ public:
         double work = 0.0;
         for (int pass = 0;; ++pass) {
             if (!gather()) return pass;
-            if (pass == limit && !depth_known) {
+            if (pass == limit && !depth_known && cluster_.wall_velocity() == 0.0) {
                 limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
                 depth_known = true;
             }
             work += double(active_.size()) * double(active_.size());
-            if (pass >= limit || work > tuning::impact_work || !reflect()) {
+            if (pass >= limit || work > tuning::impact_work || squeezed(pass) || !reflect()) {
                 stop(cluster_);
                 return pass + 1;
             }
@@ -87,7 +95,7 @@ private:
     // f = -d.y / d.d is one but for rounding and what sweeps leave over, and makes e = 1 a Householder reflection, which
     // keeps the energy whatever d is; s <= 1 keeps |q| <= |d|, beyond which differing restitutions could gain energy.
     bool reflect() {
-        projection_.solve(active_, lambda_);
+        projection_.solve(active_, lambda_, bound(cluster_));
         const Change stopping(cluster_, active_, lambda_);
         const double f = 0.5 * stopping.reflection();
         // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
@@ -110,12 +118,22 @@ private:
         std::vector<Projection::Demand> all;
         for (std::size_t i = 0; i < cluster_.size(); ++i) all.push_back({std::uint32_t(i), -1.0, 1e-6});
         std::vector<double> lambda;
-        if (!projection_.solve(all, lambda)) return 0.0;
+        if (!Projection(cluster_.rows(), cluster_.bodies()).solve(all, lambda)) return 0.0;
         return std::sqrt(Change(cluster_, all, lambda).square);
     }
 
+    // Between walls that close in, each pass would throw the bodies faster.
+    bool squeezed(int pass) {
+        if (cluster_.wall_velocity() == 0.0) return false;
+        if (pass > 0) return cluster_.velocity().norm() > longest_;
+        longest_ = cluster_.velocity().norm() + tuning::impact_wedge * cluster_.wall_velocity();
+        if (cluster_.size() > tuning::projection_contacts) return false;
+        const double z = depth();
+        return z == 0.0 || z > tuning::impact_deepest;
+    }
+
     ContactCluster& cluster_;
-    double threshold_;
+    double threshold_, longest_ = 0.0;
     Projection projection_;
     std::vector<Projection::Demand> active_;
     std::vector<double> restitution_, lambda_, weighted_;
@@ -135,7 +153,7 @@ bool stop(ContactCluster& cluster) {
     std::vector<Projection::Demand> all;
     for (std::size_t i = 0; i < cluster.size(); ++i) all.push_back(demand(cluster, i, 0.0));
     std::vector<double> lambda;
-    const bool met = Projection(cluster.rows(), cluster.bodies()).solve(all, lambda);
+    const bool met = Projection(cluster.rows(), cluster.bodies()).solve(all, lambda, bound(cluster));
     apply(cluster, all, lambda, std::min(1.0, Change(cluster, all, lambda).reflection()));
     return met;
 }
@@ -155,10 +173,10 @@ int resolve_together(ContactCluster& cluster, double threshold) {
     }
     Projection projection(cluster.rows(), cluster.bodies());
     std::vector<double> lambda, least;
-    const bool met = projection.solve(bouncing, lambda);
+    const bool met = projection.solve(bouncing, lambda, bound(cluster));
     const Change newton(cluster, bouncing, lambda);
     if (!met || newton.gain() > 0.0) {
-        projection.solve(stopping, least);
+        projection.solve(stopping, least, bound(cluster));
         const Change stopped(cluster, stopping, least);
         // gain(s) = g0 + s slope + s^2 bend / 2, from g0 <= 0 at s = 0.
         const double bend = (newton.d - stopped.d).squaredNorm();

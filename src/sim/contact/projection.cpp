@@ -1,7 +1,5 @@
 #include "sim/contact/projection.h"
 
-#include "sim/tuning.h"
-
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -15,16 +13,17 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies)
-    : rows_(rows), place_(bodies, VelocityRow::none) {}
+Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
+    : rows_(rows), exact_(exact), place_(bodies, VelocityRow::none) {}
 
-bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
+bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
     demands_ = &demands;
+    bound_ = bound;
     multipliers_ = &multipliers;
     multipliers.assign(demands.size(), 0.0);
     place_bodies();
     change_.setZero(size_);
-    return demands.size() <= tuning::projection_contacts ? active_set() : sweeps();
+    return demands.size() <= exact_ ? active_set() : sweeps();
 }
 
 // Only the bodies that the set touches take part: the cost is that of the set, not of the cluster.
@@ -41,12 +40,18 @@ void Projection::place_bodies() {
         local_.back().a = place(local_.back().a);
         local_.back().b = place(local_.back().b);
     }
+    size_ = 6 * Index(count);
+    if (bound_.velocity) start_.resize(size_);
     for (const Demand& demand : *demands_) {
         const VelocityRow& row = rows_[demand.row];
+        if (bound_.velocity) {
+            for (const std::uint32_t body : {row.a, row.b})
+                if (body != VelocityRow::none && place_[body] != VelocityRow::none)
+                    start_.segment<6>(6 * Index(place_[body])) = bound_.velocity->segment<6>(6 * Index(body));
+        }
         if (row.a != VelocityRow::none) place_[row.a] = VelocityRow::none;
         if (row.b != VelocityRow::none) place_[row.b] = VelocityRow::none;
     }
-    size_ = 6 * Index(count);
 }
 
 bool Projection::active_set() {
@@ -101,7 +106,10 @@ bool Projection::take_in(std::size_t i) {
         const double full = independent ? std::max(0.0, -value(i)) / remainder_.squaredNorm() : infinity;
         const double t = std::min(blocked, full);
         if (t == infinity) return false;
-        if (independent) change_ += t * remainder_;
+        if (independent) {
+            if (bound_.velocity && (start_ + change_ + t * remainder_).norm() > bound_.longest) return false;
+            change_ += t * remainder_;
+        }
         for (std::size_t k = 0; k < held_.size(); ++k) lambda[held_[k]] = std::max(0.0, lambda[held_[k]] - t * weights_[k]);
         lambda[i] += t;
         if (full <= blocked) {

@@ -11,16 +11,23 @@
 #pragma once
 
 #include "sim/contact/velocity_row.h"
+#include "sim/tuning.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tumble {
 
+/// A length that the velocities may not exceed by a projection, and what they are before it.
+struct VelocityBound {
+    const Eigen::VectorXd* velocity = nullptr;   // none: no bound
+    double longest = 0.0;
+};
+
 class Projection {
 public:
-    /// `rows` of unit length over `bodies` bodies; kept by reference.
-    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies);
+    /// `rows` of unit length over `bodies` bodies; kept by reference. Sets of up to `exact` demands are solved exactly.
+    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
 
     struct Demand {
         std::uint32_t row;
@@ -28,9 +35,9 @@ public:
         double tolerance;   // a row is satisfied from -tolerance on
     };
 
-    /// Finds `multipliers`, one for each demand. False when not all demands can be met together (or, beyond reason,
-    /// were not met in time); the multipliers are then those of the rows that can.
-    bool solve(const std::vector<Demand>& demands, std::vector<double>& multipliers);
+    /// Finds `multipliers`, one for each demand. False when not all demands can be met together within the bound, if there
+    /// is one (or, beyond reason, were not met in time); the multipliers are then those of the rows that can.
+    bool solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound = {});
 
 private:
     using Index = Eigen::Index;
@@ -52,11 +59,14 @@ private:
     Eigen::Map<Eigen::VectorXd> basis(std::size_t k) { return {basis_.data() + k * std::size_t(size_), size_}; }
 
     const std::vector<VelocityRow>& rows_;
+    std::size_t exact_;
     std::vector<std::uint32_t> place_;         // body of the cluster to body of the set
     const std::vector<Demand>* demands_ = nullptr;
     std::vector<double>* multipliers_ = nullptr;
     std::vector<VelocityRow> local_;           // the set's rows, over the bodies they touch
     Index size_ = 0;
+    VelocityBound bound_;
+    Eigen::VectorXd start_;                    // the bound's velocities of these bodies
     std::vector<std::size_t> held_, tight_;    // W = Q R of the held; just met without being held
     std::vector<char> out_;                    // held, or given up
     std::vector<double> basis_, triangle_;     // Q by columns; R packed by columns
