@@ -27,6 +27,7 @@ constexpr Way ways[] = {
      newton},
     {"splitting", IntegratorKind::splitting, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
     {"rk4", IntegratorKind::runge_kutta_4, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts},
+    {"exact", IntegratorKind::exact, ImpactMode::stepped, ImpactLaw::propagating, flights | impacts | walls},
     {"exact + exact impacts", IntegratorKind::exact, ImpactMode::exact, ImpactLaw::propagating,
      flights | impacts | walls | handed_on},
     {"exact + exact impacts, simultaneous", IntegratorKind::exact, ImpactMode::exact, ImpactLaw::simultaneous, newton},
