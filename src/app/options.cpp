@@ -106,6 +106,8 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting or rk4")
         ->type_name("NAME");
     command->add_option("--impacts", c.overrides.impacts, "stepped: impacts are resolved at the step")->type_name("MODE");
+    command->add_option("--impact-law", c.overrides.impact_law,
+                        "propagating or simultaneous: what several contacts at once do")->type_name("NAME");
     add_frames_of_time(*command, c.overrides);
     add_run(*command, c.threads, c.quiet);
     command->footer(

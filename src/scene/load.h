@@ -14,7 +14,7 @@ namespace tumble {
 struct SceneOverrides {
     std::optional<double> duration, fps, step;
     std::optional<int> steps_per_frame, width, height, samples;
-    std::optional<std::string> integrator, impacts;
+    std::optional<std::string> integrator, impacts, impact_law;
 };
 
 /// Throws InputError with file, line and column for anything the format forbids: nothing is guessed.

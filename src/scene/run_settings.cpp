@@ -20,6 +20,10 @@ constexpr Choice<ImpactMode> impact_modes[] = {
     {"stepped", ImpactMode::stepped},
     {"exact", ImpactMode::exact},
 };
+constexpr Choice<ImpactLaw> impact_laws[] = {
+    {"propagating", ImpactLaw::propagating},
+    {"simultaneous", ImpactLaw::simultaneous},
+};
 constexpr Choice<RotationForm> rotation_forms[] = {
     {"quaternion", RotationForm::quaternion},
     {"matrix", RotationForm::matrix},
@@ -50,8 +54,8 @@ void override_number(const std::optional<double>& given, const char* option, std
 }
 
 void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
-    table.expect_keys(
-        {"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "rotation", "sleep", "seed"});
+    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law", "rotation",
+                       "sleep", "seed"});
     read_time(table, "duration", time.duration, limits::duration);
     read_time(table, "step", time.step, limits::step);
     if (const auto value = table.find("steps_per_frame")) {
@@ -61,6 +65,7 @@ void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeR
     table.read("gravity", settings.gravity, limits::acceleration);
     table.read<IntegratorKind>("integrator", settings.integrator, integrators);
     table.read<ImpactMode>("impacts", settings.impacts, impact_modes);
+    table.read<ImpactLaw>("impact_law", settings.impact_law, impact_laws);
     table.read<RotationForm>("rotation", settings.rotation, rotation_forms);
     table.read("sleep", settings.sleep);
     if (const auto value = table.find("seed")) {
@@ -106,6 +111,9 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
         simulation.integrator = chosen<IntegratorKind>(*overrides.integrator, integrators, {"--integrator", {}});
     }
     if (overrides.impacts) simulation.impacts = chosen<ImpactMode>(*overrides.impacts, impact_modes, {"--impacts", {}});
+    if (overrides.impact_law) {
+        simulation.impact_law = chosen<ImpactLaw>(*overrides.impact_law, impact_laws, {"--impact-law", {}});
+    }
     if (overrides.width) {
         output.width = static_cast<int>(checked(*overrides.width, 1, limits::image_side, {"--size", {}}));
     }

@@ -30,7 +30,7 @@ class Help(program.ProgramTest):
     def test_help_teaches_the_options_of_the_contract(self):
         options = {"render": ["-o", "--frames", "--size", "--fps", "--duration", "--samples", "--threads", "--gl", "--quiet"],
                    "simulate": ["--trajectory", "--energy", "--step", "--steps-per-frame", "--integrator", "--impacts",
-                                "--duration", "--fps", "--threads"],
+                                "--impact-law", "--duration", "--fps", "--threads"],
                    "encode": ["-o", "--fps"], "compare": ["--diff", "--tolerance", "--fraction"]}
         for command, names in options.items():
             text = self.check(0, command, "--help").stdout

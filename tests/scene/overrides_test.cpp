@@ -35,6 +35,7 @@ TEST(Overrides, WinOverTheFile) {
     overrides.samples = 1;
     overrides.integrator = "explicit-euler";
     overrides.impacts = "stepped";
+    overrides.impact_law = "simultaneous";
     const SceneDescription scene = parse(with_count, overrides);
     EXPECT_EQ(scene.simulation.duration, 1.5);
     EXPECT_EQ(scene.output.fps, 100.0);
@@ -43,6 +44,7 @@ TEST(Overrides, WinOverTheFile) {
     EXPECT_EQ(scene.output.height, 200);
     EXPECT_EQ(scene.output.samples, 1);
     EXPECT_EQ(scene.simulation.integrator, IntegratorKind::explicit_euler);
+    EXPECT_EQ(scene.simulation.impact_law, ImpactLaw::simultaneous);
 }
 
 TEST(Overrides, AStepOrACountReplacesBothKeysOfTheFile) {
@@ -99,6 +101,8 @@ TEST(Overrides, ErrorsNameTheOption) {
          "\"rk4\" (given \"exact\")");
     EXPECT_EQ(error([](auto& o) { o.impacts = "exact"; }),
               "error: --impacts: must be one of \"stepped\" (given \"exact\")");
+    EXPECT_EQ(error([](auto& o) { o.impact_law = "both"; }),
+              "error: --impact-law: must be one of \"propagating\", \"simultaneous\" (given \"both\")");
     EXPECT_EQ(error([](auto& o) { o.duration = 1e6; }),
               "error: --duration: makes too many frames: 1000000 s at 60 frames a second are 6e+07, and the limit is "
               "10000000 "

@@ -105,6 +105,8 @@ TEST(SceneErrors, OfTheSimulation) {
          "integrator must be one of \"symplectic-euler\", \"explicit-euler\", \"splitting\", "
          "\"rk4\" (given \"exact\")"},
         {"format = 1\n[simulation]\nimpacts = @\"exact\"", "impacts must be one of \"stepped\" (given \"exact\")"},
+        {"format = 1\n[simulation]\nimpact_law = @\"newton\"",
+         "impact_law must be one of \"propagating\", \"simultaneous\" (given \"newton\")"},
         {"format = 1\n[simulation]\nrotation = @\"euler\"", "rotation must be one of \"quaternion\", \"matrix\""},
         {"format = 1\n[simulation]\nsleep = @1", "sleep must be true or false (given 1)"},
         {"format = 1\n[simulation]\nseed = @-1", "seed must be from 0"},

@@ -20,6 +20,7 @@ steps_per_frame = 8
 gravity = [0.0, -1.62, 0.5]
 integrator = "explicit-euler"
 impacts = "stepped"
+impact_law = "simultaneous"
 rotation = "matrix"
 sleep = false
 seed = 42
@@ -110,6 +111,7 @@ TEST(SceneValues, Settings) {
     EXPECT_EQ(scene.simulation.gravity, Vec3(0, -1.62, 0.5));
     EXPECT_EQ(scene.simulation.integrator, IntegratorKind::explicit_euler);
     EXPECT_EQ(scene.simulation.impacts, ImpactMode::stepped);
+    EXPECT_EQ(scene.simulation.impact_law, ImpactLaw::simultaneous);
     EXPECT_EQ(scene.simulation.rotation, RotationForm::matrix);
     EXPECT_FALSE(scene.simulation.sleep);
     EXPECT_EQ(scene.simulation.seed, 42u);
@@ -217,6 +219,7 @@ TEST(SceneValues, AnEmptySceneHasTheDefaultsOfTheFormat) {
     EXPECT_EQ(scene.simulation.steps_per_frame, 16);
     EXPECT_EQ(scene.simulation.gravity, Vec3(0, -9.81, 0));
     EXPECT_EQ(scene.simulation.integrator, IntegratorKind::symplectic_euler);
+    EXPECT_EQ(scene.simulation.impact_law, ImpactLaw::propagating);
     EXPECT_TRUE(scene.simulation.sleep);
     EXPECT_EQ(scene.output.width, 1280);
     EXPECT_EQ(scene.output.fps, 60.0);
