@@ -27,10 +27,12 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       clock_{fps, settings.steps_per_frame},
       h_(clock_.seconds(1)),
       fliers_(bodies.size()),
+      balls_(bodies.size()),
       neighbourhood_(bodies),
       queue_(bodies.size()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
+        if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
         if (bodies[i].moves()) movers_.push_back(i);
     }
 }
@@ -49,6 +51,11 @@ void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const 
     f.until = until;
     f.driven = false;
     ++f.version;
+    Ballistic& ball = balls_[i];
+    ball.valid = ball.radius > 0.0 && path.parabolic() && path.acceleration(0.0) == settings_.gravity && until == never;
+    ball.position = path.position(0.0);
+    ball.velocity = path.velocity(0.0);
+    ball.start = now;
 }
 
 // Sets a body free from its present state.
@@ -184,9 +191,13 @@ void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment
     time = std::min(std::max(time, h_), clock_.between(now, f.until));
     if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
     else f.boxed_until = later(now, time);
-    const double margin = tuning::box_margin * r;
-    const Bounds swept = f.path.swept(t, t + time).grown(r);
-    if (!neighbourhood_.encloses(i, swept)) neighbourhood_.enclose(i, swept.grown(margin));
+    // A part of the way may fit into the box there is: cheaper than to look for neighbours anew.
+    for (const double part : {1.0, 0.5, 0.25}) {
+        if (!neighbourhood_.encloses(i, f.path.swept(t, t + part * time).grown(r))) continue;
+        if (part < 1.0) f.boxed_until = later(now, part * time);
+        return;
+    }
+    neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
 }
 
 void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
@@ -208,8 +219,19 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
     };
     if (flying)
         for (const std::uint32_t j : neighbourhood_.fixed(i)) look(j);
-    for (const std::uint32_t j : neighbourhood_.moving(i))
+    const Ballistic& ball = balls_[i];
+    const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
+    for (const std::uint32_t j : neighbourhood_.moving(i)) {
+        const Ballistic& other = balls_[j];
+        if (ball.valid && other.valid) {
+            // Both fall alike: d(t) = d + v t, in touch when d(t)^2 = (r + r')^2. Those too far or parting need no more.
+            const double t = clock_.between(other.start, now);
+            const Vec3 d = position(other, t) - at, v = other.velocity + t * settings_.gravity - velocity;
+            const double closing = -d.dot(v), reach = ball.radius + other.radius, c = d.squaredNorm() - reach * reach;
+            if (!(closing > 0.0) || c > 2.0 * closing * horizon || closing * closing < v.squaredNorm() * c) continue;
+        }
         if (flying || bodies[j].flying) look(j);
+    }
     // Nothing more within its path: World takes it up at the end of the step.
     if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
     else queue_.set(i, next);
@@ -263,10 +285,63 @@ bool Flights::stutters(std::uint32_t i, const std::vector<Body>& bodies, double 
            speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
 }
 
+// The commonest impact without the machinery: two frictionless balls, or a ball and a fixed half-space, and nobody else
+// near. Eq. 20 with r x n = 0. False where it is not that.
+bool Flights::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now) {
+    const Body &a = bodies[i], &b = bodies[j];
+    const auto* ball = std::get_if<Ball>(&a.collider);
+    const auto* other_ball = std::get_if<Ball>(&b.collider);
+    const auto* plane = std::get_if<HalfSpace>(&b.collider);
+    if (!ball || !a.flying || fliers_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
+    if (!(plane && !b.moves()) && !(other_ball && b.flying && !fliers_[j].driven)) return false;
+    const double ta = clock_.between(fliers_[i].start, now), tb = clock_.between(fliers_[j].start, now);
+    const Vec3 at = fliers_[i].path.position(ta), va = fliers_[i].path.velocity(ta);
+    const Vec3 vb = other_ball ? fliers_[j].path.velocity(tb) : Vec3(Vec3::Zero());
+    const Vec3 n = other_ball ? Vec3((fliers_[j].path.position(tb) - at).normalized()) : Vec3(-(b.rotation * plane->normal));
+    const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
+    if (!(v < 0.0)) return false;
+    const double press = plane ? -n.dot(settings_.gravity) : 0.0;
+    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;   // this one lands
+    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now))) return false;
+    const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
+    start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
+    changed_.push_back(i);
+    if (other_ball) {
+        start(j, fliers_[j].path.deflected(tb, vb + (b.inverse_mass * impulse) * n), now, never);
+        changed_.push_back(j);
+    }
+    predict_changed(bodies, now);
+    return true;
+}
+
+// Whether no third body can touch the ball at `at`.
+bool Flights::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const Moment& now) const {
+    const double r = bodies[i].radius * (1.0 + tuning::touch);
+    for (const std::uint32_t k : neighbourhood_.moving(i)) {
+        if (k == but) continue;
+        const double reach = r + bodies[k].radius * (1.0 + tuning::touch);
+        const Ballistic& ball = balls_[k];
+        const Vec3 there = ball.valid ? position(ball, clock_.between(ball.start, now))
+                                      : fliers_[k].path.position(clock_.between(fliers_[k].start, now));
+        if ((there - at).squaredNorm() <= reach * reach) return false;
+    }
+    for (const std::uint32_t k : neighbourhood_.fixed(i)) {
+        if (k == but) continue;
+        const Body& body = bodies[k];
+        if (const auto* plane = std::get_if<HalfSpace>(&body.collider)) {
+            if ((body.rotation * plane->normal).dot(at - body.position) - plane->offset <= r) return false;
+        } else if ((body.position - at).norm() <= r + body.radius) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now) {
     count_impact(i, bodies, now);
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
     const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
+    if (bounce_balls(i, j, bodies, now)) return;
     const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body, {.law = settings_.impact_law, .friction = true, .complete = true});
     if (!changed) {
         // Touching without approaching, by rounding: looked at again after a while, a longer one each time.

@@ -66,16 +66,29 @@ private:
     void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
+    bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now);
+    bool alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const Moment& now) const;
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     bool stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double landing_time(std::uint32_t i) const;
     Moment later(const Moment& now, double seconds) const;
     Traveller traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const;
 
+    // Of a ball in flight under gravity alone, what its neighbours ask for, close together in memory: with many balls the
+    // search is made of little else.
+    struct Ballistic {
+        Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();   // at start
+        Moment start;
+        double radius = 0.0;
+        bool valid = false;
+    };
+    Vec3 position(const Ballistic& ball, double t) const { return ball.position + t * (ball.velocity + 0.5 * t * settings_.gravity); }
+
     SimulationSettings settings_;
     StepClock clock_;
     double h_;
     std::vector<Flier> fliers_;
+    std::vector<Ballistic> balls_;        // by body
     std::vector<std::uint32_t> movers_;   // dynamic and kinematically moving bodies
     Neighbourhood neighbourhood_;
     EventQueue queue_;

@@ -21,7 +21,9 @@ struct StepClock {
 
     double seconds(std::int64_t steps) const { return double(steps) / (fps * steps_per_frame); }
     /// b - a, s.
-    double between(const Moment& a, const Moment& b) const { return seconds(b.step - a.step) + (b.offset - a.offset); }
+    double between(const Moment& a, const Moment& b) const {
+        return (a.step == b.step ? 0.0 : seconds(b.step - a.step)) + (b.offset - a.offset);
+    }
     double seconds(const Moment& m) const { return seconds(m.step) + m.offset; }
 };
 

@@ -71,7 +71,17 @@ void Path::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
     turning_ = uniform;
 }
 
+Path Path::deflected(double t, const Vec3& velocity) const {
+    Path path = *this;
+    path.start_ = position(t);
+    path.velocity_ = velocity;
+    path.acceleration_ = acceleration(t);
+    path.turned_ += t;
+    return path;
+}
+
 Quat Path::orientation(double t) const {
+    t += turned_;
     if (const auto* free = std::get_if<FreeTurn>(&turning_)) return free->rotation.at(t);
     const auto& uniform = std::get<UniformTurn>(turning_);
     if (uniform.rate == 0.0) return uniform.from;

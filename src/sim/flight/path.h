@@ -38,6 +38,9 @@ public:
     /// else uniform, error O(span^2) in between.
     static Path towards(const Body& body, const Motion& end, double span, bool torque_free);
 
+    /// The same turning on, but from time t with another velocity of the centre: a blow through the centre.
+    Path deflected(double t, const Vec3& velocity) const;
+
     /// t: s since the path's beginning.
     Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }
     Vec3 velocity(double t) const { return velocity_ + t * (acceleration_ + 0.5 * t * jerk_); }
@@ -59,6 +62,7 @@ public:
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
     std::variant<UniformTurn, FreeTurn> turning_;
+    double turned_ = 0.0;   // s, how long the turning has been going on at the path's beginning
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 
     void turn_uniformly(const Quat& from, const Vec3& angular_velocity);

@@ -45,15 +45,18 @@ double fall_time(double h, double v, double a, const Scale& scale) {
     return a < 0.0 ? -(v + root) / a : infinity;
 }
 
-// First time at which two points that move evenly against each other (d + v t) come within r of each other.
-double approach_time(const Vec3& d, const Vec3& v, double r, const Scale& scale) {
-    const double b = d.dot(v), distance = d.norm();
-    const double gap = distance - r;
-    if (gap <= scale.touch) return b < -scale.speed * distance ? 0.0 : infinity;
-    if (b >= 0.0) return infinity;
+// First time at which two points that move evenly against each other (d + v t) come within r of each other; infinity
+// also where that is after the horizon.
+double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, const Traveller& a, const Traveller& b) {
+    const double closing = -d.dot(v), square = d.squaredNorm();
+    if (!(closing > 0.0)) return infinity;
+    if (square - r * r > 2.0 * closing * horizon) return infinity;   // most pairs: too far to meet in time
+    const double distance = std::sqrt(square), gap = distance - r;
+    const Scale scale = scale_of(a, b);
+    if (gap <= scale.touch) return closing > scale.speed * distance ? 0.0 : infinity;
     // c = d^2 - r^2 without the squares' cancellation.
-    const double c = gap * (distance + r), square = b * b - v.squaredNorm() * c;
-    return square < 0.0 ? infinity : c / (std::sqrt(square) - b);
+    const double c = gap * (distance + r), discriminant = closing * closing - v.squaredNorm() * c;
+    return discriminant < 0.0 ? infinity : c / (std::sqrt(discriminant) + closing);
 }
 
 TimeOfImpact result(double time, double horizon) {
@@ -121,6 +124,14 @@ struct ImpactSearch::Pair {
 
 TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, std::span<const std::uint32_t> left_out) {
     const Collider &shape_a = a.body->collider, &shape_b = b.body->collider;
+    const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
+    const bool parabolic = a.path->parabolic() && b.path->parabolic();
+    const bool evenly = parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0);
+    if (ball_a && ball_b && evenly) {   // first, and quickly: there are many of them
+        return result(approach_time(b.path->position(b.since) - a.path->position(a.since), b.path->velocity(b.since) - a.path->velocity(a.since),
+                                    ball_a->radius + ball_b->radius, horizon, a, b),
+                      horizon);
+    }
     // Planes and surfaces come first; the search does not care which is which.
     if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
@@ -129,8 +140,6 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, left_out);
 
     Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), std::get_if<HalfSpace>(&shape_a), nullptr, 0};
-    const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
-    const bool parabolic = a.path->parabolic() && b.path->parabolic();
     double from = 0.0;
     if (pair.plane && parabolic && !a.path->turns()) {
         // Exact for a ball; for anything else its bounding ball's time, before which nothing touches.
@@ -140,12 +149,11 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
         const double acceleration = normal.dot(b.path->acceleration(b.since) - a.path->acceleration(a.since));
         if (ball_b) return result(fall_time(height, rate, acceleration, pair.scale), horizon);
         if (height > 0.0) from = fall_time(height, rate, acceleration, pair.scale);
-    } else if (!pair.plane && parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0)) {
+    } else if (!pair.plane && evenly) {
         const Vec3 d = b.path->position(b.since) - a.path->position(a.since);
         const Vec3 v = b.path->velocity(b.since) - a.path->velocity(a.since);
         const double reach = a.body->radius + b.body->radius;
-        if (ball_a && ball_b) return result(approach_time(d, v, reach, pair.scale), horizon);
-        if (d.squaredNorm() > reach * reach) from = approach_time(d, v, reach, pair.scale);
+        if (d.squaredNorm() > reach * reach) from = approach_time(d, v, reach, horizon, a, b);
     }
     if (!(from < horizon)) return {};
     return search(pair, from, horizon);
