@@ -28,12 +28,18 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       h_(clock_.seconds(1)),
       fliers_(bodies.size()),
       balls_(bodies.size()),
+      grounds_(bodies.size()),
       neighbourhood_(bodies),
       queue_(bodies.size()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
         if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
-        if (bodies[i].moves()) movers_.push_back(i);
+        if (bodies[i].moves()) {
+            movers_.push_back(i);
+        } else if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
+            const Vec3 normal = bodies[i].rotation * space->normal;
+            grounds_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
+        }
     }
 }
 
@@ -186,7 +192,7 @@ void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment
     }
     const double r = bodies[i].radius, t = clock_.between(f.start, now);
     const double v = f.path.velocity(t).norm(), a = f.path.acceleration(t).norm();
-    const double way = tuning::box_way * r;
+    const double way = f.box_way * r;
     double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way)) : std::numeric_limits<double>::infinity();
     time = std::min(std::max(time, h_), clock_.between(now, f.until));
     if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
@@ -198,6 +204,21 @@ void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment
         return;
     }
     neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
+    // Larger boxes last longer but hold more neighbours.
+    const std::size_t neighbours = neighbourhood_.moving(i).size();
+    if (neighbours < tuning::few_neighbours) f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
+    else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
+}
+
+// Whether a body's bounding ball certainly stays above the ground: it is, and would be at the end, and does not fall and
+// rise again in between.
+bool Flights::stays_above(const Ground& ground, double radius, const Path& path, double from, double horizon) const {
+    if (!path.parabolic()) return false;
+    const double height = ground.normal.dot(path.position(from)) - ground.offset - radius;
+    const double rate = ground.normal.dot(path.velocity(from)), acceleration = ground.normal.dot(path.acceleration(from));
+    if (!(height > tuning::touch * radius)) return false;
+    if (acceleration > 0.0) return rate >= 0.0;
+    return height + horizon * (rate + 0.5 * horizon * acceleration) > 0.0;
 }
 
 void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
@@ -218,14 +239,15 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
         f.partner_version = fliers_[j].version;
     };
     if (flying)
-        for (const std::uint32_t j : neighbourhood_.fixed(i)) look(j);
+        for (const std::uint32_t j : neighbourhood_.fixed(i))
+            if (!grounds_[j].valid || !stays_above(grounds_[j], bodies[i].radius, f.path, self.since, horizon)) look(j);
     const Ballistic& ball = balls_[i];
     const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
     for (const std::uint32_t j : neighbourhood_.moving(i)) {
         const Ballistic& other = balls_[j];
         if (ball.valid && other.valid) {
             // Both fall alike: d(t) = d + v t, in touch when d(t)^2 = (r + r')^2. Those too far or parting need no more.
-            const double t = clock_.between(other.start, now);
+            const double t = roughly(other.start, now);
             const Vec3 d = position(other, t) - at, v = other.velocity + t * settings_.gravity - velocity;
             const double closing = -d.dot(v), reach = ball.radius + other.radius, c = d.squaredNorm() - reach * reach;
             if (!(closing > 0.0) || c > 2.0 * closing * horizon || closing * closing < v.squaredNorm() * c) continue;
@@ -291,13 +313,13 @@ bool Flights::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<B
     const Body &a = bodies[i], &b = bodies[j];
     const auto* ball = std::get_if<Ball>(&a.collider);
     const auto* other_ball = std::get_if<Ball>(&b.collider);
-    const auto* plane = std::get_if<HalfSpace>(&b.collider);
+    const Ground* plane = grounds_[j].valid ? &grounds_[j] : nullptr;
     if (!ball || !a.flying || fliers_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
-    if (!(plane && !b.moves()) && !(other_ball && b.flying && !fliers_[j].driven)) return false;
+    if (!plane && !(other_ball && b.flying && !fliers_[j].driven)) return false;
     const double ta = clock_.between(fliers_[i].start, now), tb = clock_.between(fliers_[j].start, now);
     const Vec3 at = fliers_[i].path.position(ta), va = fliers_[i].path.velocity(ta);
     const Vec3 vb = other_ball ? fliers_[j].path.velocity(tb) : Vec3(Vec3::Zero());
-    const Vec3 n = other_ball ? Vec3((fliers_[j].path.position(tb) - at).normalized()) : Vec3(-(b.rotation * plane->normal));
+    const Vec3 n = other_ball ? Vec3((fliers_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
     const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
     if (!(v < 0.0)) return false;
     const double press = plane ? -n.dot(settings_.gravity) : 0.0;
@@ -321,15 +343,15 @@ bool Flights::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const st
         if (k == but) continue;
         const double reach = r + bodies[k].radius * (1.0 + tuning::touch);
         const Ballistic& ball = balls_[k];
-        const Vec3 there = ball.valid ? position(ball, clock_.between(ball.start, now))
+        const Vec3 there = ball.valid ? position(ball, roughly(ball.start, now))
                                       : fliers_[k].path.position(clock_.between(fliers_[k].start, now));
         if ((there - at).squaredNorm() <= reach * reach) return false;
     }
     for (const std::uint32_t k : neighbourhood_.fixed(i)) {
         if (k == but) continue;
         const Body& body = bodies[k];
-        if (const auto* plane = std::get_if<HalfSpace>(&body.collider)) {
-            if ((body.rotation * plane->normal).dot(at - body.position) - plane->offset <= r) return false;
+        if (grounds_[k].valid) {
+            if (grounds_[k].normal.dot(at) - grounds_[k].offset <= r) return false;
         } else if ((body.position - at).norm() <= r + body.radius) {
             return false;
         }

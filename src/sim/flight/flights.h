@@ -17,6 +17,7 @@
 #include "sim/flight/path.h"
 #include "sim/flight/time_of_impact.h"
 #include "sim/forces.h"
+#include "sim/tuning.h"
 
 #include <vector>
 
@@ -49,6 +50,7 @@ private:
         bool driven = false;          // free, but under forces that are not constant
         Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();   // L at the path's ends, of a driven body
         Moment boxed_until;           // in its box of the neighbourhood up to then
+        double box_way = tuning::shortest_box_way;   // radii, that the next box shall hold of its way
         // The next event.
         enum class Event { leaves_box, looks_again, impact } event = Event::leaves_box;
         std::uint32_t partner = 0, partner_version = 0;
@@ -82,6 +84,14 @@ private:
         double radius = 0.0;
         bool valid = false;
     };
+    struct Ground {
+        Vec3 normal = Vec3::UnitY();
+        double offset = 0.0;
+        bool valid = false;
+    };
+    bool stays_above(const Ground& ground, double radius, const Path& path, double from, double horizon) const;
+    /// The time between two moments without the last digit, for what only decides whether to look closer.
+    double roughly(const Moment& from, const Moment& to) const { return double(to.step - from.step) * h_ + (to.offset - from.offset); }
     Vec3 position(const Ballistic& ball, double t) const { return ball.position + t * (ball.velocity + 0.5 * t * settings_.gravity); }
 
     SimulationSettings settings_;
@@ -89,6 +99,7 @@ private:
     double h_;
     std::vector<Flier> fliers_;
     std::vector<Ballistic> balls_;        // by body
+    std::vector<Ground> grounds_;         // by body: fixed half-spaces, world frame
     std::vector<std::uint32_t> movers_;   // dynamic and kinematically moving bodies
     Neighbourhood neighbourhood_;
     EventQueue queue_;

@@ -52,8 +52,10 @@ double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, con
     if (!(closing > 0.0)) return infinity;
     if (square - r * r > 2.0 * closing * horizon) return infinity;   // most pairs: too far to meet in time
     const double distance = std::sqrt(square), gap = distance - r;
-    const Scale scale = scale_of(a, b);
-    if (gap <= scale.touch) return closing > scale.speed * distance ? 0.0 : infinity;
+    if (gap <= tuning::touch * r) {
+        const Scale scale = scale_of(a, b);
+        if (gap <= scale.touch) return closing > scale.speed * distance ? 0.0 : infinity;
+    }
     // c = d^2 - r^2 without the squares' cancellation.
     const double c = gap * (distance + r), discriminant = closing * closing - v.squaredNorm() * c;
     return discriminant < 0.0 ? infinity : c / (std::sqrt(discriminant) + closing);
