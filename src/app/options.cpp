@@ -103,9 +103,9 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     command->add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
         ->excludes(step)->type_name("N");
     command
-        ->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting or rk4")
+        ->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting, rk4 or exact")
         ->type_name("NAME");
-    command->add_option("--impacts", c.overrides.impacts, "stepped: impacts are resolved at the step")->type_name("MODE");
+    command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")->type_name("MODE");
     command->add_option("--impact-law", c.overrides.impact_law,
                         "propagating or simultaneous: what several contacts at once do")->type_name("NAME");
     add_frames_of_time(*command, c.overrides);

@@ -96,11 +96,11 @@ TEST(Overrides, ErrorsNameTheOption) {
     EXPECT_EQ(error([](auto& o) { o.width = 0; }), "error: --size: must be from 1 to 16384 (given 0)");
     EXPECT_EQ(error([](auto& o) { o.height = 99999; }), "error: --size: must be from 1 to 16384 (given 99999)");
     EXPECT_EQ(error([](auto& o) { o.samples = 3; }), "error: --samples: must be 1, 2 or 4 (given 3)");
-    EXPECT_EQ(error([](auto& o) { o.integrator = "exact"; }),
+    EXPECT_EQ(error([](auto& o) { o.integrator = "verlet"; }),
               "error: --integrator: must be one of \"symplectic-euler\", \"explicit-euler\", \"splitting\", "
-         "\"rk4\" (given \"exact\")");
-    EXPECT_EQ(error([](auto& o) { o.impacts = "exact"; }),
-              "error: --impacts: must be one of \"stepped\" (given \"exact\")");
+         "\"rk4\", \"exact\" (given \"verlet\")");
+    EXPECT_EQ(error([](auto& o) { o.impacts = "continuous"; }),
+              "error: --impacts: must be one of \"stepped\", \"exact\" (given \"continuous\")");
     EXPECT_EQ(error([](auto& o) { o.impact_law = "both"; }),
               "error: --impact-law: must be one of \"propagating\", \"simultaneous\" (given \"both\")");
     EXPECT_EQ(error([](auto& o) { o.duration = 1e6; }),
