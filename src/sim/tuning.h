@@ -38,8 +38,8 @@ inline constexpr double push_slop = 1e-5;
 inline constexpr double push_limit = 5.0;
 
 /// Contacts of an impact that are projected exactly together: the cost grows with the cube of the contacts held, 1 ms at
-/// 100, 30 ms at 256. The sweeps taken beyond that stop short of the solution in long chains.
-inline constexpr std::size_t projection_contacts = 256;
+/// 100, 30 ms at 256, 0.3 s at 512. The sweeps taken beyond that stop short of the solution in long chains.
+inline constexpr std::size_t projection_contacts = 512;
 /// In the passes of a propagating impact the sweeps win in run time from fewer on (heaps of 216 bouncing boxes: half the
 /// time of 256), and a pass need not be exact: it keeps the energy whatever the sweeps leave over.
 inline constexpr std::size_t pass_contacts = 64;
@@ -69,9 +69,10 @@ inline constexpr int impact_passes_limit = 100000;
 inline constexpr double impact_wedge = 3.0;
 /// Contacts whose margin is below one over this are jammed where walls move: the two sides of a box in a press.
 inline constexpr double impact_deepest = 100.0;
-/// Sum over the passes of the squared number of contacts in each: some 50 ms. Elastic impacts of hundreds of contacts need
-/// a tenth; what goes on longer is a slow inelastic approach of many contacts to one common speed.
+/// Sum over the passes of the squared number of contacts in each: some 50 ms. What goes on longer is a slow inelastic
+/// approach of many contacts to one common speed. Elastic passes come to an end, and count for a tenth.
 inline constexpr double impact_work = 3e5;
+inline constexpr double impact_elastic_work = 0.1;
 
 /// Rounds of friction and what it makes approach again: first with restitution, then without.
 inline constexpr int friction_bounces = 4;
@@ -121,6 +122,10 @@ inline constexpr double box_margin = 0.3;
 /// A way in a step longer than this part of the thinner body's inner radius is looked along (impacts = "stepped"):
 /// overlaps up to half of it are still pushed out of the right side.
 inline constexpr double fast_share = 0.5;
+/// What touches when the step begins may come to an overlap of the first part of it, or deeper by the second: the contact
+/// solver leaves small approaches, which must not hold fast bodies up.
+inline constexpr double fast_overlap = 0.05;
+inline constexpr double fast_deeper = 0.01;
 /// Rounds in which bodies that stop one another are looked at again.
 inline constexpr int motion_limit_rounds = 8;
 

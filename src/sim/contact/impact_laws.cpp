@@ -68,7 +68,7 @@ public:
                 limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
                 depth_known = true;
             }
-            work += double(active_.size()) * double(active_.size());
+            work += double(active_.size()) * double(active_.size()) * (elastic() ? tuning::impact_elastic_work : 1.0);
             if (pass >= limit || work > tuning::impact_work || squeezed(pass) || !reflect()) {
                 stop(cluster_);
                 return pass + 1;
@@ -91,22 +91,21 @@ private:
         return any;
     }
 
-    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + s q). The factor
+    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + q). The factor
     // f = -d.y / d.d is one but for rounding and what sweeps leave over, and makes e = 1 a Householder reflection, which
-    // keeps the energy whatever d is; s <= 1 keeps |q| <= |d|, beyond which differing restitutions could gain energy.
+    // keeps the energy whatever d is. Where restitutions differ d + q may gain energy: it then goes as far as it does not.
     bool reflect() {
         projection_.solve(active_, lambda_, bound(cluster_));
-        const Change stopping(cluster_, active_, lambda_);
-        const double f = 0.5 * stopping.reflection();
+        const double f = 0.5 * Change(cluster_, active_, lambda_).reflection();
         // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
         if (!(f > 0.0 && f < 2.0)) return false;
-        weighted_ = lambda_;
-        for (std::size_t i = 0; i < active_.size(); ++i) weighted_[i] *= restitution_[i];
-        const double q = Change(cluster_, active_, weighted_).square;
-        const double s = q > stopping.square ? std::sqrt(stopping.square / q) : 1.0;
-        for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] += s * weighted_[i];
+        for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
         apply(cluster_, active_, lambda_, std::min(f, Change(cluster_, active_, lambda_).reflection()));
         return true;
+    }
+
+    bool elastic() const {
+        return std::all_of(restitution_.begin(), restitution_.end(), [](double e) { return e == 1.0; });
     }
 
     // One over the margin by which one direction can lie inside all contacts' half-spaces: |z| for the least z with
@@ -136,7 +135,7 @@ private:
     double threshold_, longest_ = 0.0;
     Projection projection_;
     std::vector<Projection::Demand> active_;
-    std::vector<double> restitution_, lambda_, weighted_;
+    std::vector<double> restitution_, lambda_;
 };
 
 }  // namespace
