@@ -17,7 +17,7 @@ double depth(const Body& body) {
     return std::numeric_limits<double>::infinity();   // what counts of a surface is how thin the other body is
 }
 
-bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
+bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 
 double way(const Body& body, const StepMotion& motion, double h) {
     return body.moves() && !body.asleep ? h * (motion.velocity.norm() + motion.angular_velocity.norm() * body.radius) : 0.0;
@@ -30,13 +30,13 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
     const std::uint32_t i = pair.a, j = pair.b;
     const Body &a = bodies[i], &b = bodies[j];
     const double end_a = limits_[i].share * h, end_b = limits_[j].share * h, both = std::min(end_a, end_b);
-    TimeOfImpact found = search_.find({&a, &paths_[i], 0.0}, {&b, &paths_[j], 0.0}, both, pair.left_out);
+    TimeOfImpact found = search_.find({&a, &paths_[i], 0.0}, {&b, &paths_[j], 0.0}, both, pair.overlap);
     if (found.kind != TimeOfImpact::Kind::none) return found.time;
     const double rest = std::max(end_a, end_b) - both;
     if (!(rest > 0.0)) return h;
     const Traveller going_a = end_a > both ? Traveller{&a, &paths_[i], both} : Traveller{&a, &still_[i], 0.0};
     const Traveller going_b = end_b > both ? Traveller{&b, &paths_[j], both} : Traveller{&b, &still_[j], 0.0};
-    found = search_.find(going_a, going_b, rest, pair.left_out);
+    found = search_.find(going_a, going_b, rest, pair.overlap);
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
@@ -50,15 +50,22 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
         const double thin = tuning::fast_share * std::min(depth(a), depth(b));
         if (way(a, motions[pair.a], h) + way(b, motions[pair.b], h) <= thin) continue;
-        FastPair fast{pair.a, pair.b, {}};
+        FastPair fast{pair.a, pair.b, 0.0};
         bool touching = false;
+        double deepest = 0.0;
         while (next < contacts.size() && std::tie(contacts[next].a, contacts[next].b) < std::tie(pair.a, pair.b)) ++next;
         for (std::size_t k = next; k < contacts.size() && contacts[k].a == pair.a && contacts[k].b == pair.b; ++k) {
             if (!contacts[k].touching()) continue;
             touching = true;
-            fast.left_out.push_back(contacts[k].part);
+            deepest = std::max(deepest, -contacts[k].separation);
         }
-        if (!touching || surface(a) || surface(b)) fast_.push_back(fast);
+        if (touching) {
+            // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
+            if (ball(a) && ball(b)) continue;   // nothing turns
+            const double least = std::min(depth(a), depth(b));
+            fast.overlap = std::max(tuning::fast_overlap * least, deepest + tuning::fast_deeper * least);
+        }
+        fast_.push_back(fast);
     }
     if (fast_.empty()) return limits_;
 

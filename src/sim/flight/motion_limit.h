@@ -25,14 +25,15 @@ struct StepLimit {
 
 class MotionLimit {
 public:
-    /// By body; `motions` too, bodies that do not move have zero. Pairs that touch already are the contact solver's.
+    /// By body; `motions` too, bodies that do not move have zero. What touches already is the contact solver's, and may come
+    /// a little deeper into each other: no more.
     const std::vector<StepLimit>& limits(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Contact>& contacts,
                                          const std::vector<Body>& bodies, const std::vector<StepMotion>& motions, double h);
 
 private:
     struct FastPair {
         std::uint32_t a, b;
-        std::vector<std::uint32_t> left_out;   // triangles that touch already
+        double overlap;   // m, that it may come to: of those that touch already
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 

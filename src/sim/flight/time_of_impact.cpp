@@ -119,12 +119,13 @@ struct ImpactSearch::Pair {
     Traveller a, b;
     Scale scale;
     double size;                                      // m, of the smaller body
+    double overlap;                                   // m, allowed
     const HalfSpace* plane = nullptr;                 // of A
     const TriangleSurface* surface = nullptr;         // of A, which then is
     std::uint32_t triangle = 0;                       // one of its triangles
 };
 
-TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, std::span<const std::uint32_t> left_out) {
+TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, double overlap) {
     const Collider &shape_a = a.body->collider, &shape_b = b.body->collider;
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
     const bool parabolic = a.path->parabolic() && b.path->parabolic();
@@ -137,11 +138,11 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     // Planes and surfaces come first; the search does not care which is which.
     if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
-        return find(b, a, horizon, left_out);
+        return find(b, a, horizon, overlap);
     }
-    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, left_out);
+    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, overlap);
 
-    Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), std::get_if<HalfSpace>(&shape_a), nullptr, 0};
+    Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a), nullptr, 0};
     double from = 0.0;
     if (pair.plane && parabolic && !a.path->turns()) {
         // Exact for a ball; for anything else its bounding ball's time, before which nothing touches.
@@ -164,6 +165,7 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
 TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon) {
     prepare(a_, pair.a, horizon);
     prepare(b_, pair.b, horizon);
+    b_.radius -= pair.overlap;
     const double own_change = a_.acceleration_change;
     const double near = tuning::impact_near * pair.size;
     double t = from;
@@ -273,8 +275,7 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Motion& 
     if (most > -infinity) normals_.push_back(best);
 }
 
-TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon,
-                                          std::span<const std::uint32_t> left_out) {
+TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap) {
     const TriangleSurface& triangles = *std::get<SurfaceRef>(surface.body->collider);
     // The triangles that the other can reach, looked up in the surface's frame; surfaces are fixed.
     const Motion frame = surface.path->at(surface.since);
@@ -286,8 +287,7 @@ TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Travel
     std::sort(candidates_.begin(), candidates_.end());
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {
-        if (std::find(left_out.begin(), left_out.end(), triangle) != left_out.end()) continue;
-        const Pair pair{surface, other, scale_of(surface, other), other.body->radius, nullptr, &triangles, triangle};
+        const Pair pair{surface, other, scale_of(surface, other), other.body->radius, overlap, nullptr, &triangles, triangle};
         const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
         if (found.kind != TimeOfImpact::Kind::none) first = found;
     }

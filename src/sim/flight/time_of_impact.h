@@ -7,7 +7,6 @@
 #include "sim/collision/collide.h"
 #include "sim/flight/cloud.h"
 
-#include <span>
 #include <vector>
 
 namespace tumble {
@@ -34,15 +33,15 @@ public:
     ImpactSearch() { scratch_.choice = AxisChoice::nearest; }
 
     /// Bodies that touch at the beginning and part, or rest against each other, have no impact there.
-    /// Of a surface, the triangles given are left out.
-    TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, std::span<const std::uint32_t> left_out = {});
+    /// `overlap` (m): so deep they may come into each other before it counts (not for two balls, nor a ball and a plane).
+    TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, double overlap = 0.0);
 
     std::int64_t evaluations() const { return evaluations_; }   // of poses, in all searches so far
 
 private:
     struct Pair;
     TimeOfImpact search(const Pair& pair, double from, double horizon);
-    TimeOfImpact search_surface(const Traveller& surface, const Traveller& other, double horizon, std::span<const std::uint32_t> left_out);
+    TimeOfImpact search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap);
     void propose(const Pair& pair, const Motion& a, const Motion& b, double near);
     void propose_triangle_axes(const Polyhedron& shape, const Motion& motion);
 
