@@ -1,7 +1,5 @@
 #include "sim/contact/projection.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,28 @@ namespace tumble {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// x = A^-1 x by Cholesky, A is overwritten; false when A is not positive definite. Eigen's own goes in blocks by the size
+// of the processor's cache, and so would the last digits.
+bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
+    const Eigen::Index n = a.rows();
+    for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = j; i < n; ++i)
+            for (Eigen::Index k = 0; k < j; ++k) a(i, j) -= a(i, k) * a(j, k);
+        if (!(a(j, j) > 0.0)) return false;
+        const double pivot = std::sqrt(a(j, j));
+        for (Eigen::Index i = j; i < n; ++i) a(i, j) /= pivot;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index k = 0; k < i; ++k) x[i] -= a(i, k) * x[k];
+        x[i] /= a(i, i);
+    }
+    for (Eigen::Index i = n; i-- > 0;) {
+        for (Eigen::Index k = i + 1; k < n; ++k) x[i] -= a(k, i) * x[k];
+        x[i] /= a(i, i);
+    }
+    return true;
+}
 
 }  // namespace
 
@@ -234,12 +254,16 @@ void Projection::spread() {
         }
     }
     if (Index(rows.size()) > rank) {
-        const Eigen::VectorXd even = b * (b.transpose() * b).llt().solve(b.transpose() * now);
-        double share = 1.0;
-        for (Index k = 0; k < now.size(); ++k)
-            if (even[k] < 0.0) share = std::min(share, now[k] / (now[k] - even[k]));
-        for (Index k = 0; k < now.size(); ++k)
-            lambda[rows[std::size_t(k)]] = std::max(0.0, now[k] + share * (even[k] - now[k]));
+        Eigen::MatrixXd gram = b.transpose().lazyProduct(b);
+        Eigen::VectorXd c = b.transpose().lazyProduct(now);
+        if (solve_symmetric(gram, c)) {
+            const Eigen::VectorXd even = b.lazyProduct(c);
+            double share = 1.0;
+            for (Index k = 0; k < now.size(); ++k)
+                if (even[k] < 0.0) share = std::min(share, now[k] / (now[k] - even[k]));
+            for (Index k = 0; k < now.size(); ++k)
+                lambda[rows[std::size_t(k)]] = std::max(0.0, now[k] + share * (even[k] - now[k]));
+        }
     }
     held_.resize(own);
     triangle_.resize(own * (own + 1) / 2);
