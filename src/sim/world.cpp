@@ -41,6 +41,7 @@ struct World::State {
     FreeFlights free_flights;           // with exact motion between stepped ones
     MotionLimit motion_limit;
     std::vector<StepMotion> motions;
+    std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
     // Velocities before this step's forces: what explicit Euler moves by.
     std::vector<Vec3> old_velocity, old_angular_velocity;
@@ -78,6 +79,7 @@ struct World::State {
         return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
     }
     const std::vector<StepMotion>& step_motions();
+    const std::vector<StepLimit>& held_limits();
     void carry(Body& body, const Body& carrier, double span) const;
     void solve_resting_contacts();
     void move();
@@ -190,6 +192,20 @@ const std::vector<StepMotion>& World::State::step_motions() {
     return motions;
 }
 
+// Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
+// find their impacts themselves.
+const std::vector<StepLimit>& World::State::held_limits() {
+    pairs = broad_phase.update(bodies, h);
+    std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
+    motions.assign(bodies.size(), {});
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = bodies[i];
+        if (!body.moves() || body.asleep || body.flying) continue;
+        motions[i] = {body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity};
+    }
+    return motion_limit.limits(pairs, contacts, bodies, motions, h);
+}
+
 // What a kinematic body has run into goes along with it for the rest of the step.
 void World::State::carry(Body& body, const Body& carrier, double span) const {
     const Vec3 arm = body.position - carrier.position;
@@ -198,7 +214,7 @@ void World::State::carry(Body& body, const Body& carrier, double span) const {
 
 void World::State::move() {
     if (flights) {
-        flights->begin_step(bodies, forces, steps);
+        flights->begin_step(bodies, held_limits(), forces, steps);
         steps = flights->run(bodies, sleep, forces, steps + 1);
         flights->place(bodies, steps);
         place_kinematic_bodies();
@@ -236,8 +252,8 @@ void World::State::fall_asleep() {
 void World::State::check_finite() const {
     for (const Body& body : bodies) {
         if (!body.dynamic() || body.asleep) continue;
-        if (body.position.allFinite() && body.orientation.coeffs().allFinite() && body.momentum.allFinite() &&
-            body.angular_momentum.allFinite())
+        // One number that is none makes the sum none.
+        if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum()))
             continue;
         throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
                                    "a smaller step (steps_per_frame, now {}) may hold it",

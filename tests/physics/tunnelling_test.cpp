@@ -173,3 +173,49 @@ TEST(ThinWall, NobodyLeavesTheRoom) {
         }
     }
 }
+
+// Sliding on the ground, held by it, and yet stopped by the wall.
+TEST(ThinWall, SlidingBodiesAreStopped) {
+    for (const bool exact : {true, false})
+        for (const double thickness : {0.01, 0.001})
+            for (const double e : {0.0, 1.0})
+                for (const double rate : rates) {
+                    SceneDescription scene = ground_scene(0.0, 0.0, 1);
+                    set_step(scene, rate);
+                    add_fixed_box(scene, {thickness, 4.0, 4.0}, Vec3::Zero(), e);
+                    BodyDescription& box = add_box(scene, {0.1, 0.1, 0.1}, {-2.0, 0.05, 0.0});
+                    box.velocity = Vec3(100.0, 0.0, 0.0);
+                    if (exact) make_exact(scene);
+                    World world(scene);
+                    const double start = energy(world);
+                    for (int frame = 0; frame < std::max(4, int(0.04 * rate)); ++frame) {
+                        world.advance_frame();
+                        EXPECT_LE(energy(world), start * (1.0 + 1e-6));
+                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03) << exact << " " << thickness << " e " << e << " 1/" << rate;
+                    }
+                    // A box that the ground has turned by a hair strikes the wall edge by edge: part of its speed becomes spin.
+                    EXPECT_LE(world.snapshot().bodies[2].velocity.x(), -20.0 * e + 0.1) << exact << " " << thickness << " e " << e << " 1/" << rate;
+                }
+}
+
+// Coming down in the middle of a step, at full speed along the ground, right before the wall.
+TEST(ThinWall, LandingBodiesAreStopped) {
+    for (const bool exact : {true, false})
+        for (const double e : {0.0, 1.0})
+            for (const double rate : rates)
+                for (int i = 0; i < trials(8); ++i) {
+                    SceneDescription scene = ground_scene(0.0, 0.0, 1);
+                    set_step(scene, rate);
+                    add_fixed_box(scene, {0.01, 4.0, 4.0}, Vec3::Zero(), e);
+                    BodyDescription& body = add_projectile(scene, Projectile(i % 3), {-0.3 - 0.31 * i, 0.07, 0.0});
+                    body.restitution = 0.0;
+                    body.velocity = Vec3(100.0, -3.0, 0.0);
+                    if (exact) make_exact(scene);
+                    World world(scene);
+                    for (int frame = 0; frame < std::max(4, int(0.04 * rate)); ++frame) {
+                        world.advance_frame();
+                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03) << exact << " e " << e << " 1/" << rate << " " << i;
+                        ASSERT_GT(world.snapshot().bodies[2].center_of_mass.y(), 0.01) << exact << " e " << e << " 1/" << rate << " " << i;
+                    }
+                }
+}

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace tumble {
 namespace {
@@ -92,6 +93,12 @@ Traveller Flights::traveller(std::uint32_t i, const std::vector<Body>& bodies, c
 }
 
 void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+    show(i, bodies, now);
+    if (bodies[i].dynamic()) bodies[i].derive();
+}
+
+// The body's state and velocities, but not what only contacts need.
+void Flights::show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
     Body& body = bodies[i];
     if (!body.moves() || body.asleep) return;
     const Flier& f = fliers_[i];
@@ -101,17 +108,22 @@ void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& no
     body.orientation = motion.orientation;
     body.rotation = motion.rotation;
     if (!body.dynamic()) return;
-    if (body.flying) body.momentum = body.mass * motion.velocity;
-    if (f.driven) {
-        const double span = clock_.between(f.start, f.until);
-        body.angular_momentum = f.turn_from + (t / span) * (f.turn_to - f.turn_from);
+    if (!body.flying) {
+        body.derive();
+        return;
     }
+    body.velocity = motion.velocity;
+    body.momentum = body.mass * motion.velocity;
+    body.angular_velocity = motion.angular_velocity;
+    if (!f.driven) return;
+    const double span = clock_.between(f.start, f.until);
+    body.angular_momentum = f.turn_from + (t / span) * (f.turn_to - f.turn_from);
     body.derive();
 }
 
 void Flights::place(std::vector<Body>& bodies, std::int64_t step) const {
     for (const std::uint32_t i : movers_)
-        if (bodies[i].dynamic()) bring(i, bodies, {step, 0.0});
+        if (bodies[i].dynamic()) show(i, bodies, {step, 0.0});
 }
 
 bool Flights::stepping(const std::vector<Body>& bodies) const {
@@ -153,7 +165,17 @@ bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& 
     return any;
 }
 
-void Flights::begin_step(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+// What has to stop on its way goes slower: it ends where it would have stopped.
+Path Flights::held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const {
+    Vec3 velocity = limit.share * (body.velocity + body.push_velocity);
+    if (limit.carrier != StepLimit::none) {
+        const Body& carrier = bodies[limit.carrier];
+        velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
+    }
+    return Path::uniform(body, velocity, limit.share * (body.angular_velocity + body.push_angular_velocity));
+}
+
+void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step) {
     const Moment now{step, 0.0}, end{step + 1, 0.0};
     changed_.swap(taken_off_);
     taken_off_.clear();
@@ -167,7 +189,7 @@ void Flights::begin_step(std::vector<Body>& bodies, const ForceField& forces, st
             if (fliers_[i].path.still()) continue;
             start(i, Path::uniform(body, Vec3::Zero(), Vec3::Zero()), now, never);
         } else {
-            start(i, Path::uniform(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity), now, end);
+            start(i, held_path(body, limits[i], bodies), now, end);
         }
         changed_.push_back(i);
     }
@@ -377,11 +399,12 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         if (bodies[k].asleep) wake(k, bodies, sleep, now);
         changed_.push_back(k);
     }
+    landing_limits_ = nullptr;
     land(bodies, forces, now);
     for (const std::uint32_t k : changed_) {
         const Body& body = bodies[k];
         if (body.flying) fly(k, bodies, forces, now);
-        else start(k, Path::uniform(body, body.velocity, body.angular_velocity), now, end);
+        else start(k, held_path(body, landing_limits_ ? (*landing_limits_)[k] : StepLimit{}, bodies), now, end);
     }
     predict_changed(bodies, now);
 }
@@ -452,6 +475,28 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
     for (const std::uint32_t k : landed) changed_.push_back(k);
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    landing_limits_ = &landing_limits(landed, contacts, bodies, now);
+}
+
+// Held bodies meet what is fixed, and each other, by steps: those just landed in what is left of this one.
+const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
+                                                      std::vector<Body>& bodies, const Moment& now) {
+    std::vector<BroadPhase::Pair> pairs;
+    std::vector<StepMotion> motions(bodies.size());
+    for (const std::uint32_t k : landed) {
+        motions[k] = {bodies[k].velocity, bodies[k].angular_velocity};
+        for (const std::uint32_t other : neighbourhood_.fixed(k)) pairs.push_back({std::min(k, other), std::max(k, other)});
+        for (const std::uint32_t other : neighbourhood_.moving(k)) {
+            if (bodies[other].flying) continue;
+            bring(other, bodies, now);
+            motions[other] = {bodies[other].velocity, bodies[other].angular_velocity};
+            pairs.push_back({std::min(k, other), std::max(k, other)});
+        }
+    }
+    const auto ascending = [](const BroadPhase::Pair& l, const BroadPhase::Pair& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); };
+    std::sort(pairs.begin(), pairs.end(), ascending);
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), [](const auto& l, const auto& r) { return l.a == r.a && l.b == r.b; }), pairs.end());
+    return motion_limit_.limits(pairs, contacts, bodies, motions, clock_.between(now, {now.step + 1, 0.0}));
 }
 
 }  // namespace tumble

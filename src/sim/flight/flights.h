@@ -13,6 +13,7 @@
 #include "sim/flight/event_queue.h"
 #include "sim/flight/impact_cluster.h"
 #include "sim/flight/moment.h"
+#include "sim/flight/motion_limit.h"
 #include "sim/flight/neighbourhood.h"
 #include "sim/flight/path.h"
 #include "sim/flight/time_of_impact.h"
@@ -31,8 +32,9 @@ public:
     bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
     /// Whether something has to be stepped: a body in contact, a moving kinematic one, one under forces that change.
     bool stepping(const std::vector<Body>& bodies) const;
-    /// The ways of stepped and kinematic bodies through the step that begins, for their present velocities.
-    void begin_step(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
+    /// The ways of stepped and kinematic bodies through the step that begins. `limits`: how much of the step stepped ones may
+    /// go, for all bodies.
+    void begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step);
     /// All events up to the beginning of step `until`, or of the step after the first landing if that is earlier; returns
     /// which. Throws RunError when a frame holds more impacts than it can mean.
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
@@ -62,10 +64,14 @@ private:
     void start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until);
     void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     void bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const;
+    void show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const;
     void box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict_changed(const std::vector<Body>& bodies, const Moment& now);
     void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
+                                                 std::vector<Body>& bodies, const Moment& now);
+    Path held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const;
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
     bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now);
@@ -105,6 +111,8 @@ private:
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
+    MotionLimit motion_limit_;                   // of what has landed, to the end of its step
+    const std::vector<StepLimit>* landing_limits_ = nullptr;   // of the landing under way, by body
     std::int64_t impacts_ = 0, impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;              // of the run under way
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // whose paths are new
