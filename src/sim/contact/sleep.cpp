@@ -49,7 +49,7 @@ void SleepMonitor::observe(const std::vector<Island>& islands, const std::vector
             } else {
                 watch.still += h;
             }
-            still = still && watch.still >= tuning::sleep_time;
+            still = still && !body.flying && watch.still >= tuning::sleep_time;
         }
         if (!still) continue;
         for (const std::uint32_t k : island.contacts) {

@@ -134,27 +134,8 @@ bool Flights::stepping(const std::vector<Body>& bodies) const {
 }
 
 bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
-    // Held is what touches and neither parts faster than gravity could bring it back within a step or two, nor would
-    // part by itself; what overlaps is held too, to be pushed out.
-    const double release = settings_.gravity.norm() * h_;
     held_.assign(bodies.size(), false);
-    for (bool more = true; more;) {
-        more = false;
-        for (const Contact& c : contacts) {
-            const Body &a = bodies[c.a], &b = bodies[c.b];
-            if (!c.touching() || (held_[c.a] && held_[c.b])) continue;
-            const bool overlap = c.separation < -c.touch_distance;
-            if (!overlap) {
-                if (relative_velocity(c, a, b) > release) continue;
-                const bool a_stands = !a.dynamic() || a.asleep || held_[c.a], b_stands = !b.dynamic() || b.asleep || held_[c.b];
-                if (!(pressing_acceleration(c, a, b, settings_.gravity, a_stands, b_stands) < 0.0)) continue;
-            }
-            for (const std::uint32_t k : {c.a, c.b}) {
-                if (!bodies[k].dynamic() || held_[k]) continue;
-                held_[k] = more = true;
-            }
-        }
-    }
+    mark_held(contacts, bodies, settings_.gravity, settings_.gravity.norm() * h_, held_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || held_[i]) continue;
@@ -400,6 +381,7 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         changed_.push_back(k);
     }
     landing_limits_ = nullptr;
+    release_struck(bodies);
     land(bodies, forces, now);
     for (const std::uint32_t k : changed_) {
         const Body& body = bodies[k];
@@ -407,6 +389,18 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         else start(k, held_path(body, landing_limits_ ? (*landing_limits_)[k] : StepLimit{}, bodies), now, end);
     }
     predict_changed(bodies, now);
+}
+
+// Held bodies that the blow has freed fly from now on, not from the next step.
+void Flights::release_struck(std::vector<Body>& bodies) {
+    const auto& struck = cluster_.struck();
+    if (std::none_of(struck.begin(), struck.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
+    held_.resize(bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
+    for (const std::uint32_t k : struck) held_[k] = false;
+    mark_held(cluster_.contacts(), bodies, settings_.gravity, settings_.gravity.norm() * h_, held_);
+    for (const std::uint32_t k : struck)
+        if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
 }
 
 void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now) {

@@ -68,6 +68,7 @@ private:
     void box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict_changed(const std::vector<Body>& bodies, const Moment& now);
+    void release_struck(std::vector<Body>& bodies);
     void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
                                                  std::vector<Body>& bodies, const Moment& now);

@@ -40,6 +40,27 @@ double pressing_acceleration(const Contact& c, const Body& a, const Body& b, con
     return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + std::abs(turning));
 }
 
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double release,
+               std::vector<bool>& held) {
+    for (bool more = true; more;) {
+        more = false;
+        for (const Contact& c : contacts) {
+            const Body &a = bodies[c.a], &b = bodies[c.b];
+            if (!c.touching() || (held[c.a] && held[c.b])) continue;
+            const bool overlap = c.separation < -c.touch_distance;
+            if (!overlap) {
+                if (relative_velocity(c, a, b) > release) continue;
+                const bool a_stands = !a.dynamic() || a.asleep || held[c.a], b_stands = !b.dynamic() || b.asleep || held[c.b];
+                if (!(pressing_acceleration(c, a, b, gravity, a_stands, b_stands) < 0.0)) continue;
+            }
+            for (const std::uint32_t k : {c.a, c.b}) {
+                if (!bodies[k].dynamic() || held[k]) continue;
+                held[k] = more = true;
+            }
+        }
+    }
+}
+
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time) {
     if (acceleration >= 0.0) return false;
     return 2.0 * relative_velocity(c, a, b) < -acceleration * time;
