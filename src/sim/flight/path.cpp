@@ -8,6 +8,34 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+// Moments of inertia this far apart are worth the ends; below, the simple bounds are within a factor of a few.
+constexpr double bounded_by_ends = 3.0;
+
+// The largest |m_i| of a torque-free body's momentum m in principal axes: the ends of the polhode, where the sphere
+// |m| = G meets the ellipsoid sum m_i^2 / I_i = 2 T (van Zon and Schofield 2007). The axis the momentum circles about is
+// called 3, the middle one 2.
+Vec3 momentum_ends(const Vec3& inertia, const Vec3& m) {
+    int axis[3] = {0, 1, 2};
+    std::sort(axis, axis + 3, [&](int l, int r) { return inertia[l] < inertia[r]; });
+    const Vec3 s = m.cwiseAbs2();
+    const auto i = [&](int k) { return inertia[axis[k]]; };
+    // 2 T I_2 - G^2 without cancellation; positive: about the axis of the least moment.
+    const double d = s[axis[0]] * (i(1) - i(0)) / i(0) - s[axis[2]] * (i(2) - i(1)) / i(2);
+    if (d > 0.0) std::swap(axis[0], axis[2]);
+    const double d31 = std::abs(i(2) - i(0)), d32 = std::abs(i(2) - i(1)), d21 = std::abs(i(1) - i(0));
+    const double a = s[axis[0]] * d31 / i(0) + s[axis[1]] * d32 / i(1), b = s[axis[1]] * d21 / i(1) + s[axis[2]] * d31 / i(2);
+    const double square = m.squaredNorm();
+    const auto end = [&](double value) { return std::sqrt(value < square ? value : square); };   // also where it is 0 / 0
+    Vec3 ends;
+    ends[axis[0]] = end(i(0) * a / d31);
+    ends[axis[1]] = end(i(1) * a / d32);
+    ends[axis[2]] = end(i(2) * b / d31);
+    return ends;
+}
+
+}  // namespace
 
 Path Path::flight(const Body& body, const Vec3& acceleration) {
     Path path;
@@ -33,8 +61,15 @@ void Path::turn_freely(const Body& body) {
     const double square = body.angular_momentum.squaredNorm();
     const double twice_energy = body.angular_momentum.dot(body.angular_velocity);
     const double most = j.maxCoeff();
-    const double spin_square = std::min(twice_energy * most, square * most * most);
-    const Vec3 component = 0.5 * square * Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]));
+    double spin_square = std::min(twice_energy * most, square * most * most);
+    Vec3 component = 0.5 * square * Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]));
+    if (inertia.maxCoeff() > bounded_by_ends * inertia.minCoeff()) {
+        const Quat to_principal = (body.orientation * body.principal_axes).conjugate();
+        const Vec3 ends = momentum_ends(inertia, to_principal * body.angular_momentum);
+        spin_square = std::min(spin_square, ends.cwiseProduct(j).squaredNorm());
+        const Vec3 products(ends[1] * ends[2], ends[2] * ends[0], ends[0] * ends[1]);
+        component = component.cwiseMin(Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0])).cwiseProduct(products));
+    }
     const double angular = std::min(component.norm(), 1.1547005383792517 * component.maxCoeff());
     // Rounding must not take the bounds below the truth.
     spin_bound_ = std::sqrt(spin_square) * (1.0 + 1e-12);
