@@ -28,9 +28,10 @@ struct AccuracyCase {
     std::string name;
     Demand demand = Demand::impact;
     Scene scene;
-    double seconds = 10.0;        // simulated
-    double quick_seconds = 10.0;  // in the smoke test
-    std::vector<double> rates;    // steps a second
+    double seconds = 10.0;       // simulated
+    std::vector<double> rates;   // steps a second
+    double quick_seconds = 2.0;  // in the smoke test
+    std::vector<double> quick_rates{30.0, 240.0};
     std::function<std::unique_ptr<Observer>(const Scene&, double seconds)> observe;
     /// For step-free variants: what a grid of steps is too coarse to see.
     std::function<std::vector<Error>(const Scene&, const Variant&)> probe;

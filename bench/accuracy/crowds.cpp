@@ -82,6 +82,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     bouncing.demand = Demand::crowd;
     bouncing.seconds = bouncing.quick_seconds = 20.0;
     bouncing.rates = {10.0, 100.0, 1000.0, 10000.0};
+    bouncing.quick_rates = {10.0, 100.0};
     bouncing.observe = [](const Scene& s, double seconds) { return std::make_unique<MeanSquareObserver>(s, seconds); };
     cases.push_back(bouncing);
 
@@ -98,6 +99,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     elastic.demand = Demand::crowd;
     elastic.seconds = 10.0;
     elastic.quick_seconds = 0.6;
+    elastic.quick_rates = {60.0};
     elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};  // the last is what SimBenchmark publishes
     elastic.observe = bouncing.observe;
     cases.push_back(elastic);
@@ -121,6 +123,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     pit.demand = Demand::crowd;
     pit.seconds = 2.0;
     pit.quick_seconds = 0.25;
+    pit.quick_rates = {60.0};
     pit.rates = {60.0, 120.0, 240.0, 480.0, 960.0};
     pit.observe = [](const Scene& s, double) { return std::make_unique<RelativeObserver>(s); };
     cases.push_back(pit);

@@ -15,9 +15,12 @@ constexpr double patience = 6.0;
 
 struct Options {
     bool quick = false;
-    std::vector<std::string> cases;
+    std::vector<std::string> cases, variants;
     bool wants(const AccuracyCase& c) const {
         return cases.empty() || std::find(cases.begin(), cases.end(), c.name) != cases.end();
+    }
+    bool wants(const Variant& v) const {
+        return variants.empty() || std::find(variants.begin(), variants.end(), v.name) != variants.end();
     }
 };
 
@@ -37,9 +40,8 @@ void write_rows(const AccuracyCase& c, const std::string& program, const Variant
 void climb(const AccuracyCase& c, const std::string& program, const Variant& variant, bool quick) {
     const double seconds = quick ? c.quick_seconds : c.seconds;
     double spent = 0.0, last_rate = 0.0;
-    for (const double rate : c.rates) {
-        if (quick && rate > 240.0) break;
-        if (spent * rate / std::max(last_rate, 1.0) > patience) break;
+    for (const double rate : quick ? c.quick_rates : c.rates) {
+        if (!quick && spent * rate / std::max(last_rate, 1.0) > patience) break;
         const Measured m = measure(c, variant, rate, seconds, !quick);
         if (m.errors.empty()) return;
         write_rows(c, program, variant, rate, m);
@@ -59,20 +61,23 @@ int run_accuracy(int argc, char** argv, const std::string& program, const std::v
             options.quick = true;
         } else if (option == "--case" && i + 1 < argc) {
             options.cases.emplace_back(argv[++i]);
+        } else if (option == "--variant" && i + 1 < argc) {
+            options.variants.emplace_back(argv[++i]);
         } else if (option == "--header") {
             std::puts("case,program,variant,step,error,unit,cpu_seconds_per_simulated_second");
         } else if (option == "--list") {
             for (const AccuracyCase& c : cases) std::puts(c.name.c_str());
             return 0;
         } else {
-            std::fprintf(stderr, "usage: %s [--header] [--quick] [--case NAME]... | --list\n", argv[0]);
+            std::fprintf(stderr, "usage: %s [--header] [--quick] [--case NAME]... [--variant NAME]... | --list\n",
+                         argv[0]);
             return 2;
         }
     }
     for (const AccuracyCase& c : cases) {
         if (!options.wants(c)) continue;
         for (const Variant& variant : variants) {
-            if (!variant.meets(c.demand)) continue;
+            if (!variant.meets(c.demand) || !options.wants(variant)) continue;
             try {
                 climb(c, program, variant, options.quick);
             } catch (const std::exception& e) {  // a world that blew up: its row is missing, the others go on

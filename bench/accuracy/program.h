@@ -6,7 +6,8 @@
 
 namespace tumble::bench {
 
-/// Runs the cases and returns the exit code. Options: --case NAME (again for more), --quick, --list, --header.
+/// Runs the cases and returns the exit code. Options: --case NAME and --variant NAME (again for more), --quick, --list,
+/// --header.
 int run_accuracy(int argc, char** argv, const std::string& program, const std::vector<Variant>& variants);
 
 }  // namespace tumble::bench

@@ -36,6 +36,7 @@ AccuracyCase row(const std::string& name, Demand demand, const std::vector<Vecto
     }
     c.seconds = c.quick_seconds = 2.0;
     c.rates = {60.0, 240.0, 960.0};
+    c.quick_rates = {60.0};
     c.observe = [outcome](const Scene&, double seconds) { return std::make_unique<OutcomeObserver>(outcome, seconds); };
     return c;
 }
