@@ -77,8 +77,11 @@ inline constexpr double impact_elastic_work = 0.1;
 /// Rounds of friction and what it makes approach again: first with restitution, then without.
 inline constexpr int friction_bounces = 4;
 inline constexpr int friction_rounds = 12;
-/// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged.
+/// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged. Large
+/// clusters (heaps) get so many relaxations of a contact in all: every sweep lowers the energy, none has to be the last.
 inline constexpr int friction_sweeps = 200;
+inline constexpr int friction_work = 1000;
+inline constexpr int friction_least_sweeps = 4;
 inline constexpr double friction_tolerance = 1e-14;
 /// Newton steps to the edge of a friction disc: it converges quadratically, in 4 to 8 whatever the compliances.
 inline constexpr int friction_newton = 50;
@@ -119,8 +122,8 @@ inline constexpr double longest_box_way = 40.0;
 inline constexpr std::size_t few_neighbours = 6;
 inline constexpr double box_margin = 0.3;
 
-/// A way in a step longer than this part of the thinner body's inner radius is looked along (impacts = "stepped"):
-/// overlaps up to half of it are still pushed out of the right side.
+/// A way in a step longer than this part of both bodies' inner radii together is looked along (impacts = "stepped"): less
+/// than the whole of them is still pushed out of the right side.
 inline constexpr double fast_share = 0.5;
 /// What touches when the step begins may come to an overlap of the first part of it, or deeper by the second: the contact
 /// solver leaves small approaches, which must not hold fast bodies up.

@@ -214,3 +214,26 @@ TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
         }
     }
 }
+
+// A search leaves nothing behind for the next one: a ball over a sheet of triangles is found alike before and after others.
+TEST(TimeOfImpact, OneSearchDoesNotTouchTheNext) {
+    TriangleMesh mesh;
+    mesh.vertices = {{-5, 0, -5}, {5, 0, -5}, {5, 0, 5}, {-5, 0, 5}};
+    mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
+    Body sheet;
+    sheet.type = BodyType::fixed;
+    sheet.collider = std::make_shared<const TriangleSurface>(make_surface(mesh, Vec3::Zero()));
+    sheet.radius = bounding_radius(sheet.collider);
+    const Path still = Path::uniform(sheet, Vec3::Zero(), Vec3::Zero());
+    const Flying ball(free_ball(0.25, 1.0, {0.3, 0.25 + 1e-6, 0.2}, {0.0, 0.01, 0.0}));
+    const Flying fast(free_ball(0.25, 1.0, {0.3, 3.0, 0.2}, {0.0, -50.0, 3.0}));
+    const double exact = (0.01 + std::sqrt(1e-4 + 2.0 * 9.81 * 1e-6)) / 9.81;
+    ImpactSearch search;
+    for (int turn = 0; turn < 2; ++turn) {
+        const TimeOfImpact found = search.find(ball.traveller(), {&sheet, &still, 0.0}, 1.0);
+        ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+        EXPECT_NEAR(found.time, exact, 1e-12);
+        const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 5.0, 0.0}, {0.0, -50.0, 0.0}, Quat::Identity(), {3.0, 7.0, 2.0}));
+        search.find(box.traveller(), fast.traveller(), 1.0);
+    }
+}

@@ -78,7 +78,9 @@ double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
 
 bool ImpactFriction::apply(ContactCluster& cluster) {
     double most = 0.0;
-    for (int sweep = 0; sweep < tuning::friction_sweeps; ++sweep) {
+    const int sweeps = std::clamp(tuning::friction_work / std::max(1, int(blocks_.size())), tuning::friction_least_sweeps,
+                                  tuning::friction_sweeps);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0.0;
         for (Block& block : blocks_) change = std::max(change, relax(cluster, block));
         most = std::max(most, change);

@@ -19,8 +19,14 @@ double depth(const Body& body) {
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 
-double way(const Body& body, const StepMotion& motion, double h) {
-    return body.moves() && !body.asleep ? h * (motion.velocity.norm() + motion.angular_velocity.norm() * body.radius) : 0.0;
+bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
+
+// How far the bodies' points can move against each other in the step; of a ball only the centre counts.
+double way(const Body& a, const Body& b, const StepMotion& of_a, const StepMotion& of_b, double h) {
+    const auto turning = [](const Body& body, const StepMotion& motion) {
+        return ball(body) ? 0.0 : motion.angular_velocity.norm() * body.radius;
+    };
+    return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
 }
 
 }  // namespace
@@ -48,8 +54,9 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     for (const BroadPhase::Pair& pair : pairs) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
-        const double thin = tuning::fast_share * std::min(depth(a), depth(b));
-        if (way(a, motions[pair.a], h) + way(b, motions[pair.b], h) <= thin) continue;
+        // Pushed out of the right side is what is in by less than both inner radii together.
+        const double thin = tuning::fast_share * (surface(a) ? depth(b) : surface(b) ? depth(a) : depth(a) + depth(b));
+        if (way(a, b, motions[pair.a], motions[pair.b], h) <= thin) continue;
         FastPair fast{pair.a, pair.b, 0.0};
         bool touching = false;
         double deepest = 0.0;

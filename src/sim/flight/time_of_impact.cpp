@@ -177,6 +177,9 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         if (pair.surface) {
             const auto& corners = pair.surface->triangles[pair.triangle].vertices;
             a_.center = motion_a.to_world(pair.surface->vertices[corners[0]]);
+            a_.velocity.setZero();   // surfaces are fixed
+            a_.acceleration.setZero();
+            a_.angular_velocity.setZero();
             a_.arms.resize(3);
             a_.reach = 0.0;
             for (std::size_t i = 0; i < 3; ++i) {
