@@ -80,9 +80,12 @@ inline constexpr int friction_rounds = 12;
 /// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged. Large
 /// clusters (heaps) get so many relaxations of a contact in all: every sweep lowers the energy, none has to be the last.
 inline constexpr int friction_sweeps = 200;
-inline constexpr int friction_work = 1000;
-inline constexpr int friction_least_sweeps = 4;
+inline constexpr int friction_work = 400;
+inline constexpr int friction_least_sweeps = 2;
 inline constexpr double friction_tolerance = 1e-14;
+/// Contacts with friction up to which the last digits are sought; beyond, the second tolerance holds.
+inline constexpr std::size_t friction_few = 8;
+inline constexpr double friction_tolerance_many = 1e-6;
 /// Newton steps to the edge of a friction disc: it converges quadratically, in 4 to 8 whatever the compliances.
 inline constexpr int friction_newton = 50;
 

@@ -11,13 +11,14 @@ namespace {
 // Minimises k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
 // with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
 // "Computing a trust region step").
-std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius) {
+std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius,
+                                        double tolerance) {
     double f0 = -g0 / k0, f1 = -g1 / k1;
     double length = std::sqrt(f0 * f0 + f1 * f1);
     if (length <= radius) return {f0, f1};
     if (!(radius > 0.0)) return {0.0, 0.0};
     double nu = 0.0;
-    for (int i = 0; i < tuning::friction_newton && length - radius > tuning::friction_tolerance * radius; ++i) {
+    for (int i = 0; i < tuning::friction_newton && length - radius > tolerance * radius; ++i) {
         const double slope = f0 * f0 / (k0 + nu) + f1 * f1 / (k1 + nu);
         nu += length * length / slope * (length - radius) / radius;
         f0 = -g0 / (k0 + nu);
@@ -60,6 +61,10 @@ ImpactFriction::ImpactFriction(const ContactCluster& cluster) {
     }
 }
 
+double ImpactFriction::tolerance() const {
+    return blocks_.size() <= tuning::friction_few ? tuning::friction_tolerance : tuning::friction_tolerance_many;
+}
+
 // Returns the change of speed made, m/s.
 double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
     const double radius = cluster.contact(block.contact).friction * cluster.impulse(block.contact);
@@ -67,7 +72,7 @@ double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
     const double k0 = block.first_compliance, k1 = block.second_compliance;
     const double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
     const double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
-    const auto [f0, f1] = least_in_disc(k0, k1, slip0 - k0 * block.f0, slip1 - k1 * block.f1, radius);
+    const auto [f0, f1] = least_in_disc(k0, k1, slip0 - k0 * block.f0, slip1 - k1 * block.f1, radius, tolerance());
     const double step0 = f0 - block.f0, step1 = f1 - block.f1;
     cluster.push_along(block.first_row, step0);
     cluster.push_along(block.second_row, step1);
@@ -78,13 +83,14 @@ double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
 
 bool ImpactFriction::apply(ContactCluster& cluster) {
     double most = 0.0;
-    const int sweeps = std::clamp(tuning::friction_work / std::max(1, int(blocks_.size())), tuning::friction_least_sweeps,
-                                  tuning::friction_sweeps);
+    const int sweeps = blocks_.size() <= tuning::friction_few
+                           ? tuning::friction_sweeps
+                           : std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0.0;
         for (Block& block : blocks_) change = std::max(change, relax(cluster, block));
         most = std::max(most, change);
-        if (blocks_.size() < 2 || change <= tuning::friction_tolerance * most) break;
+        if (blocks_.size() < 2 || change <= tolerance() * most) break;
     }
     return most > cluster.rounding();
 }

@@ -25,6 +25,7 @@ public:
     void store(const ContactCluster& cluster, std::vector<Contact>& contacts) const;
 
 private:
+    double tolerance() const;
     struct Block {
         std::size_t contact;             // of the cluster
         Vec3 first, second;              // principal directions of the compliance across the normal
