@@ -102,8 +102,8 @@ TEST(SceneErrors, OfTheSimulation) {
         {"format = 1\n[simulation]\ngravity = [0, @inf, 0]", "gravity must be a finite number"},
         {"format = 1\n[simulation]\ngravity = [0, @\"g\", 0]", "gravity must be a number (given \"g\")"},
         {"format = 1\n[simulation]\nintegrator = @\"verlet\"",
-         "integrator must be one of \"symplectic-euler\", \"explicit-euler\", \"splitting\", "
-         "\"rk4\", \"exact\" (given \"verlet\")"},
+         "integrator must be one of \"symplectic-euler\", \"explicit-euler\", \"exact\", \"splitting\", "
+         "\"rk4\" (given \"verlet\")"},
         {"format = 1\n[simulation]\nimpacts = @\"continuous\"", "impacts must be one of \"stepped\", \"exact\" (given \"continuous\")"},
         {"format = 1\n[simulation]\nimpact_law = @\"newton\"",
          "impact_law must be one of \"propagating\", \"simultaneous\" (given \"newton\")"},
