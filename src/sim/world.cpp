@@ -184,8 +184,9 @@ const std::vector<StepMotion>& World::State::step_motions() {
     motions.assign(bodies.size(), {});
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        if (body.asleep || !body.moves()) continue;
-        const bool before = body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
+        if (body.asleep || body.flying || !body.moves()) continue;
+        // Between exact flights all held bodies move by the velocities they are solved for.
+        const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocity[i] : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = (before ? old_angular_velocity[i] : body.angular_velocity) + body.push_angular_velocity;
     }
@@ -197,13 +198,7 @@ const std::vector<StepMotion>& World::State::step_motions() {
 const std::vector<StepLimit>& World::State::held_limits() {
     pairs = broad_phase.update(bodies, h);
     std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
-    motions.assign(bodies.size(), {});
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const Body& body = bodies[i];
-        if (!body.moves() || body.asleep || body.flying) continue;
-        motions[i] = {body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity};
-    }
-    return motion_limit.limits(pairs, contacts, bodies, motions, h);
+    return motion_limit.limits(pairs, contacts, bodies, step_motions(), h);
 }
 
 // What a kinematic body has run into goes along with it for the rest of the step.

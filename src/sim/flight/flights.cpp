@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace tumble {
 namespace {
@@ -20,6 +19,12 @@ namespace {
 constexpr Moment never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
 
 bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asleep; }
+
+template <class T>
+void sort_unique(std::vector<T>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
 }  // namespace
 
@@ -94,7 +99,7 @@ Traveller Flights::traveller(std::uint32_t i, const std::vector<Body>& bodies, c
 
 void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
     show(i, bodies, now);
-    if (bodies[i].dynamic()) bodies[i].derive();
+    if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();   // the others are derived already
 }
 
 // The body's state and velocities, but not what only contacts need.
@@ -178,8 +183,7 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>
 }
 
 void Flights::predict_changed(const std::vector<Body>& bodies, const Moment& now) {
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    sort_unique(changed_);
     for (const std::uint32_t i : changed_) box(i, bodies, now);
     for (const std::uint32_t i : changed_) predict(i, bodies, now);
     changed_.clear();
@@ -289,7 +293,6 @@ void Flights::count_impact(std::uint32_t i, const std::vector<Body>& bodies, con
         frame_ = frame;
         impacts_in_frame_ = 0;
     }
-    ++impacts_;
     const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
     if (++impacts_in_frame_ > limit)
         throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
@@ -380,13 +383,12 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         if (bodies[k].asleep) wake(k, bodies, sleep, now);
         changed_.push_back(k);
     }
-    landing_limits_ = nullptr;
     release_struck(bodies);
-    land(bodies, forces, now);
+    const std::vector<StepLimit>* limits = land(bodies, forces, now);
     for (const std::uint32_t k : changed_) {
         const Body& body = bodies[k];
         if (body.flying) fly(k, bodies, forces, now);
-        else start(k, held_path(body, landing_limits_ ? (*landing_limits_)[k] : StepLimit{}, bodies), now, end);
+        else start(k, held_path(body, limits ? (*limits)[k] : StepLimit{}, bodies), now, end);
     }
     predict_changed(bodies, now);
 }
@@ -414,7 +416,7 @@ void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sle
 }
 
 // What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
-void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
     std::vector<std::uint32_t> landed;
     for (bool more = true; more;) {
         more = false;
@@ -434,10 +436,10 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
             more = true;
         }
     }
-    if (landed.empty()) return;
+    if (landed.empty()) return nullptr;
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
-    if (!(rest > 0.0)) return;
+    if (!(rest > 0.0)) return nullptr;
     for (const std::uint32_t k : landed) {
         Body& body = bodies[k];
         const Wrench wrench = forces.at(k, body, clock_.seconds(now));
@@ -455,8 +457,7 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
         for (const std::uint32_t k : {c.a, c.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) island.bodies.push_back(k);
     }
-    std::sort(island.bodies.begin(), island.bodies.end());
-    island.bodies.erase(std::unique(island.bodies.begin(), island.bodies.end()), island.bodies.end());
+    sort_unique(island.bodies);
     const double gravity_step = settings_.gravity.norm() * rest;
     solve_rest(island, contacts, bodies, {rest, 0.0, std::max(tuning::solver_floor, tuning::solver_tolerance * gravity_step)});
     for (const Contact& c : contacts) add_impulse(c, c.impulse * c.normal + c.friction_impulse, bodies[c.a], bodies[c.b]);
@@ -467,9 +468,8 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
         changed_.push_back(k);
     }
     for (const std::uint32_t k : landed) changed_.push_back(k);
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-    landing_limits_ = &landing_limits(landed, contacts, bodies, now);
+    sort_unique(changed_);
+    return &landing_limits(landed, contacts, bodies, now);
 }
 
 // Held bodies meet what is fixed, and each other, by steps: those just landed in what is left of this one.
@@ -487,9 +487,7 @@ const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uin
             pairs.push_back({std::min(k, other), std::max(k, other)});
         }
     }
-    const auto ascending = [](const BroadPhase::Pair& l, const BroadPhase::Pair& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); };
-    std::sort(pairs.begin(), pairs.end(), ascending);
-    pairs.erase(std::unique(pairs.begin(), pairs.end(), [](const auto& l, const auto& r) { return l.a == r.a && l.b == r.b; }), pairs.end());
+    sort_unique(pairs);
     return motion_limit_.limits(pairs, contacts, bodies, motions, clock_.between(now, {now.step + 1, 0.0}));
 }
 

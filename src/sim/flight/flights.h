@@ -41,8 +41,6 @@ public:
     /// Brings all moving bodies to where they are at the beginning of a step.
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 
-    std::int64_t impacts() const { return impacts_; }   // so far
-
 private:
     struct Flier {
         Path path;
@@ -69,7 +67,8 @@ private:
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict_changed(const std::vector<Body>& bodies, const Moment& now);
     void release_struck(std::vector<Body>& bodies);
-    void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    /// How far what has landed may move in the rest of the step; null if nothing landed.
+    const std::vector<StepLimit>* land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
                                                  std::vector<Body>& bodies, const Moment& now);
     Path held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const;
@@ -113,8 +112,7 @@ private:
     ImpactSearch search_;
     ImpactCluster cluster_;
     MotionLimit motion_limit_;                   // of what has landed, to the end of its step
-    const std::vector<StepLimit>* landing_limits_ = nullptr;   // of the landing under way, by body
-    std::int64_t impacts_ = 0, impacts_in_frame_ = 0, frame_ = 0;
+    std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;              // of the run under way
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // whose paths are new
     std::vector<bool> held_;

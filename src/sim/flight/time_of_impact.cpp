@@ -171,7 +171,6 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
     double t = from;
     for (int round = 0; round < tuning::impact_evaluations; ++round) {
         if (!(t < horizon)) return {};
-        ++evaluations_;
         const Motion motion_a = motion_of(pair.a, t), motion_b = motion_of(pair.b, t);
         pose(b_, pair.b, t, motion_b);
         if (pair.surface) {

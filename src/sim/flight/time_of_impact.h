@@ -36,8 +36,6 @@ public:
     /// `overlap` (m): so deep they may come into each other before it counts (not for two balls, nor a ball and a plane).
     TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, double overlap = 0.0);
 
-    std::int64_t evaluations() const { return evaluations_; }   // of poses, in all searches so far
-
 private:
     struct Pair;
     TimeOfImpact search(const Pair& pair, double from, double horizon);
@@ -51,7 +49,6 @@ private:
     CollisionScratch scratch_;
     std::vector<Manifold> manifolds_;
     std::vector<std::uint32_t> candidates_;   // triangles
-    std::int64_t evaluations_ = 0;
 };
 
 }  // namespace tumble
