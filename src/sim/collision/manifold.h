@@ -13,6 +13,7 @@ struct ContactPoint {
     Vec3 position = Vec3::Zero();   // world, halfway between the two surfaces
     double separation = 0.0;        // m along the normal; negative: overlap
     std::uint64_t feature = 0;      // the features that meet (vertex and face, edge and edge); the same from step to step
+    double impulse = 0.0;           // N s along the normal: the last step's, then this step's
 };
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
@@ -24,6 +25,12 @@ struct Manifold {
     Vec3 normal = Vec3::Zero();
     int count = 0;
     std::array<ContactPoint, capacity> points;
+
+    // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a twist about the normal.
+    // Carried from step to step; the tangent goes along with A so that what friction holds keeps its direction.
+    Vec3 tangent = Vec3::Zero();          // unit, A's frame; zero before the first solve
+    double friction[2] = {0.0, 0.0};      // N s on B
+    double twist = 0.0;                   // N m s on B
 };
 
 /// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and the three that
