@@ -3,21 +3,39 @@
 #include <algorithm>
 
 namespace tumble {
+namespace {
+
+// Looks of a waiting thread before it goes to sleep: some 30 microseconds.
+constexpr int patience = 1000;
+
+template <class Ready>
+bool look_for(Ready&& ready) {
+    for (int looked = 0; looked < patience; ++looked) {
+        if (ready()) return true;
+        __builtin_ia32_pause();
+    }
+    return false;
+}
+
+}  // namespace
 
 ThreadPool::ThreadPool(int threads) {
     for (int i = 1; i < threads; ++i)
         workers_.emplace_back([this, i] {
             std::size_t seen = 0;
             while (true) {
-                {
+                const auto called = [&] { return stop_ || round_ != seen; };
+                if (!look_for(called)) {
                     std::unique_lock lock(mutex_);
-                    start_.wait(lock, [&] { return stop_ || round_ != seen; });
-                    if (stop_) return;
-                    seen = round_;
+                    start_.wait(lock, called);
                 }
+                if (stop_) return;
+                seen = round_;
                 work(std::size_t(i));
-                const std::lock_guard lock(mutex_);
-                if (--running_ == 0) done_.notify_one();
+                if (running_.fetch_sub(1) == 1) {
+                    const std::lock_guard lock(mutex_);   // the caller is either before its look or asleep
+                    done_.notify_one();
+                }
             }
         });
 }
@@ -28,24 +46,48 @@ ThreadPool::~ThreadPool() {
         stop_ = true;
     }
     start_.notify_all();
+    workers_.clear();   // joins them, before what they use is gone
+}
+
+void ThreadPool::call(std::size_t item, std::size_t thread) {
+    try {
+        (*body_)(item, thread);
+    } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!error_ || item < error_item_) {
+            error_ = std::current_exception();
+            error_item_ = item;
+        }
+    }
 }
 
 void ThreadPool::work(std::size_t thread) {
+    if (one_each_) return call(thread, thread);
     while (true) {
         const std::size_t first = next_.fetch_add(chunk_);
         if (first >= count_) return;
-        for (std::size_t item = first; item < std::min(first + chunk_, count_); ++item) {
-            try {
-                (*body_)(item, thread);
-            } catch (...) {
-                const std::lock_guard lock(mutex_);
-                if (!error_ || item < error_item_) {
-                    error_ = std::current_exception();
-                    error_item_ = item;
-                }
-            }
-        }
+        for (std::size_t item = first; item < std::min(first + chunk_, count_); ++item) call(item, thread);
     }
+}
+
+void ThreadPool::start() {
+    next_ = 0;
+    running_ = workers_.size();
+    error_ = nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        ++round_;
+    }
+    start_.notify_all();
+}
+
+void ThreadPool::wait_for_workers() {
+    const auto done = [&] { return running_ == 0; };
+    if (!look_for(done)) {
+        std::unique_lock lock(mutex_);
+        done_.wait(lock, done);
+    }
+    if (error_) std::rethrow_exception(error_);
 }
 
 void ThreadPool::for_each(std::size_t count, std::size_t grain,
@@ -54,21 +96,22 @@ void ThreadPool::for_each(std::size_t count, std::size_t grain,
         for (std::size_t i = 0; i < count; ++i) body(i, 0);
         return;
     }
-    {
-        const std::lock_guard lock(mutex_);
-        body_ = &body;
-        count_ = count;
-        chunk_ = std::max<std::size_t>(1, count / (8 * std::size_t(size())));
-        next_ = 0;
-        running_ = workers_.size();
-        error_ = nullptr;
-        ++round_;
-    }
-    start_.notify_all();
+    body_ = &body;
+    one_each_ = false;
+    count_ = count;
+    chunk_ = std::max<std::size_t>(1, count / (8 * std::size_t(size())));
+    start();
     work(0);
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, [&] { return running_ == 0; });
-    if (error_) std::rethrow_exception(error_);
+    wait_for_workers();
+}
+
+void ThreadPool::together(const std::function<void(std::size_t)>& body) {
+    const std::function<void(std::size_t, std::size_t)> each = [&](std::size_t, std::size_t thread) { body(thread); };
+    body_ = &each;
+    one_each_ = true;
+    start();
+    work(0);
+    wait_for_workers();
 }
 
 }  // namespace tumble

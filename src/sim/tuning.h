@@ -22,6 +22,44 @@ inline constexpr double fat_steps = 8.0;
 /// twice that is told apart from it.
 inline constexpr double restitution_threshold = 2.0;
 
+/// The soft contact solver's substep, s: 8 in a step of 1/60 s hold a heap of a thousand boxes with overlaps below a
+/// thousandth of their size; steps shorter than this need none.
+inline constexpr double soft_substep = 1.0 / 480.0;
+inline constexpr int soft_most_substeps = 64;
+/// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
+/// overshoots, softer sinks in; less damping lets small boxes of a pyramid tremble.
+inline constexpr double soft_frequency = 0.25;
+inline constexpr double soft_damping = 5.0;
+/// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
+inline constexpr double soft_slop = 1e-4;
+/// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
+inline constexpr double friction_near = 2e-3;
+inline constexpr double friction_far_weight = 0.01;
+/// Manifolds from which on several threads share one island: below, meeting at every colour costs more.
+inline constexpr std::size_t soft_team_manifolds = 500;
+
+/// The direct contact solver's compliance of normal contact, over the island's mass: small enough for a few rounds, large
+/// enough for masses of 1 : 1e6 in double precision. Friction is as stiff, or, where Newton's method stalls on the edges of
+/// the discs, softer by a factor.
+inline constexpr double direct_compliance = 1e-3;
+inline constexpr double direct_friction_stiff = 1.0;
+inline constexpr double direct_friction_soft = 1e4;
+/// Convergence of its Newton steps and of its rounds, relative to the step's own change of velocity and to the impulses.
+inline constexpr double direct_tolerance = 1e-9;
+inline constexpr double direct_round_tolerance = 1e-4;
+inline constexpr int direct_newton_steps = 12;
+inline constexpr int direct_rounds = 12;
+inline constexpr int direct_line_search = 25;
+/// A contact this near to closing or opening (of the speed scale) counts as closed in the second derivatives.
+inline constexpr double direct_tie = 1e-10;
+/// Friction may pass its cone by this factor while its limit still follows the load.
+inline constexpr double direct_cone = 1.05;
+/// Overlaps below this part of the smaller radius are not pushed out: under a micrometre for metre-sized bodies.
+inline constexpr double direct_slop = 1e-6;
+/// Compliance of its push-out, over the island's mass, and how stiff it is across the normals against that.
+inline constexpr double direct_push_compliance = 1e-2;
+inline constexpr double direct_push_across = 0.03;
+
 /// Sweeps of the contact solver in a step: few are needed with last step's impulses to start from.
 inline constexpr int solver_sweeps = 50;
 /// A sweep that changes no velocity by more than this part of |g| h ends the solve: 1e-4 of what gravity adds in a step.

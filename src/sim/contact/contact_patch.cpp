@@ -1,0 +1,73 @@
+#include "sim/contact/contact_patch.h"
+
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The direction that friction was kept in, as A has turned since; any one across the normal before the first step.
+Vec3 tangent_of(const Manifold& m, const Body& a) {
+    Vec3 t = a.rotation * m.tangent;
+    t -= m.normal.dot(t) * m.normal;
+    const double square = t.squaredNorm();
+    if (square > 0.25) return t / std::sqrt(square);
+    // The axis the normal looks along least.
+    t = std::abs(m.normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+    return (t - m.normal.dot(t) * m.normal).normalized();
+}
+
+}  // namespace
+
+void release(Manifold& manifold) {
+    for (ContactPoint& p : manifold.points) p.impulse = 0.0;
+    manifold.friction[0] = manifold.friction[1] = manifold.twist = 0.0;
+}
+
+double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
+double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
+
+ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const PatchSettings& settings) {
+    ContactPatch patch;
+    patch.size = std::min(a.radius, b.radius);
+    const double touch = tuning::touch * patch.size, bounce_e = pair_restitution(a, b);
+    const double near = tuning::friction_near * patch.size;
+    Vec3 center = Vec3::Zero();   // from A's
+    double weights = 0.0;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& from = m.points[std::size_t(i)];
+        const Vec3 arm_a = from.position - a.position, arm_b = from.position - b.position;
+        if (bounce_e > 0.0 && from.bounce == 0.0 && from.separation > touch) {
+            // It will bounce: stopping it at the surface would take the speed it must come back with.
+            const double v = m.normal.dot(b.point_velocity(arm_b) - a.point_velocity(arm_a));
+            if (-v > settings.bounce_threshold) continue;
+        }
+        ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
+        to.arm_a = arm_a;
+        to.arm_b = arm_b;
+        to.separation = from.separation;
+        to.impulse = from.impulse;
+        to.bounce = from.bounce;
+        to.source = i;
+        patch.impact += from.impact;
+        const double weight = from.separation < near ? 1.0 : tuning::friction_far_weight;
+        center += weight * arm_a;
+        weights += weight;
+    }
+    if (patch.count == 0) return patch;
+    patch.normal = m.normal;
+    patch.tangent_1 = tangent_of(m, a);
+    patch.tangent_2 = patch.normal.cross(patch.tangent_1);
+    patch.friction = pair_friction(a, b);
+    patch.friction_arm_a = center / weights;
+    patch.friction_arm_b = patch.friction_arm_a + (a.position - b.position);
+    for (int i = 0; i < patch.count; ++i) {
+        ContactPatch::Point& p = patch.points[std::size_t(i)];
+        p.lever = (p.arm_a - patch.friction_arm_a).norm();
+    }
+    return patch;
+}
+
+}  // namespace tumble

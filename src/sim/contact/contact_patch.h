@@ -1,0 +1,47 @@
+// A manifold as the contact solvers see it: arms from the bodies' centres, one place where friction acts, and what the
+// pair's materials say. Built anew each step; the impulses stay with the manifold.
+#pragma once
+
+#include "sim/body.h"
+#include "sim/collision/manifold.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tumble {
+
+struct ContactPatch {
+    struct Point {
+        Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();   // r = p - x, world
+        double separation = 0.0;    // m
+        double lever = 0.0;         // m, from where friction acts
+        double impulse = 0.0;       // N s, last step's
+        double bounce = 0.0;        // m/s, least v_rel after a collision; 0 without one
+        int source = 0;             // its place in the manifold
+    };
+    int count = 0;
+    Vec3 normal = Vec3::Zero(), tangent_1 = Vec3::Zero(), tangent_2 = Vec3::Zero();   // tangent_2 = normal x tangent_1
+    Vec3 friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
+    double friction = 0.0;          // mu
+    double impact = 0.0;            // N s, normal impulses of a collision resolved in this step: friction may use them
+    double size = 0.0;              // m, the smaller body's radius: what tolerances are parts of
+    std::array<Point, Manifold::capacity> points;
+};
+
+/// How contact ends a step.
+struct PatchSettings {
+    double h;                   // s
+    double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide
+};
+
+/// Returns a patch without points when there is nothing to hold.
+ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const PatchSettings& settings);
+
+/// Forgets the impulses of the step before.
+void release(Manifold& manifold);
+
+/// Materials of a pair: the larger restitution, the geometric mean of the frictions.
+double pair_restitution(const Body& a, const Body& b);
+double pair_friction(const Body& a, const Body& b);
+
+}  // namespace tumble

@@ -1,0 +1,489 @@
+#include "sim/contact/direct_solver.h"
+
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
+    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
+    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : -1;
+}
+
+void put(double* six, const Vec3& linear, const Vec3& angular) {
+    for (int k = 0; k < 3; ++k) {
+        six[k] = linear[k];
+        six[3 + k] = angular[k];
+    }
+}
+
+Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) { return Eigen::Map<Vec3>(numbers.data() + from); }
+Eigen::Map<const Vec3> three(const std::vector<double>& numbers, std::size_t from) {
+    return Eigen::Map<const Vec3>(numbers.data() + from);
+}
+
+void add_outer(BlockCholesky::Block& block, const double* left, const BlockCholesky::Row& right) {
+    for (int k = 0; k < 6; ++k) block.row[k] += left[k] * right;
+}
+
+}  // namespace
+
+void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
+    const std::size_t n = bodies.size();
+    masses_.resize(n);
+    for (auto* v : {&free_, &velocity_, &step_, &gradient_, &scratch_, &push_}) v->assign(6 * n, 0.0);
+    length_ = total_mass_ = speed_scale_ = 0.0;
+    for (const std::uint32_t i : bodies) length_ += problem.bodies[i].radius / double(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Body& body = problem.bodies[bodies[k]];
+        total_mass_ += body.mass;
+        masses_[k].mass = body.mass;
+        masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
+        masses_[k].inverse_inertia = body.inverse_inertia * (length_ * length_);
+        put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
+        speed_scale_ = std::max(speed_scale_, (body.velocity - problem.velocity_before[bodies[k]]).norm());
+    }
+}
+
+// n . (velocity of B's point - that of A's), over the velocities and length * angular velocities.
+void DirectSolver::set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a,
+                           const Body& b) const {
+    if (patch.a != none) put(row.on_a, -direction, -arm_a.cross(direction) / length_);
+    else if (a.moves()) row.offset -= direction.dot(a.point_velocity(arm_a));
+    if (patch.b != none) put(row.on_b, direction, arm_b.cross(direction) / length_);
+    else if (b.moves()) row.offset += direction.dot(b.point_velocity(arm_b));
+}
+
+void DirectSolver::set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b) const {
+    if (patch.a != none) put(row.on_a, Vec3::Zero(), -normal / length_);
+    else if (a.moves()) row.offset -= normal.dot(a.angular_velocity);
+    if (patch.b != none) put(row.on_b, Vec3::Zero(), normal / length_);
+    else if (b.moves()) row.offset += normal.dot(b.angular_velocity);
+}
+
+void DirectSolver::load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                std::span<const std::uint32_t> manifolds) {
+    patches_.clear();
+    driven_ = false;
+    const double h = problem.patches.h;
+    for (const std::uint32_t k : manifolds) {
+        const Manifold& m = problem.manifolds[k];
+        const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        Patch patch;
+        patch.geometry = make_patch(m, a, b, problem.patches);
+        const ContactPatch& geometry = patch.geometry;
+        if (geometry.count == 0) continue;
+        patch.a = place_of(bodies, m.a);
+        patch.b = place_of(bodies, m.b);
+        patch.count = geometry.count;
+        patch.manifold = k;
+        patch.coefficient = geometry.friction;
+        patch.impact = geometry.impact;
+        patch.size = geometry.size;
+        driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves());
+        for (int i = 0; i < patch.count; ++i) {
+            const ContactPatch::Point& p = geometry.points[std::size_t(i)];
+            Row& row = patch.normal[i];
+            set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b);
+            row.estimate = p.impulse;
+            row.target = p.bounce > 0.0 ? p.bounce : std::min(0.0, -p.separation / h);
+            driven_ = driven_ || p.bounce > 0.0;
+            patch.lever[i] = p.lever;
+            patch.overlap[i] = -p.separation;
+            speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
+        }
+        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b);
+        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b);
+        set_twist(patch.twist, geometry.normal, patch, a, b);
+        patch.friction[0].estimate = m.friction[0];
+        patch.friction[1].estimate = m.friction[1];
+        patch.twist.estimate = m.twist;
+        patches_.push_back(patch);
+    }
+}
+
+// The graph: pairs of dynamic bodies in the manifolds' order.
+void DirectSolver::structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                             std::span<const std::uint32_t> manifolds) {
+    pairs_.clear();
+    for (const std::uint32_t k : manifolds) {
+        const Manifold& m = problem.manifolds[k];
+        const int a = place_of(bodies, m.a), b = place_of(bodies, m.b);
+        if (a != none && b != none) pairs_.push_back({std::uint32_t(a), std::uint32_t(b)});
+    }
+    matrix_.analyse(bodies.size(), pairs_);
+}
+
+std::size_t DirectSolver::factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                      std::span<const std::uint32_t> manifolds) {
+    structure(problem, bodies, manifolds);
+    return matrix_.work();
+}
+
+double DirectSolver::dot(const Patch& patch, const Row& row, const std::vector<double>& u) const {
+    double sum = 0.0;
+    if (patch.a != none)
+        for (int k = 0; k < 6; ++k) sum += row.on_a[k] * u[std::size_t(6 * patch.a + k)];
+    if (patch.b != none)
+        for (int k = 0; k < 6; ++k) sum += row.on_b[k] * u[std::size_t(6 * patch.b + k)];
+    return sum;
+}
+
+void DirectSolver::add(const Patch& patch, const Row& row, double amount, std::vector<double>& to) const {
+    if (patch.a != none)
+        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.a + k)] += amount * row.on_a[k];
+    if (patch.b != none)
+        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.b + k)] += amount * row.on_b[k];
+}
+
+void DirectSolver::mass_times(const std::vector<double>& u, std::vector<double>& result) const {
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+        const Vec3 linear = three(u, 6 * i), angular = three(u, 6 * i + 3);
+        three(result, 6 * i) = masses_[i].mass * linear;
+        three(result, 6 * i + 3) = masses_[i].inertia * angular;
+    }
+}
+
+double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+        const Vec3 linear = three(u, 6 * i), angular = three(u, 6 * i + 3);
+        sum += 0.5 * masses_[i].mass * linear.squaredNorm() + 0.5 * angular.dot(masses_[i].inertia * angular);
+    }
+    return sum;
+}
+
+// Friction's limits follow the normal impulses of the round before.
+void DirectSolver::set_limits(Patch& patch) {
+    double load = patch.impact, levers = 0.0;
+    for (int i = 0; i < patch.count; ++i) {
+        load += patch.normal[i].estimate;
+        levers += patch.normal[i].estimate * patch.lever[i];
+    }
+    patch.limit = patch.coefficient * load;
+    patch.twist_limit = patch.coefficient * levers;
+}
+
+void DirectSolver::evaluate_speeds() {
+    for (Patch& patch : patches_)
+        each_row(patch, [&](Row& row) { row.speed = row.offset + dot(patch, row, velocity_); });
+}
+
+// Impulses for velocities so far along the step, and what the second derivatives weigh the rows with.
+void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const {
+    const double tie = -tuning::direct_tie * speed_scale_ / compliance_;
+    for (int i = 0; i < patch.count; ++i) {
+        Row& row = patch.normal[i];
+        const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
+        row.impulse = std::max(0.0, y);
+        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack is all ties
+    }
+    Row &f1 = patch.friction[0], &f2 = patch.friction[1];
+    const double y1 = f1.estimate - (f1.speed + along * f1.change) / friction_compliance_;
+    const double y2 = f2.estimate - (f2.speed + along * f2.change) / friction_compliance_;
+    const double size = std::sqrt(y1 * y1 + y2 * y2);
+    if (size <= patch.limit) {
+        f1.impulse = y1;
+        f2.impulse = y2;
+        if (weights) weights->f11 = weights->f22 = 1.0 / friction_compliance_;
+    } else {
+        const double scale = patch.limit / size, c = y1 / size, s = y2 / size;
+        f1.impulse = scale * y1;
+        f2.impulse = scale * y2;
+        if (weights) {
+            weights->f11 = scale / friction_compliance_ * (1.0 - c * c);
+            weights->f12 = -scale / friction_compliance_ * c * s;
+            weights->f22 = scale / friction_compliance_ * (1.0 - s * s);
+        }
+    }
+    if (patch.count < 2) return;
+    const double y = patch.twist.estimate - (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
+    patch.twist.impulse = std::clamp(y, -patch.twist_limit, patch.twist_limit);
+    if (weights) weights->twist = std::abs(y) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
+}
+
+// M (u - u*) - J^T f; returns its size as an energy: sum g^2 / m.
+double DirectSolver::gradient(std::vector<double>& g) {
+    for (std::size_t k = 0; k < velocity_.size(); ++k) scratch_[k] = velocity_[k] - free_[k];
+    mass_times(scratch_, g);
+    for (Patch& patch : patches_) {
+        evaluate(patch, 0.0, nullptr);
+        each_row(patch, [&](Row& row) {
+            if (row.impulse != 0.0) add(patch, row, -row.impulse, g);
+        });
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+        double square = 0.0;
+        for (std::size_t k = 0; k < 6; ++k) square += g[6 * i + k] * g[6 * i + k];
+        sum += square / masses_[i].mass;
+    }
+    return sum;
+}
+
+bool DirectSolver::factor(bool pushing) {
+    ++factorisations_;
+    matrix_.set_zero();
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+        BlockCholesky::Block& block = matrix_.diagonal(i);
+        for (int r = 0; r < 3; ++r) {
+            block.row[r][r] = masses_[i].mass;
+            for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = masses_[i].inertia(r, c);
+        }
+    }
+    std::size_t pair = 0;
+    for (Patch& patch : patches_) {
+        Weights w;
+        if (pushing) {
+            const double stiffness = total_mass_ / tuning::direct_push_compliance;
+            bool active = false;
+            for (int i = 0; i < patch.count; ++i) {
+                const bool on = patch.normal[i].impulse > 0.0 || patch.overlap[i] > tuning::direct_slop * patch.size;
+                active = active || on;
+                w.normal[i] = on ? stiffness : 0.0;
+            }
+            // Pushed apart, not aside.
+            w.f11 = w.f22 = active ? tuning::direct_push_across * stiffness : 0.0;
+            w.twist = w.f11 * length_ * length_;
+        } else {
+            evaluate(patch, 0.0, &w);
+        }
+        const bool both = patch.a != none && patch.b != none;
+        BlockCholesky::Block* across = nullptr;
+        bool transposed = false;
+        if (both) {
+            while (!(pairs_[pair].i == std::uint32_t(patch.a) && pairs_[pair].j == std::uint32_t(patch.b))) ++pair;
+            across = &matrix_.coupling(pair);
+            transposed = matrix_.transposed(pair);
+        }
+        const auto add_row = [&](const Row& left, const Row& right, double weight) {
+            if (weight == 0.0) return;
+            const BlockCholesky::Row ra = weight * BlockCholesky::Row{right.on_a[0], right.on_a[1], right.on_a[2], right.on_a[3], right.on_a[4], right.on_a[5], 0.0, 0.0};
+            const BlockCholesky::Row rb = weight * BlockCholesky::Row{right.on_b[0], right.on_b[1], right.on_b[2], right.on_b[3], right.on_b[4], right.on_b[5], 0.0, 0.0};
+            if (patch.a != none) add_outer(matrix_.diagonal(std::size_t(patch.a)), left.on_a, ra);
+            if (patch.b != none) add_outer(matrix_.diagonal(std::size_t(patch.b)), left.on_b, rb);
+            if (!both) return;
+            if (transposed) add_outer(*across, left.on_b, ra);
+            else add_outer(*across, left.on_a, rb);
+        };
+        for (int i = 0; i < patch.count; ++i) add_row(patch.normal[i], patch.normal[i], w.normal[i]);
+        const Row &f1 = patch.friction[0], &f2 = patch.friction[1];
+        add_row(f1, f1, w.f11);
+        add_row(f1, f2, w.f12);
+        add_row(f2, f1, w.f12);
+        add_row(f2, f2, w.f22);
+        if (patch.count > 1) add_row(patch.twist, patch.twist, w.twist);
+    }
+    return matrix_.factor();
+}
+
+// Of the function that is minimised, along the step.
+double DirectSolver::slope(double along, double mass_slope, double mass_curvature) {
+    double sum = mass_slope + along * mass_curvature;
+    for (Patch& patch : patches_) {
+        evaluate(patch, along, nullptr);
+        each_row(patch, [&](Row& row) { sum -= row.impulse * row.change; });
+    }
+    return sum;
+}
+
+// Where the slope is a tenth of what it was: regula falsi with the Illinois rule, kept off the ends.
+double DirectSolver::line_search(double slope_0, double mass_slope, double mass_curvature) {
+    const double enough = 0.1 * std::abs(slope_0);
+    double high = 1.0, slope_high = slope(1.0, mass_slope, mass_curvature);
+    if (slope_high <= enough) return 1.0;
+    double low = 0.0, slope_low = slope_0, x = 1.0;
+    for (int k = 0; k < tuning::direct_line_search; ++k) {
+        x = std::clamp((low * slope_high - high * slope_low) / (slope_high - slope_low), low + 0.02 * (high - low), high - 0.02 * (high - low));
+        const double s = slope(x, mass_slope, mass_curvature);
+        if (std::abs(s) < enough) break;
+        if (s < 0.0) {
+            low = x;
+            slope_low = s;
+            slope_high *= 0.5;
+        } else {
+            high = x;
+            slope_high = s;
+            slope_low *= 0.5;
+        }
+    }
+    return x;
+}
+
+bool DirectSolver::minimise(int most_steps) {
+    const double energy = total_mass_ * speed_scale_ * speed_scale_;
+    const double tolerance = tuning::direct_tolerance * tuning::direct_tolerance * energy;
+    for (int k = 0; k <= most_steps; ++k) {
+        evaluate_speeds();
+        if (gradient(gradient_) <= tolerance) return true;
+        if (k == most_steps || !factor(false)) return false;
+        for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+        matrix_.solve(step_);
+        double slope_0 = 0.0, mass_slope = 0.0, mass_curvature = 0.0;
+        mass_times(step_, push_);
+        for (std::size_t i = 0; i < step_.size(); ++i) {
+            slope_0 += gradient_[i] * step_[i];
+            mass_slope += push_[i] * (velocity_[i] - free_[i]);
+            mass_curvature += push_[i] * step_[i];
+        }
+        for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.change = dot(patch, row, step_); });
+        const double along = line_search(slope_0, mass_slope, mass_curvature);
+        for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
+        for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.change = 0.0; });
+        if (-slope_0 < 1e-30 * energy) return true;   // what is left is rounding
+    }
+    return false;
+}
+
+// What is minimised, for choosing where to begin.
+double DirectSolver::objective(const std::vector<double>& u) {
+    for (std::size_t k = 0; k < u.size(); ++k) scratch_[k] = u[k] - free_[k];
+    double sum = kinetic_energy(scratch_);
+    for (Patch& patch : patches_) {
+        for (int i = 0; i < patch.count; ++i) {
+            const Row& row = patch.normal[i];
+            const double y = row.estimate + (row.target - row.offset - dot(patch, row, u)) / compliance_;
+            if (y > 0.0) sum += 0.5 * compliance_ * y * y;
+        }
+        // Friction's part only matters for the choice where it is small against this.
+    }
+    return sum;
+}
+
+// From the last step's impulses where they make a better start than none.
+void DirectSolver::start() {
+    std::fill(gradient_.begin(), gradient_.end(), 0.0);
+    for (Patch& patch : patches_) {
+        set_limits(patch);
+        each_row(patch, [&](Row& row) {
+            if (row.estimate != 0.0) add(patch, row, row.estimate, gradient_);
+        });
+    }
+    for (std::size_t i = 0; i < masses_.size(); ++i) {
+        const Vec3 linear = three(gradient_, 6 * i), angular = three(gradient_, 6 * i + 3);
+        three(velocity_, 6 * i) = three(free_, 6 * i) + linear / masses_[i].mass;
+        three(velocity_, 6 * i + 3) = three(free_, 6 * i + 3) + masses_[i].inverse_inertia * angular;
+    }
+    if (!(objective(velocity_) <= objective(free_))) velocity_ = free_;
+}
+
+// Contact takes energy and gives none; friction stays within its cone.
+bool DirectSolver::admissible() const {
+    const double scale = total_mass_ * speed_scale_ * speed_scale_;
+    if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
+    for (const Patch& patch : patches_) {
+        double load = patch.impact;
+        for (int i = 0; i < patch.count; ++i) load += patch.normal[i].impulse;
+        const double friction = std::hypot(patch.friction[0].impulse, patch.friction[1].impulse);
+        if (friction > tuning::direct_cone * patch.coefficient * load + 1e-6 * total_mass_ * speed_scale_) return false;
+    }
+    return true;
+}
+
+bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                         std::span<const std::uint32_t> manifolds) {
+    factorisations_ = 0;
+    load_bodies(problem, bodies);
+    load_patches(problem, bodies, manifolds);
+    if (patches_.empty() || speed_scale_ == 0.0) return true;
+    structure(problem, bodies, manifolds);
+    compliance_ = tuning::direct_compliance / total_mass_;
+
+    bool converged = false;
+    for (const double ratio : {tuning::direct_friction_stiff, tuning::direct_friction_soft}) {
+        friction_compliance_ = ratio * compliance_;
+        start();
+        for (int round = 0; round < tuning::direct_rounds; ++round) {
+            if (!minimise(tuning::direct_newton_steps)) break;
+            double change = 0.0, largest = 0.0;
+            for (Patch& patch : patches_) {
+                each_row(patch, [&](Row& row) {
+                    change = std::max(change, std::abs(row.impulse - row.estimate));
+                    largest = std::max(largest, std::abs(row.impulse));
+                    row.estimate = row.impulse;
+                });
+                set_limits(patch);
+            }
+            converged = change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
+            if (converged) break;
+        }
+        if (converged) break;
+        // The next ratio begins from last step's impulses again.
+        for (Patch& patch : patches_) {
+            const Manifold& m = problem.manifolds[patch.manifold];
+            for (int i = 0; i < patch.count; ++i) patch.normal[i].estimate = patch.geometry.points[std::size_t(i)].impulse;
+            patch.friction[0].estimate = m.friction[0];
+            patch.friction[1].estimate = m.friction[1];
+            patch.twist.estimate = m.twist;
+        }
+    }
+    if (!converged || !admissible()) return false;
+    const bool pushed = push_out(problem.patches.h);
+    store(problem, bodies, pushed);
+    return true;
+}
+
+// Overlaps are pushed out by a way of its own that leaves the velocities alone: least squares over the active contacts.
+bool DirectSolver::push_out(double h) {
+    std::fill(push_.begin(), push_.end(), 0.0);
+    const double stiffness = total_mass_ / tuning::direct_push_compliance;
+    bool any = false;
+    for (const Patch& patch : patches_) {
+        for (int i = 0; i < patch.count; ++i) {
+            const double beyond = patch.overlap[i] - tuning::direct_slop * patch.size;
+            if (!(beyond > 0.0)) continue;
+            any = true;
+            add(patch, patch.normal[i], stiffness * std::min(tuning::push_share * beyond / h, tuning::push_limit * patch.size), push_);
+        }
+    }
+    if (!any || !factor(true)) return false;
+    matrix_.solve(push_);
+    return true;
+}
+
+void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
+    std::vector<bool> reached(bodies.size(), pushed);
+    for (const Patch& patch : patches_) {
+        Manifold& m = problem.manifolds[patch.manifold];
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        const ContactPatch& geometry = patch.geometry;
+        release(m);
+        m.friction[0] = patch.friction[0].impulse;
+        m.friction[1] = patch.friction[1].impulse;
+        m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
+        m.tangent = a.rotation.transpose() * geometry.tangent_1;
+        const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
+        Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A
+        for (int i = 0; i < patch.count; ++i) {
+            const ContactPatch::Point& p = geometry.points[std::size_t(i)];
+            m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;
+            const Vec3 j = patch.normal[i].impulse * geometry.normal;
+            force += j;
+            moment += p.arm_a.cross(j);
+        }
+        if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        if (patch.a != none) {
+            reached[std::size_t(patch.a)] = true;
+            a.momentum -= force;
+            a.angular_momentum -= moment;
+        }
+        if (patch.b != none) {
+            reached[std::size_t(patch.b)] = true;
+            b.momentum += force;
+            b.angular_momentum += moment + (a.position - b.position).cross(force);
+        }
+    }
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (!reached[k]) continue;
+        Body& body = problem.bodies[bodies[k]];
+        body.derive();
+        if (!pushed) continue;
+        body.push_velocity = three(push_, 6 * k);
+        body.push_angular_velocity = three(push_, 6 * k + 3) / length_;
+    }
+}
+
+}  // namespace tumble

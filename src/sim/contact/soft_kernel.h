@@ -1,0 +1,98 @@
+// The inner loops of the soft contact solver (soft_solver.h) over plain arrays of floats, many manifolds side by side: one
+// lane each. Compiled for several instruction sets and chosen at run time. Lanes never mix, every operation is the four
+// basic ones or a square root, and nothing is fused: each lane gets the same bits whatever the width.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tumble::soft {
+
+/// Rows of a group, each as wide as the kernel's lanes. World frame, SI units; impulses in N s of one substep.
+enum Head : int {
+    normal = 0,            // 3: away from A
+    tangent_1 = 3,         // 3
+    tangent_2 = 6,         // 3: normal x tangent_1
+    friction_arm_a = 9,    // 3: from A's centre to where friction acts; then replaced by what follows from it
+    friction_arm_b = 12,   // 3
+    turn_1_a = 9,          // 3: arm x tangent_1
+    turn_1_b = 12,         // 3
+    turn_2_a = 15,
+    turn_2_b = 18,
+    spin_1_a = 21,         // 3: I^-1 (arm x tangent_1)
+    spin_1_b = 24,
+    spin_2_a = 27,
+    spin_2_b = 30,
+    spin_n_a = 33,         // 3: I^-1 n, of the twist
+    spin_n_b = 36,
+    stick_mass = 39,       // 3: inverse of the two-by-two compliance: 11, 12, 22
+    slide_mass = 42,       // of the direction that gives way most
+    twist_mass = 43,
+    inverse_mass_a = 44,
+    inverse_mass_b = 45,
+    friction_coefficient = 46,
+    impact_impulse = 47,   // of a collision resolved in this step: its share of friction's limit
+    bias_rate = 48,        // 1/s: overlap to velocity
+    mass_scale = 49,       // of the soft constraint
+    impulse_scale = 50,
+    slop = 51,             // m
+    push_limit = 52,       // m/s
+    friction_1 = 53,
+    friction_2 = 54,
+    twist = 55,
+    friction_1_sum = 56,   // over the substeps
+    friction_2_sum = 57,
+    twist_sum = 58,
+    head_rows = 59
+};
+enum Point : int {
+    arm_a = 0,             // 3; then replaced by arm x normal
+    arm_b = 3,
+    spin_a = 6,            // 3: I^-1 (arm x normal)
+    spin_b = 9,
+    normal_mass = 12,      // 1 in lanes that have this point, 0 in others; then the effective mass
+    separation = 13,       // m, when the step began
+    bounce = 14,           // m/s, least v_rel after a collision; 0 without one
+    lever = 15,            // m, from where friction acts
+    impulse = 16,
+    impulse_sum = 17,
+    point_rows = 18
+};
+inline constexpr int group_rows = head_rows + 4 * point_rows;
+
+/// A body's floats: velocity and angular velocity (6), 2 unused; displacement and turn (6) since the step began, 2 unused.
+inline constexpr int body_floats = 16;
+/// Its inverse mass and inverse inertia tensor (xx, xy, xz, yy, yz, zz), 1 unused.
+inline constexpr int mass_floats = 8;
+
+/// Groups of one kernel's width. `bodies` has for each group the slots of all lanes' A, then those of B; bit 31 marks a body
+/// that impulses do not move: it is read and never written. Slot 0 stands still.
+inline constexpr std::uint32_t unmoved = 1u << 31;
+struct Groups {
+    float* rows = nullptr;                     // aligned to 64 bytes
+    const std::uint32_t* bodies = nullptr;
+    const std::uint8_t* points = nullptr;      // most of any lane
+};
+struct Bodies {
+    float* state = nullptr;                    // body_floats each, aligned to 64 bytes
+    const float* mass = nullptr;               // mass_floats each
+};
+
+struct Kernel {
+    int lanes;
+    /// Fills what follows from arms, directions and masses.
+    void (*prepare)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
+    /// Gives the bodies the impulses kept from the last step.
+    void (*warm_start)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
+    /// One sweep with overlaps pushed out softly; then, after the bodies have moved, one that takes the push back out of
+    /// the velocities and adds up the impulses.
+    void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
+    void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
+};
+
+extern const Kernel sse2_kernel, avx2_kernel, avx512_kernel;
+
+/// The widest this processor runs; narrower with the environment's TUMBLE_LANES = 4, 8 or 16 (for tests and measurements).
+const Kernel& best_kernel();
+
+}  // namespace tumble::soft

@@ -1,0 +1,20 @@
+// The soft contact solver's inner loops, 16 lanes (avx512).
+#include "sim/contact/soft_kernel.h"
+
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"   // g++ 12 on its own "undefined" vectors
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <immintrin.h>
+
+#define TUMBLE_LANES 16
+
+namespace tumble::soft {
+namespace {
+#include "sim/contact/soft_kernel_lanes.h"
+}  // namespace
+
+const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, push, relax};
+
+}  // namespace tumble::soft
+#pragma GCC diagnostic pop

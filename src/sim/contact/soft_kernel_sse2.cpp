@@ -1,0 +1,16 @@
+// The soft contact solver's inner loops, 4 lanes (sse2).
+#include "sim/contact/soft_kernel.h"
+
+#pragma GCC target("sse2")
+#include <immintrin.h>
+
+#define TUMBLE_LANES 4
+
+namespace tumble::soft {
+namespace {
+#include "sim/contact/soft_kernel_lanes.h"
+}  // namespace
+
+const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start, push, relax};
+
+}  // namespace tumble::soft

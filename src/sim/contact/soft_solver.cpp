@@ -1,0 +1,401 @@
+#include "sim/contact/soft_solver.h"
+
+#include "sim/spin_barrier.h"
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace tumble {
+namespace {
+
+// Memory aligned for the widest kernel.
+class AlignedFloats {
+public:
+    void resize(std::size_t count) {
+        if (memory_.size() < count + 16) memory_.resize(count + 16);
+        data_ = memory_.data() + (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
+    }
+    float* data() { return data_; }
+
+private:
+    std::vector<float> memory_;
+    float* data_ = nullptr;
+};
+
+struct Softness {
+    double bias_rate, mass_scale, impulse_scale;
+};
+
+// For a substep of d seconds (formulas: soft_solver.h).
+Softness softness(double frequency, double d) {
+    const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
+    const double a = 2.0 * z + d * w, c = d * w * a;
+    return {w / a, c / (1.0 + c), 1.0 / (1.0 + c)};
+}
+
+// What is needed of a manifold to give its impulses back.
+struct Source {
+    std::uint32_t manifold = UINT32_MAX;
+    int count = 0;
+    std::uint8_t point[Manifold::capacity] = {};
+};
+
+void put(float* row, int stride, const Vec3& v) {
+    row[0] = float(v.x());
+    row[stride] = float(v.y());
+    row[2 * stride] = float(v.z());
+}
+
+}  // namespace
+
+int substeps_of(double h) {
+    // A step of exactly so many substeps must not get one more by rounding.
+    const double n = std::ceil(h / tuning::soft_substep - 1e-6);
+    return int(std::clamp(n, 1.0, double(tuning::soft_most_substeps)));
+}
+
+// One part's contacts in the kernel's layout.
+class SoftSolver::Batch {
+public:
+    explicit Batch(const soft::Kernel& kernel) : kernel_(kernel) {}
+
+    void pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
+    /// Of this thread among `team`; all threads of the team call it.
+    void run(std::size_t thread, std::size_t team, SpinBarrier& barrier);
+    void unpack(const ContactProblem& problem, const Part& part);
+
+private:
+    static constexpr int colors = 64;   // bits of a mask; what finds none free is solved one by one
+
+    void pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
+    std::uint32_t slot_of(const Body& body, std::uint32_t index, const ContactProblem& problem, const std::vector<std::uint32_t>& slot);
+    void color(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot);
+    void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
+    template <class Pass>
+    void by_color(std::size_t thread, std::size_t team, SpinBarrier& barrier, Pass&& pass);
+    void move_velocities(std::size_t first, std::size_t last, bool warm);
+    void move_poses(std::size_t first, std::size_t last);
+
+    float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
+    float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
+    float* point_row(std::size_t group, int point, int r) { return row(group, soft::head_rows + point * soft::point_rows + r); }
+
+    const soft::Kernel& kernel_;
+    double d_ = 0.0;                                  // s, a substep
+    int substeps_ = 1;
+    Softness moving_{}, fixed_{};
+    AlignedFloats state_, mass_, before_, forces_, rows_;   // before_, forces_: 8 floats a slot
+    std::size_t slots_ = 0;
+    std::vector<std::uint32_t> movers_;               // kinematic bodies, by slot from the first after the dynamic ones
+    std::vector<std::vector<std::uint32_t>> by_color_;
+    std::vector<std::uint64_t> mask_;                 // by slot: colours taken
+    std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
+    std::vector<std::uint32_t> lane_bodies_;
+    std::vector<std::uint8_t> lane_points_;
+    std::vector<Source> sources_;                     // by lane
+    std::vector<std::uint32_t> ordered_;
+};
+
+void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
+    // Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
+    movers_.clear();
+    for (const std::uint32_t m : part.manifolds)
+        for (const std::uint32_t i : {problem.manifolds[m].a, problem.manifolds[m].b})
+            if (problem.bodies[i].type == BodyType::kinematic) movers_.push_back(i);
+    std::sort(movers_.begin(), movers_.end());
+    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
+
+    const std::size_t dynamic = part.bodies.size();
+    slots_ = 1 + dynamic + movers_.size();
+    for (AlignedFloats* array : {&state_, &mass_, &before_, &forces_})
+        array->resize(slots_ * (array == &state_ ? soft::body_floats : soft::mass_floats));
+    std::fill_n(state_.data(), slots_ * soft::body_floats, 0.0f);
+    std::fill_n(mass_.data(), slots_ * soft::mass_floats, 0.0f);
+    std::fill_n(forces_.data(), slots_ * 8, 0.0f);
+    std::fill_n(before_.data(), slots_ * 8, 0.0f);
+    const double share = 1.0 / substeps_;
+    for (std::size_t k = 0; k < dynamic; ++k) {
+        const std::uint32_t i = part.bodies[k];
+        const Body& body = problem.bodies[i];
+        slot[i] = std::uint32_t(k + 1);
+        float* s = state(k + 1);
+        put(s, 1, problem.velocity_before[i]);
+        put(s + 3, 1, problem.angular_velocity_before[i]);
+        float* f = forces_.data() + 8 * (k + 1);
+        put(f, 1, share * (body.velocity - problem.velocity_before[i]));
+        put(f + 3, 1, share * (body.angular_velocity - problem.angular_velocity_before[i]));
+        float* m = mass_.data() + soft::mass_floats * (k + 1);
+        const Mat3& inverse = body.inverse_inertia;
+        m[0] = float(body.inverse_mass);
+        m[1] = float(inverse(0, 0));
+        m[2] = float(inverse(0, 1));
+        m[3] = float(inverse(0, 2));
+        m[4] = float(inverse(1, 1));
+        m[5] = float(inverse(1, 2));
+        m[6] = float(inverse(2, 2));
+    }
+    for (std::size_t k = 0; k < movers_.size(); ++k) {
+        const Body& body = problem.bodies[movers_[k]];
+        float* s = state(1 + dynamic + k);
+        put(s, 1, body.velocity);
+        put(s + 3, 1, body.angular_velocity);
+    }
+}
+
+std::uint32_t SoftSolver::Batch::slot_of(const Body& body, std::uint32_t index, const ContactProblem&,
+                                         const std::vector<std::uint32_t>& slot) {
+    if (body.dynamic()) return slot[index];
+    if (body.type != BodyType::kinematic) return soft::unmoved;
+    const auto place = std::lower_bound(movers_.begin(), movers_.end(), index) - movers_.begin();
+    return soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place));
+}
+
+// Greedily in the manifolds' order: the least colour neither body has. What a body gets depends on its island alone.
+void SoftSolver::Batch::color(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot) {
+    by_color_.resize(colors + 1);
+    for (auto& list : by_color_) list.clear();
+    mask_.assign(slots_, 0);
+    for (const std::uint32_t k : part.manifolds) {
+        const Manifold& m = problem.manifolds[k];
+        const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
+        std::uint64_t none = 0, &of_a = moves_a ? mask_[slot[m.a]] : none, &of_b = moves_b ? mask_[slot[m.b]] : none;
+        const std::uint64_t taken = of_a | of_b;
+        const int c = std::countr_one(taken);
+        if (c < colors) {
+            if (moves_a) of_a |= std::uint64_t(1) << c;
+            if (moves_b) of_b |= std::uint64_t(1) << c;
+        }
+        by_color_[std::size_t(c)].push_back(k);
+    }
+}
+
+void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
+                                  const std::vector<std::uint32_t>& slot) {
+    const Manifold& m = problem.manifolds[manifold];
+    const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+    const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
+    const int stride = kernel_.lanes;
+    lane_bodies_[2 * lanes * g + l] = slot_of(a, m.a, problem, slot);
+    lane_bodies_[2 * lanes * g + lanes + l] = slot_of(b, m.b, problem, slot);
+    const ContactPatch patch = make_patch(m, a, b, problem.patches);
+    if (patch.count == 0) {   // left to bounce
+        release(problem.manifolds[manifold]);
+        return;
+    }
+    Source& source = sources_[lane];
+    source.manifold = manifold;
+    source.count = patch.count;
+    lane_points_[g] = std::max(lane_points_[g], std::uint8_t(patch.count));
+
+    const double share = 1.0 / substeps_;
+    const auto put_row = [&](int r, double value) { row(g, r)[l] = float(value); };
+    put(row(g, soft::normal) + l, stride, patch.normal);
+    put(row(g, soft::tangent_1) + l, stride, patch.tangent_1);
+    put(row(g, soft::friction_arm_a) + l, stride, patch.friction_arm_a);
+    put(row(g, soft::friction_arm_b) + l, stride, patch.friction_arm_b);
+    const Softness& soft = a.dynamic() && b.dynamic() ? moving_ : fixed_;
+    put_row(soft::friction_coefficient, patch.friction);
+    put_row(soft::impact_impulse, share * patch.impact);
+    put_row(soft::bias_rate, soft.bias_rate);
+    put_row(soft::mass_scale, soft.mass_scale);
+    put_row(soft::impulse_scale, soft.impulse_scale);
+    put_row(soft::slop, tuning::soft_slop * patch.size);
+    put_row(soft::push_limit, tuning::push_limit * patch.size);
+    put_row(soft::friction_1, share * m.friction[0]);
+    put_row(soft::friction_2, share * m.friction[1]);
+    put_row(soft::twist, share * m.twist);
+    for (int i = 0; i < patch.count; ++i) {
+        const ContactPatch::Point& p = patch.points[std::size_t(i)];
+        source.point[i] = std::uint8_t(p.source);
+        const auto put_point = [&](int r, double value) { point_row(g, i, r)[l] = float(value); };
+        put(point_row(g, i, soft::arm_a) + l, stride, p.arm_a);
+        put(point_row(g, i, soft::arm_b) + l, stride, p.arm_b);
+        put_point(soft::normal_mass, 1.0);
+        put_point(soft::separation, p.separation);
+        put_point(soft::bounce, p.bounce);
+        put_point(soft::lever, p.lever);
+        put_point(soft::impulse, share * p.impulse);
+    }
+}
+
+void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
+    substeps_ = substeps_of(problem.patches.h);
+    d_ = problem.patches.h / substeps_;
+    moving_ = softness(tuning::soft_frequency / d_, d_);
+    fixed_ = softness(2.0 * tuning::soft_frequency / d_, d_);
+    pack_bodies(problem, part, slot);
+    color(problem, part, slot);
+
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    first_group_.assign(1, 0);
+    std::size_t groups = 0;
+    for (int c = 0; c <= colors; ++c) {
+        const std::size_t count = by_color_[std::size_t(c)].size();
+        if (count == 0) continue;
+        // Those beyond the last colour may share bodies: each is a colour of its own.
+        for (std::size_t k = 0; k < (c == colors ? count : 1); ++k) {
+            groups += c == colors ? 1 : (count + lanes - 1) / lanes;
+            first_group_.push_back(groups);
+        }
+    }
+    rows_.resize(groups * soft::group_rows * lanes);
+    std::fill_n(rows_.data(), groups * soft::group_rows * lanes, 0.0f);
+    lane_bodies_.assign(2 * lanes * groups, soft::unmoved);
+    lane_points_.assign(groups, 0);
+    sources_.assign(groups * lanes, Source{});
+
+    std::size_t used = 0;
+    for (int c = 0; c <= colors; ++c) {
+        auto& list = by_color_[std::size_t(c)];
+        if (list.empty()) continue;
+        if (c == colors) {
+            for (const std::uint32_t k : list) pack_lane(problem, k, lanes * first_group_[used++], slot);
+            continue;
+        }
+        // Manifolds with as many points side by side: no lane waits for another's fourth.
+        std::size_t lane = lanes * first_group_[used++];
+        for (int points = Manifold::capacity; points > 0; --points)
+            for (const std::uint32_t k : list)
+                if (problem.manifolds[k].count == points) pack_lane(problem, k, lane++, slot);
+    }
+}
+
+template <class Pass>
+void SoftSolver::Batch::by_color(std::size_t thread, std::size_t team, SpinBarrier& barrier, Pass&& pass) {
+    for (std::size_t c = 0; c + 1 < first_group_.size(); ++c) {
+        const std::size_t first = first_group_[c], count = first_group_[c + 1] - first;
+        pass(first + count * thread / team, first + count * (thread + 1) / team);
+        if (team > 1) barrier.wait();
+    }
+}
+
+// Velocities take their share of the forces. From the second substep on also what contact did in the one before: the same
+// as starting from its impulses, in the time of a body in place of that of its contacts.
+void SoftSolver::Batch::move_velocities(std::size_t first, std::size_t last, bool warm) {
+    for (std::size_t s = first; s < last; ++s) {
+        float* v = state(s);
+        float* before = before_.data() + 8 * s;
+        const float* force = forces_.data() + 8 * s;
+        for (int k = 0; k < 6; ++k) {
+            const float contact = warm ? v[k] - before[k] : 0.0f;
+            before[k] = v[k] + force[k];
+            v[k] = before[k] + contact;
+        }
+    }
+}
+
+void SoftSolver::Batch::move_poses(std::size_t first, std::size_t last) {
+    const float d = float(d_);
+    for (std::size_t s = first; s < last; ++s) {
+        float* v = state(s);
+        for (int k = 0; k < 6; ++k) v[8 + k] += d * v[k];
+    }
+}
+
+void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+    const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
+    const soft::Bodies bodies{state_.data(), mass_.data()};
+    const float rate = float(1.0 / d_);
+    const std::size_t dynamic_end = slots_ - movers_.size();
+    const auto share_of = [&](std::size_t begin, std::size_t end, auto&& pass) {
+        const std::size_t count = end - begin;
+        pass(begin + count * thread / team, begin + count * (thread + 1) / team);
+        if (team > 1) barrier.wait();
+    };
+    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.prepare(groups, f, l, bodies); });
+    for (int step = 0; step < substeps_; ++step) {
+        share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { move_velocities(f, l, step > 0); });
+        if (step == 0) by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+        by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, rate); });
+        share_of(1, slots_, [&](std::size_t f, std::size_t l) { move_poses(f, l); });
+        by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
+    }
+}
+
+void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    std::vector<std::uint8_t>& reached = lane_points_;   // no longer needed as such
+    reached.assign(slots_, 0);
+    for (std::size_t lane = 0; lane < sources_.size(); ++lane) {
+        const Source& source = sources_[lane];
+        if (source.manifold == UINT32_MAX) continue;
+        const std::size_t g = lane / lanes, l = lane % lanes;
+        Manifold& m = problem.manifolds[source.manifold];
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        release(m);
+        const Vec3 tangent_1{row(g, soft::tangent_1)[l], row(g, soft::tangent_1)[lanes + l], row(g, soft::tangent_1)[2 * lanes + l]};
+        const Vec3 tangent_2 = m.normal.cross(tangent_1);
+        Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   // N s on B, and its moment about A's centre
+        Vec3 center = Vec3::Zero();
+        double weights = 0.0;
+        const double near = tuning::friction_near * std::min(a.radius, b.radius);
+        for (int i = 0; i < source.count; ++i) {
+            ContactPoint& p = m.points[source.point[i]];
+            p.impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
+            const Vec3 arm = p.position - a.position;
+            const Vec3 j = double(point_row(g, i, soft::impulse_sum)[l]) * m.normal;
+            force += j;
+            moment += arm.cross(j);
+            const double weight = p.separation < near ? 1.0 : tuning::friction_far_weight;
+            center += weight * arm;
+            weights += weight;
+        }
+        const Vec3 friction = double(row(g, soft::friction_1_sum)[l]) * tangent_1 + double(row(g, soft::friction_2_sum)[l]) * tangent_2;
+        force += friction;
+        moment += (center / weights).cross(friction) + double(row(g, soft::twist_sum)[l]) * m.normal;
+        m.friction[0] = substeps_ * double(row(g, soft::friction_1)[l]);
+        m.friction[1] = substeps_ * double(row(g, soft::friction_2)[l]);
+        m.twist = substeps_ * double(row(g, soft::twist)[l]);
+        m.tangent = a.rotation.transpose() * tangent_1;
+        if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        if (a.dynamic()) {
+            reached[lane_bodies_[2 * lanes * g + l]] = 1;
+            a.momentum -= force;
+            a.angular_momentum -= moment;
+        }
+        if (b.dynamic()) {
+            reached[lane_bodies_[2 * lanes * g + lanes + l]] = 1;
+            b.momentum += force;
+            b.angular_momentum += moment + (a.position - b.position).cross(force);
+        }
+    }
+    for (std::size_t k = 0; k < part.bodies.size(); ++k) {
+        if (!reached[k + 1]) continue;
+        Body& body = problem.bodies[part.bodies[k]];
+        body.derive();
+        const float* moved = state(k + 1) + 8;
+        const double rate = 1.0 / problem.patches.h;
+        body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
+        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
+    }
+}
+
+SoftSolver::SoftSolver(std::size_t bodies, int, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
+SoftSolver::~SoftSolver() = default;
+
+void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool) {
+    while (batches_.size() < parts.size()) batches_.push_back(std::make_unique<Batch>(kernel_));
+    if (parts.size() == 1) {   // one island, or too little work to share: the threads share its colours
+        Batch& batch = *batches_[0];
+        batch.pack(problem, parts[0], slot_);
+        const bool worth_it = parts[0].manifolds.size() >= tuning::soft_team_manifolds;
+        const std::size_t team = worth_it ? std::size_t(pool.size()) : 1;
+        SpinBarrier barrier(team);
+        if (team == 1) batch.run(0, 1, barrier);
+        else pool.together([&](std::size_t thread) { batch.run(thread, team, barrier); });
+        batch.unpack(problem, parts[0]);
+        return;
+    }
+    pool.for_each(parts.size(), 2, [&](std::size_t k, std::size_t) {
+        SpinBarrier alone(1);
+        batches_[k]->pack(problem, parts[k], slot_);
+        batches_[k]->run(0, 1, alone);
+        batches_[k]->unpack(problem, parts[k]);
+    });
+}
+
+}  // namespace tumble

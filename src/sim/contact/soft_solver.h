@@ -1,0 +1,60 @@
+// Resting contact and friction of whole heaps: many small substeps, one sweep each, with soft constraints.
+//
+// The step h is cut into n substeps. In each, velocities take their share of the step's forces, contacts are swept once from
+// the impulses of the substep before, bodies move by the new velocities, and a second sweep takes out again of the
+// velocities what only pushed overlaps apart ("Small Steps", Macklin and others 2019; soft constraints and relaxation:
+// Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
+//     b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
+// of a damped spring of angular frequency w and damping ratio z over a substep d. Not yet touching points (s > 0) may
+// approach by s/d and no more. Friction: a Coulomb disc at one place of the manifold and a twist about its normal.
+//
+// Contacts are coloured so that none of one colour share a moving body; those of a colour are solved side by side, a lane
+// each, in single precision, relative to the poses of the step's start. The sums of the impulses then change the momenta in
+// double precision, equal and opposite to the last bit.
+#pragma once
+
+#include "sim/contact/contact_patch.h"
+#include "sim/contact/soft_kernel.h"
+#include "sim/thread_pool.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// What both contact solvers work on. Bodies come with the velocities after the step's forces; velocities of the step's
+/// start beside them. A solver changes the momenta, derives the velocities, and sets the push velocities so that
+/// h (velocity + push) is the body's way in the step. Bodies that no impulse has reached are left as they are.
+struct ContactProblem {
+    std::vector<Body>& bodies;
+    std::vector<Manifold>& manifolds;
+    const std::vector<Vec3>& velocity_before;           // by body
+    const std::vector<Vec3>& angular_velocity_before;
+    PatchSettings patches;
+};
+
+class SoftSolver {
+public:
+    SoftSolver(std::size_t bodies, int threads, const soft::Kernel& kernel = soft::best_kernel());
+    ~SoftSolver();
+
+    /// `parts`: manifolds (ascending) and dynamic bodies of one island or several each; parts share no dynamic body.
+    /// The result depends neither on how islands are dealt into parts nor on the number of threads.
+    struct Part {
+        std::vector<std::uint32_t> bodies, manifolds;
+    };
+    void solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool);
+
+private:
+    class Batch;
+    const soft::Kernel& kernel_;
+    std::vector<std::uint32_t> slot_;                 // by body
+    std::vector<std::unique_ptr<Batch>> batches_;     // one a part
+};
+
+/// Substeps of a step of h seconds.
+int substeps_of(double h);
+
+}  // namespace tumble
