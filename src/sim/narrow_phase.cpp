@@ -1,8 +1,10 @@
 #include "sim/narrow_phase.h"
 
+#include "sim/collision/carry_over.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tumble {
 namespace {
@@ -12,10 +14,12 @@ bool at_work(const Body& body) { return body.moves() && !body.asleep; }
 // Exact flights meet others at impacts, not at steps.
 bool either_flies(const Body& a, const Body& b) { return a.flying || b.flying; }
 
+auto key(const Manifold& m) { return std::tuple(m.a, m.b, m.part); }
+
 }  // namespace
 
-const std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs,
-                                               const std::vector<Body>& bodies, double h, ThreadPool& pool) {
+std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies,
+                                         double h, ThreadPool& pool) {
     if (found_.size() < pairs.size()) found_.resize(pairs.size());
     pool.for_each(pairs.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t thread) {
         const Body &a = bodies[pairs[i].a], &b = bodies[pairs[i].b];
@@ -27,6 +31,7 @@ const std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pai
         }
         collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_[thread], found_[i]);
     });
+    previous_.swap(manifolds_);
     manifolds_.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         for (Manifold& m : found_[i]) {
@@ -38,6 +43,12 @@ const std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pai
         const auto count = std::ptrdiff_t(found_[i].size());
         std::stable_sort(manifolds_.end() - count, manifolds_.end(),
                          [](const Manifold& l, const Manifold& r) { return l.part < r.part; });
+    }
+    auto old = previous_.begin();
+    for (Manifold& m : manifolds_) {
+        while (old != previous_.end() && key(*old) < key(m)) ++old;
+        if (old == previous_.end() || key(*old) != key(m)) continue;
+        carry_over(*old, tuning::carry_reach * std::min(bodies[m.a].radius, bodies[m.b].radius), m);
     }
     return manifolds_;
 }

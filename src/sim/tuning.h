@@ -13,6 +13,10 @@ inline constexpr double touch = 1e-6;
 /// step), so that a rocking box already knows the corners it will land on.
 inline constexpr double speculative = 0.02;
 
+/// A contact point takes over the impulse of a point this part of the smaller body's radius away, when no point has the same
+/// features: corners that swap places on a rocking box carry the same load.
+inline constexpr double carry_reach = 0.1;
+
 /// Bounds in the broad phase are grown by this part of a body's radius, and by its way in so many steps:
 /// a rebuild every few steps for falling bodies, none for resting ones.
 inline constexpr double fat_bounds = 0.1;

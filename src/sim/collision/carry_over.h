@@ -1,0 +1,13 @@
+// What contact has built up since earlier steps goes over to the manifolds found anew: warm starts for the solver.
+#pragma once
+
+#include "sim/collision/manifold.h"
+
+namespace tumble {
+
+/// Takes the impulses of `old` over to `m`, the same two bodies' manifold found later: to each point that of the same
+/// feature, and where no feature is the same, that of the nearest old point not yet taken, if nearer than `reach` (m).
+/// Friction, its tangent and its twist come along.
+void carry_over(const Manifold& old, double reach, Manifold& m);
+
+}  // namespace tumble
