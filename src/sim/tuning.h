@@ -31,9 +31,9 @@ inline constexpr double restitution_threshold = 2.0;
 inline constexpr double soft_substep = 1.0 / 480.0;
 inline constexpr int soft_most_substeps = 64;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
-/// overshoots, softer sinks in; less damping lets small boxes of a pyramid tremble.
-inline constexpr double soft_frequency = 0.25;
-inline constexpr double soft_damping = 5.0;
+/// keeps a pyramid trembling (0.25: 0.1 m/s), softer sinks in (0.125: twice the overlap).
+inline constexpr double soft_frequency = 0.18;
+inline constexpr double soft_damping = 2.0;
 /// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
 inline constexpr double soft_slop = 1e-4;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
@@ -63,6 +63,25 @@ inline constexpr double direct_slop = 1e-6;
 /// Compliance of its push-out, over the island's mass, and how stiff it is across the normals against that.
 inline constexpr double direct_push_compliance = 1e-2;
 inline constexpr double direct_push_across = 0.03;
+
+/// Islands up to this size are solved directly whatever they carry.
+inline constexpr std::size_t direct_small_bodies = 3;
+inline constexpr std::size_t direct_small_manifolds = 8;
+/// Larger ones when a body carries so many times its own mass, and up to so many bodies.
+inline constexpr double direct_load_ratio = 16.0;
+inline constexpr std::size_t direct_most_bodies = 512;
+/// Block operations (6 x 6, some 0.1 microseconds) of one factorisation that an island may take, by manifold and in any
+/// case; and what all islands together may take in a step, by manifold of the scene and in any case.
+inline constexpr std::size_t direct_work_each = 30;
+inline constexpr std::size_t direct_work_free = 50;
+inline constexpr std::size_t direct_budget_each = 2;
+inline constexpr std::size_t direct_budget = 4000;
+/// Steps until an island is tried again after a failure, doubled with every further one so many times.
+inline constexpr int direct_wait = 6;
+inline constexpr int direct_most_failures = 6;
+/// Impulses handed to the soft solver: at most so many times what the step's forces give the lighter body.
+inline constexpr double direct_handover = 20.0;
+inline constexpr std::size_t direct_parallel_grain = 4;
 
 /// Sweeps of the contact solver in a step: few are needed with last step's impulses to start from.
 inline constexpr int solver_sweeps = 50;

@@ -3,9 +3,9 @@
 #include "core/error.h"
 #include "sim/body_builder.h"
 #include "sim/broad_phase.h"
+#include "sim/contact/contact_solver.h"
 #include "sim/contact/impacts.h"
 #include "sim/contact/islands.h"
-#include "sim/contact/rest_solver.h"
 #include "sim/contact/sleep.h"
 #include "sim/flight/flights.h"
 #include "sim/flight/free_flights.h"
@@ -34,9 +34,14 @@ struct World::State {
     std::vector<Body> bodies;
     BroadPhase broad_phase;
     NarrowPhase narrow_phase;
-    std::vector<Contact> contacts, previous_contacts;
-    std::vector<Island> islands;      // of the awake bodies
+    std::vector<Manifold>* manifolds = nullptr;   // of this step; the narrow phase's
+    std::vector<Contact> contacts;    // their points, where impulses are resolved one by one
+    ContactIslands islands;           // of the awake bodies
+    std::vector<std::uint32_t> struck;   // manifolds that took part in a collision of this step
+    ContactSolver contact_solver;
     SleepMonitor sleep;
+    std::uint64_t seen_sleep_changes = UINT64_MAX;
+    std::vector<std::uint32_t> awake_bodies, moving_bodies, kinematic_bodies;   // ascending; moving: both others
     std::unique_ptr<Flights> flights;   // with exact impacts
     FreeFlights free_flights;           // with exact motion between stepped ones
     MotionLimit motion_limit;
@@ -55,12 +60,15 @@ struct World::State {
 
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene), narrow_phase(threads),
-          sleep(scene.bodies.size()),
+          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), threads), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
           after_forces(scene.bodies.size()) {
         BodyBuilder builder;
         for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
+        for (std::uint32_t i = 0; i < bodies.size(); ++i)
+            if (bodies[i].track) kinematic_bodies.push_back(i);
+        motions.resize(bodies.size());
         place_kinematic_bodies();
         if (settings.impacts == ImpactMode::exact) flights = std::make_unique<Flights>(bodies, settings, fps);
     }
@@ -69,8 +77,13 @@ struct World::State {
     /// In the loop of the steps: neither asleep nor in exact flight.
     bool awake(const Body& body) const { return body.dynamic() && !body.asleep && !body.flying; }
 
+    double gravity_step() const { return settings.gravity.norm() * h; }   // m/s, that gravity adds in a step
+
     void advance(std::int64_t to);
     void step();
+    void list_awake();
+    void wake_where_forces_change();
+    bool collides(std::size_t island) const;
     void place_kinematic_bodies();
     void find_contacts();
     void resolve_collisions();
@@ -115,8 +128,8 @@ void World::advance_frame() { state_->advance(state_->steps + state_->settings.s
 
 // Kinematic bodies go where their keyframes say; during the step they have the constant velocity that takes them there.
 void World::State::place_kinematic_bodies() {
-    for (Body& body : bodies) {
-        if (!body.track) continue;
+    for (const std::uint32_t i : kinematic_bodies) {
+        Body& body = bodies[i];
         const auto now = body.track->at(time(steps)), next = body.track->at(time(steps + 1));
         body.orientation = now.rotation;
         body.rotation = now.rotation.toRotationMatrix();
@@ -127,35 +140,86 @@ void World::State::place_kinematic_bodies() {
     }
 }
 
-void World::State::find_contacts() {
-    previous_contacts.swap(contacts);
-    const auto& manifolds = narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool);
-    make_contacts(manifolds, bodies, previous_contacts, contacts);
-    if (sleep.wake_touched(contacts, bodies)) {
-        // The woken ones need the contacts among themselves too, which were not looked for.
-        make_contacts(narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool), bodies, previous_contacts, contacts);
+// Whatever happens in a step happens to these: the time it takes goes with their number.
+void World::State::list_awake() {
+    if (sleep.changes() == seen_sleep_changes) return;
+    seen_sleep_changes = sleep.changes();
+    awake_bodies.clear();
+    moving_bodies.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        if (bodies[i].dynamic() && !bodies[i].asleep) awake_bodies.push_back(i);
+        if (bodies[i].moves() && !bodies[i].asleep) moving_bodies.push_back(i);
+        else motions[i] = {};
     }
-    if (flights && flights->take_off(contacts, bodies, forces, steps))
-        std::erase_if(contacts, [&](const Contact& c) { return bodies[c.a].flying || bodies[c.b].flying; });
-    islands = find_islands(contacts, bodies);
+}
+
+void World::State::wake_where_forces_change() {
+    if (!forces.ever_changes()) return;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].asleep && forces.changes(i, time(steps), time(steps + 1))) sleep.wake(i, bodies);
+}
+
+void World::State::find_contacts() {
+    wake_where_forces_change();
+    const auto find = [&] { manifolds = &narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool); };
+    find();
+    // The woken ones need the contacts among themselves too, which were not looked for.
+    if (sleep.wake_touched(*manifolds, bodies, h, gravity_step())) find();
+    list_awake();
+    if (flights) {
+        make_contacts(*manifolds, bodies, contacts);
+        flights->take_off(contacts, bodies, forces, steps);
+    }
+    islands.find(*manifolds, bodies, awake_bodies);
+}
+
+// Whether points that touch come nearer, faster than resting contact does, with restitution to answer it.
+bool World::State::collides(std::size_t island) const {
+    const double threshold = tuning::restitution_threshold * gravity_step();
+    for (const std::uint32_t k : islands.manifolds(island)) {
+        const Manifold& m = (*manifolds)[k];
+        const Body &a = bodies[m.a], &b = bodies[m.b];
+        if (pair_restitution(a, b) <= 0.0) continue;
+        const double touch = tuning::touch * std::min(a.radius, b.radius);
+        for (int i = 0; i < m.count; ++i) {
+            const ContactPoint& p = m.points[std::size_t(i)];
+            if (p.separation > touch) continue;
+            const Vec3 approach = b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position);
+            if (m.normal.dot(approach) < -threshold) return true;
+        }
+    }
+    return false;
 }
 
 void World::State::resolve_collisions() {
-    const ImpactSettings impacts{.threshold = tuning::restitution_threshold * settings.gravity.norm() * h,
-                                 .law = settings.impact_law};
-    pool.for_each(islands.size(), tuning::parallel_grain,
-                  [&](std::size_t i, std::size_t) { resolve_impacts(islands[i], contacts, bodies, impacts); });
-    // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
-    for (const Contact& c : contacts)
-        if (c.impact > 0.0) add_impulse(c, c.impact * c.normal, bodies[c.a], bodies[c.b]);
+    struck.clear();
+    for (std::size_t island = 0; island < islands.size(); ++island)
+        if (collides(island)) struck.insert(struck.end(), islands.manifolds(island).begin(), islands.manifolds(island).end());
+    if (struck.empty()) return;
+    contacts.clear();
+    for (const std::uint32_t k : struck) add_contacts((*manifolds)[k], bodies, contacts);
+    const std::vector<Island> colliding = find_islands(contacts, bodies);
+    const ImpactSettings impacts{.threshold = tuning::restitution_threshold * gravity_step(), .law = settings.impact_law};
+    pool.for_each(colliding.size(), tuning::parallel_grain,
+                  [&](std::size_t i, std::size_t) { resolve_impacts(colliding[i], contacts, bodies, impacts); });
+    std::size_t next = 0;
+    for (const std::uint32_t k : struck) {
+        Manifold& m = (*manifolds)[k];
+        for (int i = 0; i < m.count; ++i) {
+            const Contact& c = contacts[next++];
+            m.points[std::size_t(i)].impact = c.impact;
+            m.points[std::size_t(i)].bounce = c.impact > 0.0 ? c.bounce_velocity : 0.0;
+            // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
+            if (c.impact > 0.0) add_impulse(c, c.impact * c.normal, bodies[c.a], bodies[c.b]);
+        }
+    }
 }
 
 void World::State::apply_forces() {
     const double now = time(steps);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const std::uint32_t i : awake_bodies) {
         Body& body = bodies[i];
-        if (body.asleep && forces.changes(i, now, time(steps + 1))) sleep.wake(std::uint32_t(i), bodies);
-        if (!awake(body)) continue;
+        if (body.flying) continue;
         body.derive();
         old_velocity[i] = body.velocity;
         old_angular_velocity[i] = body.angular_velocity;
@@ -168,23 +232,18 @@ void World::State::apply_forces() {
 }
 
 void World::State::solve_resting_contacts() {
-    const double gravity_step = settings.gravity.norm() * h;
-    const RestSettings rest{h, tuning::restitution_threshold * gravity_step,
-                            std::max(tuning::solver_floor, tuning::solver_tolerance * gravity_step)};
-    pool.for_each(islands.size(), tuning::parallel_grain,
-                  [&](std::size_t i, std::size_t) { solve_rest(islands[i], contacts, bodies, rest); });
-    for (const Contact& c : contacts) {
-        const Vec3 impulse = c.impulse * c.normal + c.friction_impulse;
-        if (!impulse.isZero(0.0)) add_impulse(c, impulse, bodies[c.a], bodies[c.b]);
-    }
+    contact_solver.solve({bodies, *manifolds, old_velocity, old_angular_velocity, {h, tuning::restitution_threshold * gravity_step()}},
+                         islands, pool);
+    for (const std::uint32_t k : struck)
+        for (ContactPoint& p : (*manifolds)[k].points) p.impact = p.bounce = 0.0;
 }
 
 // The velocities that poses are moved with.
 const std::vector<StepMotion>& World::State::step_motions() {
-    motions.assign(bodies.size(), {});
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const std::uint32_t i : moving_bodies) {
         const Body& body = bodies[i];
-        if (body.asleep || body.flying || !body.moves()) continue;
+        motions[i] = {};
+        if (body.flying) continue;
         // Between exact flights all held bodies move by the velocities they are solved for.
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocity[i] : body.velocity) + body.push_velocity;
@@ -198,7 +257,7 @@ const std::vector<StepMotion>& World::State::step_motions() {
 const std::vector<StepLimit>& World::State::held_limits() {
     pairs = broad_phase.update(bodies, h);
     std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
-    return motion_limit.limits(pairs, contacts, bodies, step_motions(), h);
+    return motion_limit.limits(pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
 // What a kinematic body has run into goes along with it for the rest of the step.
@@ -215,10 +274,10 @@ void World::State::move() {
         place_kinematic_bodies();
         return;
     }
-    const auto& limits = motion_limit.limits(broad_phase.update(bodies, h), contacts, bodies, step_motions(), h);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const auto& limits = motion_limit.limits(broad_phase.update(bodies, h), touch_depth(*manifolds, bodies), bodies, moving_bodies,
+                                             step_motions(), h);
+    for (const std::uint32_t i : awake_bodies) {
         Body& body = bodies[i];
-        if (!awake(body)) continue;
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
         const bool touched = after_forces[i] != Momenta{body.momentum, body.angular_momentum} ||
@@ -241,12 +300,12 @@ void World::State::move() {
 }
 
 void World::State::fall_asleep() {
-    if (settings.sleep) sleep.observe(islands, contacts, bodies, h);
+    if (settings.sleep) sleep.observe(islands, *manifolds, bodies, h);
 }
 
 void World::State::check_finite() const {
-    for (const Body& body : bodies) {
-        if (!body.dynamic() || body.asleep) continue;
+    for (const std::uint32_t i : awake_bodies) {
+        const Body& body = bodies[i];
         // One number that is none makes the sum none.
         if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum()))
             continue;

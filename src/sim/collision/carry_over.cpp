@@ -8,6 +8,7 @@ void carry_over(const Manifold& old, double reach, Manifold& m) {
     m.tangent = old.tangent;
     std::copy_n(old.friction, 2, m.friction);
     m.twist = old.twist;
+    m.solved_directly = old.solved_directly;
     bool taken[Manifold::capacity] = {}, found[Manifold::capacity] = {};
     for (int i = 0; i < m.count; ++i) {
         ContactPoint& point = m.points[std::size_t(i)];

@@ -34,6 +34,7 @@ struct Manifold {
     Vec3 tangent = Vec3::Zero();          // unit, A's frame; zero before the first solve
     double friction[2] = {0.0, 0.0};      // N s on B
     double twist = 0.0;                   // N m s on B
+    bool solved_directly = false;         // by the direct contact solver, in the last step
 };
 
 /// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and the three that

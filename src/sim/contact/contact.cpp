@@ -1,10 +1,10 @@
 #include "sim/contact/contact.h"
 
+#include "sim/contact/contact_patch.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace tumble {
 namespace {
@@ -27,8 +27,6 @@ void derive(Contact& c, const Body& a, const Body& b) {
     const double k00 = compliance(c, a, b, t0, t0), k11 = compliance(c, a, b, t1, t1), k01 = compliance(c, a, b, t0, t1);
     c.inverse_tangent_mass = 0.5 * (k00 + k11 + std::sqrt((k00 - k11) * (k00 - k11) + 4.0 * k01 * k01));
 }
-
-auto key(const Contact& c) { return std::make_tuple(c.a, c.b, c.part); }
 
 }  // namespace
 
@@ -79,40 +77,30 @@ void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b) {
     }
 }
 
-void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
-                   const std::vector<Contact>& previous, std::vector<Contact>& contacts) {
-    contacts.clear();
-    std::size_t old = 0;
-    for (const Manifold& m : manifolds) {
-        const Body &a = bodies[m.a], &b = bodies[m.b];
-        Contact c;
-        c.a = m.a;
-        c.b = m.b;
-        c.part = m.part;
-        c.normal = m.normal;
-        c.restitution = std::max(a.restitution, b.restitution);
-        c.friction = std::sqrt(a.friction * b.friction);
-        c.touch_distance = tuning::touch * std::min(a.radius, b.radius);
-        while (old < previous.size() && key(previous[old]) < key(c)) ++old;
-        for (int i = 0; i < m.count; ++i) {
-            const ContactPoint& p = m.points[std::size_t(i)];
-            c.feature = p.feature;
-            c.separation = p.separation;
-            c.arm_a = p.position - a.position;
-            c.arm_b = p.position - b.position;
-            c.impulse = 0.0;
-            c.friction_impulse.setZero();
-            for (std::size_t k = old; k < previous.size() && key(previous[k]) == key(c); ++k) {
-                if (previous[k].feature != c.feature) continue;
-                c.impulse = previous[k].impulse;
-                // What friction carried stays across the normal when the normal has turned.
-                c.friction_impulse = previous[k].friction_impulse - c.normal.dot(previous[k].friction_impulse) * c.normal;
-                break;
-            }
-            derive(c, a, b);
-            contacts.push_back(c);
-        }
+void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vector<Contact>& contacts) {
+    const Body &a = bodies[m.a], &b = bodies[m.b];
+    Contact c;
+    c.a = m.a;
+    c.b = m.b;
+    c.part = m.part;
+    c.normal = m.normal;
+    c.restitution = pair_restitution(a, b);
+    c.friction = pair_friction(a, b);
+    c.touch_distance = tuning::touch * std::min(a.radius, b.radius);
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        c.feature = p.feature;
+        c.separation = p.separation;
+        c.arm_a = p.position - a.position;
+        c.arm_b = p.position - b.position;
+        derive(c, a, b);
+        contacts.push_back(c);
     }
+}
+
+void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts) {
+    contacts.clear();
+    for (const Manifold& m : manifolds) add_contacts(m, bodies, contacts);
 }
 
 }  // namespace tumble

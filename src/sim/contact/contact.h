@@ -36,8 +36,6 @@ struct Contact {
     double impact = 0.0;                    // N s, the impulse of this step's collision
     Vec3 impact_friction = Vec3::Zero();    // N s on B, across the normal: the collision's own friction, if asked for
     double bounce_velocity = 0.0;           // m/s, v_rel after the collision: gravity's step must not eat it
-    double impulse = 0.0;                   // N s along the normal, of resting contact
-    Vec3 friction_impulse = Vec3::Zero();   // N s on B, across the normal
 
     bool touching() const { return separation <= touch_distance; }
 };
@@ -58,9 +56,9 @@ void apply_normal_to_velocities(double j, const Contact& c, Body& a, Body& b);
 /// The impulse's share of the momenta, P and L (eqs. 9 and 10); the velocities are left for derive().
 void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b);
 
-/// Contacts of all manifolds in their order, derived quantities filled in, last step's impulses carried over from
-/// `previous` where body, part and feature are the same. Both lists ascend by (a, b, part).
-void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
-                   const std::vector<Contact>& previous, std::vector<Contact>& contacts);
+/// Contacts of the manifolds in their order, derived quantities filled in. Those of one manifold only are added to what is
+/// there already.
+void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
+void add_contacts(const Manifold& manifold, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
 
 }  // namespace tumble

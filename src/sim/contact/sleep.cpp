@@ -7,36 +7,53 @@
 namespace tumble {
 
 void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
-    const std::vector<std::uint32_t> group = std::move(watches_[body].group);
-    for (const std::uint32_t i : group) {
+    const auto group = watches_[body].group;
+    if (!group) return;
+    ++changes_;
+    for (const std::uint32_t i : *group) {
         bodies[i].asleep = false;
         watches_[i] = Watch{};
     }
 }
 
-bool SleepMonitor::wake_touched(const std::vector<Contact>& contacts, std::vector<Body>& bodies) {
+namespace {
+
+// Touching now, or before the step is over.
+bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
+    const double touch = tuning::touch * std::min(a.radius, b.radius);
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        const double v = m.normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
+        if (p.separation <= touch + h * std::max(0.0, speed_change - v)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
     bool woken = false;
     // A woken group may touch another sleeping one: repeat until nobody wakes.
     for (bool again = true; again;) {
         again = false;
-        for (const Contact& c : contacts) {
-            const Body &a = bodies[c.a], &b = bodies[c.b];
-            if (a.asleep == b.asleep || !c.touching()) continue;
+        for (const Manifold& m : manifolds) {
+            const Body &a = bodies[m.a], &b = bodies[m.b];
+            if (a.asleep == b.asleep) continue;
             const Body& other = a.asleep ? b : a;
             const bool disturbs = other.dynamic() || !other.velocity.isZero(0.0) || !other.angular_velocity.isZero(0.0);
-            if (!disturbs) continue;
-            wake(a.asleep ? c.a : c.b, bodies);
+            if (!disturbs || !meets(m, a, b, h, speed_change)) continue;
+            wake(a.asleep ? m.a : m.b, bodies);
             again = woken = true;
         }
     }
     return woken;
 }
 
-void SleepMonitor::observe(const std::vector<Island>& islands, const std::vector<Contact>& contacts,
-                           std::vector<Body>& bodies, double h) {
-    for (const Island& island : islands) {
+void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
+                           double h) {
+    for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
-        for (const std::uint32_t i : island.bodies) {
+        for (const std::uint32_t i : islands.bodies(island)) {
             const Body& body = bodies[i];
             Watch& watch = watches_[i];
             // The surface moves by at most |dx| + r |dtheta|, with |dtheta| about 2 |dq|.
@@ -52,18 +69,22 @@ void SleepMonitor::observe(const std::vector<Island>& islands, const std::vector
             still = still && !body.flying && watch.still >= tuning::sleep_time;
         }
         if (!still) continue;
-        for (const std::uint32_t k : island.contacts) {
-            const Body &a = bodies[contacts[k].a], &b = bodies[contacts[k].b];
-            leans = leans || ((!a.moves() || !b.moves()) && contacts[k].impulse > 0.0);
+        for (const std::uint32_t k : islands.manifolds(island)) {
+            const Manifold& m = manifolds[k];
+            if (bodies[m.a].moves() && bodies[m.b].moves()) continue;
+            for (int i = 0; i < m.count; ++i) leans = leans || m.points[std::size_t(i)].impulse > 0.0;
         }
         if (!leans) continue;
-        for (const std::uint32_t i : island.bodies) {
+        ++changes_;
+        const auto members = islands.bodies(island);
+        const auto group = std::make_shared<const std::vector<std::uint32_t>>(members.begin(), members.end());
+        for (const std::uint32_t i : members) {
             Body& body = bodies[i];
             body.asleep = true;
             body.momentum.setZero();
             body.angular_momentum.setZero();
             body.derive();
-            watches_[i].group = island.bodies;
+            watches_[i].group = group;
         }
     }
 }

@@ -3,8 +3,9 @@
 // on something fixed. Bodies in free flight never sleep, however slow.
 #pragma once
 
-#include "sim/contact/islands.h"
+#include "sim/contact/contact_islands.h"
 
+#include <memory>
 #include <vector>
 
 namespace tumble {
@@ -13,25 +14,29 @@ class SleepMonitor {
 public:
     explicit SleepMonitor(std::size_t bodies) : watches_(bodies) {}
 
-    /// Wakes whatever an awake or kinematically moving body touches, and with a body the whole group it fell asleep
-    /// with. To be called after the narrow phase. Returns whether anybody woke.
-    bool wake_touched(const std::vector<Contact>& contacts, std::vector<Body>& bodies);
+    /// Wakes whatever an awake or kinematically moving body touches, or will before the step of h seconds is over
+    /// (speeds change by up to `speed_change`, m/s), and with a body the whole group it fell asleep with. To be called
+    /// after the narrow phase. Returns whether anybody woke.
+    bool wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change);
 
     /// Wakes one body and its group.
     void wake(std::uint32_t body, std::vector<Body>& bodies);
 
     /// Follows the awake bodies over a step of h seconds and puts islands at rest to sleep.
-    void observe(const std::vector<Island>& islands, const std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                 double h);
+    void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h);
+
+    /// Counts up whenever somebody falls asleep or wakes.
+    std::uint64_t changes() const { return changes_; }
 
 private:
     struct Watch {
         Vec3 position = Vec3::Constant(1e300);   // where the watch began
         Quat orientation = Quat::Identity();
         double still = 0.0;                      // s
-        std::vector<std::uint32_t> group;        // while asleep
+        std::shared_ptr<const std::vector<std::uint32_t>> group;   // while asleep
     };
     std::vector<Watch> watches_;
+    std::uint64_t changes_ = 0;
 };
 
 }  // namespace tumble

@@ -1,7 +1,6 @@
 #include "sim/flight/flights.h"
 
 #include "core/error.h"
-#include "sim/contact/rest_solver.h"
 #include "sim/flight/landing.h"
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
@@ -36,7 +35,11 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       balls_(bodies.size()),
       grounds_(bodies.size()),
       neighbourhood_(bodies),
-      queue_(bodies.size()) {
+      queue_(bodies.size()),
+      islands_(bodies.size()),
+      contact_solver_(bodies.size(), 1),
+      velocity_before_(bodies.size(), Vec3::Zero()),
+      angular_velocity_before_(bodies.size(), Vec3::Zero()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
         if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
@@ -440,41 +443,42 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     if (!(rest > 0.0)) return nullptr;
+    landing_manifolds_.clear();
+    std::vector<std::uint32_t> touched;
+    for (const Manifold& m : cluster_.manifolds()) {
+        const bool lands = std::find(landed.begin(), landed.end(), m.a) != landed.end() || std::find(landed.begin(), landed.end(), m.b) != landed.end();
+        if (!lands || bodies[m.a].flying || bodies[m.b].flying) continue;
+        landing_manifolds_.push_back(m);   // the little it would still bounce is given up
+        for (const std::uint32_t k : {m.a, m.b})
+            if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
+    }
+    sort_unique(touched);
+    for (const std::uint32_t k : touched) {
+        velocity_before_[k] = bodies[k].velocity;
+        angular_velocity_before_[k] = bodies[k].angular_velocity;
+    }
     for (const std::uint32_t k : landed) {
         Body& body = bodies[k];
         const Wrench wrench = forces.at(k, body, clock_.seconds(now));
         advance_momenta(body, wrench.force, wrench.torque, rest);
         body.derive();
     }
-    std::vector<Contact> contacts;
-    Island island;
-    for (const Contact& c : cluster_.contacts()) {
-        const bool lands = std::find(landed.begin(), landed.end(), c.a) != landed.end() || std::find(landed.begin(), landed.end(), c.b) != landed.end();
-        if (!lands || bodies[c.a].flying || bodies[c.b].flying) continue;
-        island.contacts.push_back(std::uint32_t(contacts.size()));
-        contacts.push_back(c);
-        contacts.back().impact = 0.0;   // the little it would still bounce is given up
-        for (const std::uint32_t k : {c.a, c.b})
-            if (bodies[k].dynamic() && !bodies[k].asleep) island.bodies.push_back(k);
-    }
-    sort_unique(island.bodies);
-    const double gravity_step = settings_.gravity.norm() * rest;
-    solve_rest(island, contacts, bodies, {rest, 0.0, std::max(tuning::solver_floor, tuning::solver_tolerance * gravity_step)});
-    for (const Contact& c : contacts) add_impulse(c, c.impulse * c.normal + c.friction_impulse, bodies[c.a], bodies[c.b]);
-    for (const std::uint32_t k : island.bodies) {
+    islands_.find(landing_manifolds_, bodies, touched);
+    contact_solver_.solve({bodies, landing_manifolds_, velocity_before_, angular_velocity_before_, {rest, std::numeric_limits<double>::infinity()}},
+                          islands_, alone_);
+    for (const std::uint32_t k : touched) {
         bodies[k].push_velocity.setZero();
         bodies[k].push_angular_velocity.setZero();
-        bodies[k].derive();
         changed_.push_back(k);
     }
     for (const std::uint32_t k : landed) changed_.push_back(k);
     sort_unique(changed_);
-    return &landing_limits(landed, contacts, bodies, now);
+    return &landing_limits(landed, bodies, now);
 }
 
 // Held bodies meet what is fixed, and each other, by steps: those just landed in what is left of this one.
-const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
-                                                      std::vector<Body>& bodies, const Moment& now) {
+const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies,
+                                                      const Moment& now) {
     std::vector<BroadPhase::Pair> pairs;
     std::vector<StepMotion> motions(bodies.size());
     for (const std::uint32_t k : landed) {
@@ -488,7 +492,8 @@ const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uin
         }
     }
     sort_unique(pairs);
-    return motion_limit_.limits(pairs, contacts, bodies, motions, clock_.between(now, {now.step + 1, 0.0}));
+    return motion_limit_.limits(pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
+                                clock_.between(now, {now.step + 1, 0.0}));
 }
 
 }  // namespace tumble

@@ -17,6 +17,7 @@
 #include "sim/flight/neighbourhood.h"
 #include "sim/flight/path.h"
 #include "sim/flight/time_of_impact.h"
+#include "sim/contact/contact_solver.h"
 #include "sim/forces.h"
 #include "sim/tuning.h"
 
@@ -69,8 +70,7 @@ private:
     void release_struck(std::vector<Body>& bodies);
     /// How far what has landed may move in the rest of the step; null if nothing landed.
     const std::vector<StepLimit>* land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
-    const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, const std::vector<Contact>& contacts,
-                                                 std::vector<Body>& bodies, const Moment& now);
+    const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const Moment& now);
     Path held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const;
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
@@ -111,7 +111,12 @@ private:
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
-    MotionLimit motion_limit_;                   // of what has landed, to the end of its step
+    MotionLimit motion_limit_;            // of what has landed, to the end of its step
+    ContactIslands islands_;
+    ContactSolver contact_solver_;
+    ThreadPool alone_{1};
+    std::vector<Manifold> landing_manifolds_;
+    std::vector<Vec3> velocity_before_, angular_velocity_before_;
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;              // of the run under way
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // whose paths are new

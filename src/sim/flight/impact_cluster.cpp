@@ -64,7 +64,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             std::sort(manifolds_.begin(), manifolds_.end(), [](const Manifold& l, const Manifold& r) {
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
             });
-            make_contacts(manifolds_, bodies, {}, contacts_);
+            make_contacts(manifolds_, bodies, contacts_);
             Island island;
             for (const std::uint32_t k : brought_)
                 if (bodies[k].dynamic()) island.bodies.push_back(k);

@@ -24,7 +24,8 @@ public:
                  const Bring& bring, const ImpactSettings& settings);
 
     /// Of the last call: the contacts that were looked at, and the dynamic bodies that got an impulse, ascending.
-    std::vector<Contact>& contacts() { return contacts_; }
+    const std::vector<Contact>& contacts() const { return contacts_; }
+    const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& struck() const { return struck_; }
 
 private:

@@ -46,31 +46,66 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
-const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Contact>& contacts,
-                                                  const std::vector<Body>& bodies, const std::vector<StepMotion>& motions, double h) {
-    limits_.assign(bodies.size(), StepLimit{});
+// Told without looking at any pair: nothing goes as far in the step as the thinnest body is thin.
+bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
+                           const std::vector<StepMotion>& motions, double h) {
+    double farthest = 0.0;
+    for (const std::uint32_t i : moving) {
+        const double turning = ball(bodies[i]) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
+        farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning));
+    }
+    return 2.0 * farthest <= tuning::fast_share * least_depth_;
+}
+
+StepLimit& MotionLimit::shorten(std::uint32_t body) {
+    shortened_.push_back(body);
+    return limits_[body];
+}
+
+TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
+    return [&](std::uint32_t a, std::uint32_t b) -> std::optional<double> {
+        const auto before = [](const Manifold& m, const std::pair<std::uint32_t, std::uint32_t>& pair) {
+            return std::tie(m.a, m.b) < std::tie(pair.first, pair.second);
+        };
+        std::optional<double> deepest;
+        const double touch = tuning::touch * std::min(bodies[a].radius, bodies[b].radius);
+        for (auto m = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
+             m != manifolds.end() && m->a == a && m->b == b; ++m)
+            for (int i = 0; i < m->count; ++i)
+                if (const double gap = m->points[std::size_t(i)].separation; gap <= touch)
+                    deepest = std::max(deepest.value_or(0.0), -gap);
+        return deepest;
+    };
+}
+
+const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::Pair>& pairs, const TouchDepth& touch_depth,
+                                                  const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
+                                                  const std::vector<StepMotion>& motions, double h) {
+    if (limits_.empty()) {
+        limits_.resize(bodies.size());
+        least_depth_ = std::numeric_limits<double>::infinity();
+        for (const Body& body : bodies) {
+            depth_.push_back(std::isinf(body.radius) ? body.radius : depth(body));
+            least_depth_ = std::min(least_depth_, depth_.back());
+        }
+    }
+    for (const std::uint32_t i : shortened_) limits_[i] = {};
+    shortened_.clear();
+    if (all_slow(bodies, moving, motions, h)) return limits_;
     fast_.clear();
-    std::size_t next = 0;   // both lists ascend
     for (const BroadPhase::Pair& pair : pairs) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
         // Pushed out of the right side is what is in by less than both inner radii together.
-        const double thin = tuning::fast_share * (surface(a) ? depth(b) : surface(b) ? depth(a) : depth(a) + depth(b));
+        const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
+        const double thin = tuning::fast_share * (surface(a) ? depth_b : surface(b) ? depth_a : depth_a + depth_b);
         if (way(a, b, motions[pair.a], motions[pair.b], h) <= thin) continue;
         FastPair fast{pair.a, pair.b, 0.0};
-        bool touching = false;
-        double deepest = 0.0;
-        while (next < contacts.size() && std::tie(contacts[next].a, contacts[next].b) < std::tie(pair.a, pair.b)) ++next;
-        for (std::size_t k = next; k < contacts.size() && contacts[k].a == pair.a && contacts[k].b == pair.b; ++k) {
-            if (!contacts[k].touching()) continue;
-            touching = true;
-            deepest = std::max(deepest, -contacts[k].separation);
-        }
-        if (touching) {
+        if (const auto deepest = touch_depth(pair.a, pair.b)) {
             // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
             if (ball(a) && ball(b)) continue;   // nothing turns
-            const double least = std::min(depth(a), depth(b));
-            fast.overlap = std::max(tuning::fast_overlap * least, deepest + tuning::fast_deeper * least);
+            const double least = std::min(depth_a, depth_b);
+            fast.overlap = std::max(tuning::fast_overlap * least, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
     }
@@ -91,7 +126,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
                 const std::uint32_t other = k == pair.a ? pair.b : pair.a;
-                limits_[k] = {share, bodies[other].track ? other : StepLimit::none};
+                shorten(k) = {share, bodies[other].track ? other : StepLimit::none};
                 shorter = true;
             }
         }
@@ -112,7 +147,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     for (const FastPair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
     for (const FastPair& pair : fast_)
         for (const std::uint32_t k : {pair.a, pair.b})
-            if (bodies[k].dynamic()) limits_[k].share = std::min(limits_[k].share, least);
+            if (bodies[k].dynamic()) shorten(k).share = std::min(limits_[k].share, least);
     return limits_;
 }
 

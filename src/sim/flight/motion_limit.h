@@ -5,9 +5,12 @@
 #pragma once
 
 #include "sim/broad_phase.h"
-#include "sim/contact/contact.h"
+#include "sim/collision/manifold.h"
 #include "sim/flight/time_of_impact.h"
 
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -23,12 +26,19 @@ struct StepLimit {
     std::uint32_t carrier = none;    // the kinematic body that takes it along from there on
 };
 
+/// How deep (m) a pair that touches already is in each other; nothing for others.
+using TouchDepth = std::function<std::optional<double>(std::uint32_t a, std::uint32_t b)>;
+
+/// From manifolds ascending by body, which must outlive it.
+TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
+
 class MotionLimit {
 public:
-    /// By body; `motions` too, bodies that do not move have zero. What touches already is the contact solver's, and may come
-    /// a little deeper into each other: no more.
-    const std::vector<StepLimit>& limits(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Contact>& contacts,
-                                         const std::vector<Body>& bodies, const std::vector<StepMotion>& motions, double h);
+    /// By body; `motions` too, bodies that do not move have zero. `moving`: those that may. What touches already is the
+    /// contact solver's, and may come a little deeper into each other: no more.
+    const std::vector<StepLimit>& limits(const std::vector<BroadPhase::Pair>& pairs, const TouchDepth& touch_depth,
+                                         const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
+                                         const std::vector<StepMotion>& motions, double h);
 
 private:
     struct FastPair {
@@ -37,8 +47,15 @@ private:
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
+    bool all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving, const std::vector<StepMotion>& motions,
+                  double h);
+    StepLimit& shorten(std::uint32_t body);
+
     ImpactSearch search_;
     std::vector<StepLimit> limits_;
+    std::vector<std::uint32_t> shortened_;   // whose limits are not the whole step
+    std::vector<double> depth_;              // m, by body
+    double least_depth_ = 0.0;
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
 };

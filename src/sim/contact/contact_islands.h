@@ -1,0 +1,42 @@
+// Groups of dynamic bodies that hang together through manifolds. What happens in one cannot reach another within a step,
+// so islands are solved independently, on any thread, and fall asleep as one. The time taken goes with the bodies that
+// are awake, whatever sleeps beside them.
+#pragma once
+
+#include "sim/body.h"
+#include "sim/collision/manifold.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class ContactIslands {
+public:
+    explicit ContactIslands(std::size_t bodies);
+
+    /// Islands of the manifolds, ordered by their lowest body. `awake`: the bodies that take part, ascending. Fixed,
+    /// kinematic and sleeping bodies belong to none and join nothing; manifolds without a body that takes part, and
+    /// bodies without manifolds, are left out.
+    void find(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
+
+    std::size_t size() const { return first_body_.size() - 1; }
+    std::span<const std::uint32_t> bodies(std::size_t island) const {
+        return std::span(bodies_).subspan(first_body_[island], first_body_[island + 1] - first_body_[island]);
+    }
+    std::span<const std::uint32_t> manifolds(std::size_t island) const {
+        return std::span(manifolds_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
+    }
+
+private:
+    std::uint32_t root(std::uint32_t i);
+    void touch(std::uint32_t i);
+
+    std::vector<std::uint32_t> parent_, island_;   // by body; valid where touched_ says so
+    std::vector<std::uint64_t> touched_;           // by body: the round in which it last was
+    std::uint64_t round_ = 0;
+    std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
+};
+
+}  // namespace tumble

@@ -1,0 +1,52 @@
+// Resting contact of all islands: each goes to the solver that suits it, by rules that see only the scene.
+//
+// Directly (direct_solver.h): islands of a few bodies, and those where much rests on little, as long as factoring them is
+// cheap and the step's budget of such work lasts, the worst first. All others, and those for which the direct solver finds
+// no solution, by soft substeps (soft_solver.h); after a failure it is not tried again for a while.
+#pragma once
+
+#include "sim/contact/contact_islands.h"
+#include "sim/contact/direct_solver.h"
+#include "sim/contact/load_ratio.h"
+#include "sim/contact/soft_solver.h"
+
+#include <memory>
+#include <vector>
+
+namespace tumble {
+
+class ContactSolver {
+public:
+    /// for_everything: one solver for all islands, for comparing them.
+    enum class Choice { by_island, soft, direct };
+
+    ContactSolver(std::size_t bodies, int threads, Choice choice = Choice::by_island);
+
+    void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
+
+private:
+    struct Memory {   // of an island, kept with its lowest body
+        std::unique_ptr<DirectSolver> solver;
+        int wait = 0, failures = 0;   // steps until the next trial; failures in a row
+        int factorisations = 2;       // of the last solve: what the next may take
+    };
+    struct Candidate {
+        std::size_t island;
+        double load_ratio;
+        std::size_t work;
+    };
+    void choose(const ContactProblem& problem, const ContactIslands& islands);
+    bool small(const ContactIslands& islands, std::size_t island) const;
+    void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
+
+    Choice choice_;
+    std::vector<Memory> memory_;          // by body
+    LoadRatio load_ratio_;
+    SoftSolver soft_;
+    std::vector<Candidate> candidates_;
+    std::vector<std::size_t> direct_, softly_;   // islands
+    std::vector<char> failed_;            // of direct_
+    std::vector<SoftSolver::Part> parts_;
+};
+
+}  // namespace tumble
