@@ -114,17 +114,19 @@ TEST(NarrowPhase, ThreadsChangeNothing) {
     BroadPhase broad_phase;
     const auto pairs = broad_phase.update(bodies, h);
     ASSERT_GT(pairs.size(), 200u);
-    std::vector<Manifold> expected;
+    std::vector<Manifold> of_round[3];   // what memory makes of the same poses differs in the last digits
     for (const int threads : {1, 2, 4}) {
         ThreadPool pool(threads);
         NarrowPhase narrow_phase(threads);
         for (int round = 0; round < 3; ++round) {
             const auto& found = narrow_phase.find(pairs, bodies, h, pool);
+            std::vector<Manifold>& expected = of_round[round];
             if (expected.empty()) expected = found;
             ASSERT_EQ(found.size(), expected.size());
             for (std::size_t i = 0; i < found.size(); ++i) {
                 const Manifold &m = found[i], &e = expected[i];
-                EXPECT_TRUE(m.a == e.a && m.b == e.b && m.part == e.part && m.normal == e.normal && m.count == e.count);
+                EXPECT_TRUE(m.a == e.a && m.b == e.b && m.part == e.part && m.count == e.count);
+                EXPECT_EQ(m.normal, e.normal);
                 EXPECT_EQ(m.points[0].position, e.points[0].position);
                 if (i == 0) continue;
                 const Manifold& before = found[i - 1];
