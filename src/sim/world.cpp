@@ -105,6 +105,7 @@ void World::State::advance(std::int64_t to) {
             continue;
         }
         steps = flights->run(bodies, sleep, forces, to);
+        broad_phase.bodies_woke();   // some may have
         flights->place(bodies, steps);
         check_finite();
     }
@@ -133,6 +134,7 @@ void World::State::find_contacts() {
     make_contacts(manifolds, bodies, previous_contacts, contacts);
     if (sleep.wake_touched(contacts, bodies)) {
         // The woken ones need the contacts among themselves too, which were not looked for.
+        broad_phase.bodies_woke();
         make_contacts(narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool), bodies, previous_contacts, contacts);
     }
     if (flights && flights->take_off(contacts, bodies, forces, steps))
@@ -154,7 +156,10 @@ void World::State::apply_forces() {
     const double now = time(steps);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         Body& body = bodies[i];
-        if (body.asleep && forces.changes(i, now, time(steps + 1))) sleep.wake(std::uint32_t(i), bodies);
+        if (body.asleep && forces.changes(i, now, time(steps + 1))) {
+            sleep.wake(std::uint32_t(i), bodies);
+            broad_phase.bodies_woke();
+        }
         if (!awake(body)) continue;
         body.derive();
         old_velocity[i] = body.velocity;
@@ -211,6 +216,7 @@ void World::State::move() {
     if (flights) {
         flights->begin_step(bodies, held_limits(), forces, steps);
         steps = flights->run(bodies, sleep, forces, steps + 1);
+        broad_phase.bodies_woke();   // some may have
         flights->place(bodies, steps);
         place_kinematic_bodies();
         return;
@@ -282,7 +288,7 @@ Measurement World::measure() const {
     State& s = *state_;
     // Contacts of the poses as they are now, not of the step that led here.
     Measurement m = measure_motion(s.bodies, s.settings.gravity);
-    BroadPhase broad_phase;
+    BroadPhase broad_phase(BroadPhase::Pairs::all);
     NarrowPhase narrow_phase(s.pool.size(), NarrowPhase::Mode::measure);
     measure_contacts(narrow_phase.find(broad_phase.update(s.bodies, s.h), s.bodies, s.h, s.pool), s.bodies, m);
     return m;
