@@ -20,6 +20,13 @@ double motion(const Pose& from, const Pose& to, double radius) {
     return (to.position - from.position).norm() + std::sqrt(0.5 * (to.rotation - from.rotation).squaredNorm()) * radius;
 }
 
+// Along the world's axis that separates them best.
+double distance(const Bounds& a, const Bounds& b) {
+    double most = b.min[0] - a.max[0];
+    for (int k = 0; k < 3; ++k) most = std::max({most, b.min[k] - a.max[k], a.min[k] - b.max[k]});
+    return most;
+}
+
 // The manifold's normal is that of a face of its second shape (feature_contact.cpp).
 bool of_second(const Manifold& m) { return (m.points[0].feature >> 63) != 0; }
 
@@ -111,7 +118,9 @@ void NarrowPhase::view(const std::vector<Body>& bodies) {
             seen_[i] = call_;
             const Body& body = bodies[i];
             View& v = views_[i];
-            v.pose = body.pose();
+            const Pose pose = body.pose();
+            if (body.moves()) v.travel += motion(v.pose, pose, body.radius);
+            v.pose = pose;
             v.radius = body.radius;
             v.velocity.setZero();
             v.spin = v.speculative = 0.0;
@@ -138,31 +147,35 @@ NarrowPhase::Result NarrowPhase::examine(const Entry& entry, double h, std::size
     // Exact flights meet others at impacts, not at steps.
     if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return nothing;
     const double reach = margin(a, b, h);
-    if (!a.bounds.grown(reach).overlaps(b.bounds)) {
+    if (distance(a.bounds, b.bounds) > reach) {
         if (entry.count > 0) last.outcome = Search::Outcome::none;
         return nothing;
     }
     if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(entry, a, b, reach, thread);
 
+    // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
+    if (holds(entry, a, b, reach, last, a.travel + b.travel - last.travel)) return {};
     const bool a_larger = a.radius >= b.radius;
     const View &large = a_larger ? a : b, &small = a_larger ? b : a;
     const Pose pose = seen_from(large.pose, small.pose);
-    if (last.outcome != Search::Outcome::none) {
-        const double moved = motion(last.pose, pose, small.radius);
-        if (last.outcome == Search::Outcome::apart) {
-            if (last.gap - moved > reach) return nothing;
-        } else if (moved < tuning::reuse_motion * small.radius) {
-            bool within = true;
-            for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
-                Manifold& m = manifolds_[k];
-                follow(anchors_[k], a.pose, b.pose, m);
-                for (int i = 0; i < m.count; ++i) within = within && m.points[std::size_t(i)].separation <= reach;
-            }
-            if (within) return {};
-        }
-    }
+    if (holds(entry, a, b, reach, last, motion(last.pose, pose, small.radius))) return {};
     last.pose = pose;
+    last.travel = a.travel + b.travel;
     return search(entry, a, b, reach, thread);
+}
+
+// Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
+// date.
+bool NarrowPhase::holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved) {
+    if (last.outcome == Search::Outcome::apart) return last.gap - moved > reach;
+    if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * std::min(a.radius, b.radius)) return false;
+    bool within = true;
+    for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
+        Manifold& m = manifolds_[k];
+        follow(anchors_[k], a.pose, b.pose, m);
+        for (int i = 0; i < m.count; ++i) within = within && m.points[std::size_t(i)].separation <= reach;
+    }
+    return within;
 }
 
 NarrowPhase::Result NarrowPhase::search(const Entry& entry, const View& a, const View& b, double reach,
@@ -217,20 +230,35 @@ void NarrowPhase::put_in_order() {
     if (!moved_ && std::all_of(results_.begin(), results_.end(), stays)) return;
     spare_manifolds_.clear();
     spare_anchors_.clear();
+    std::uint32_t first = 0, end = 0;   // of what stays, one run at a time
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         Entry& entry = entries_[i];
         const Result& result = results_[i];
-        const std::uint32_t first = result.stays ? entry.first : result.first;
-        const auto& manifolds = result.stays ? manifolds_ : found_[result.thread].manifolds;
-        const auto& anchors = result.stays ? anchors_ : found_[result.thread].anchors;
-        if (!result.stays) entry.count = result.count;
-        entry.first = std::uint32_t(spare_manifolds_.size());
-        spare_manifolds_.insert(spare_manifolds_.end(), manifolds.begin() + first, manifolds.begin() + first + entry.count);
-        spare_anchors_.insert(spare_anchors_.end(), anchors.begin() + first, anchors.begin() + first + entry.count);
+        const bool run = result.stays && entry.first == end;
+        if (!run && (!result.stays || entry.count > 0)) {
+            append(manifolds_, anchors_, first, end);
+            first = end = result.stays ? entry.first : 0;
+        }
+        const auto at = std::uint32_t(spare_manifolds_.size()) + (end - first);
+        if (result.stays) {
+            if (entry.count > 0) end += entry.count;
+        } else {
+            const Found& found = found_[result.thread];
+            append(found.manifolds, found.anchors, result.first, result.first + result.count);
+            entry.count = result.count;
+        }
+        entry.first = at;
     }
+    append(manifolds_, anchors_, first, end);
     manifolds_.swap(spare_manifolds_);
     anchors_.swap(spare_anchors_);
     moved_ = false;
+}
+
+void NarrowPhase::append(const std::vector<Manifold>& manifolds, const std::vector<Anchors>& anchors, std::uint32_t first,
+                         std::uint32_t end) {
+    spare_manifolds_.insert(spare_manifolds_.end(), manifolds.begin() + first, manifolds.begin() + end);
+    spare_anchors_.insert(spare_anchors_.end(), anchors.begin() + first, anchors.begin() + end);
 }
 
 }  // namespace tumble

@@ -37,6 +37,7 @@ private:
         Pose pose;
         Vec3 velocity = Vec3::Zero();
         double spin = 0.0, radius = 0.0, speculative = 0.0;   // spin: m/s of the farthest point
+        double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
         Bounds bounds;
         const Collider* collider = nullptr;
         bool awake = false, flying = false;
@@ -47,6 +48,7 @@ private:
         enum class Outcome { none, apart, near } outcome = Outcome::none;
         std::uint32_t axis = 0;                   // hint for boxes
         double gap = 0.0;                         // m, at least
+        double travel = 0.0;                      // m, of both bodies by then
         Pose pose;
     };
     struct Entry {
@@ -75,9 +77,12 @@ private:
     void unpark(Entry& entry);
     void view(const std::vector<Body>& bodies);
     double margin(const View& a, const View& b, double h) const;
+    bool holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
     Result examine(const Entry& entry, double h, std::size_t thread);
     Result search(const Entry& entry, const View& a, const View& b, double margin, std::size_t thread);
     void put_in_order();
+    void append(const std::vector<Manifold>& manifolds, const std::vector<Anchors>& anchors, std::uint32_t first,
+                std::uint32_t end);
 
     Mode mode_;
     bool remembers_;

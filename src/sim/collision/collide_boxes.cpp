@@ -98,28 +98,38 @@ std::uint32_t face_at_support(const Vec3& half, const Vec3& direction, double de
 }
 
 struct Corner {
-    Vec3 p;                      // in the reference box's frame
-    std::uint64_t feature = 0;
-    std::uint32_t edge = 0;      // label of the edge that starts here
+    Vec3 p;                  // in the reference box's frame
+    std::uint64_t feature;
+    std::uint32_t edge;      // label of the edge that starts here
 };
 struct Polygon {
-    std::array<Corner, 8> corners;   // a rectangle cut by four lines
+    static constexpr int capacity = 8;   // a rectangle cut by four lines
+    std::array<Corner, capacity> corners;
     int count = 0;
 };
 
-// Keeps sign * p[axis] <= limit.
-void clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t side, Polygon& out) {
+// Keeps sign * p[axis] <= limit. Whether anything had to go: otherwise `out` is left as it was.
+bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t side, Polygon& out) {
+    std::array<double, Polygon::capacity> beyond;
+    bool cuts = false;
+    for (std::size_t i = 0; i < std::size_t(in.count); ++i) {
+        beyond[i] = sign * in.corners[i].p[axis] - limit;
+        cuts = cuts || beyond[i] > 0.0;
+    }
+    if (!cuts) return false;
     out.count = 0;
     for (int i = 0; i < in.count; ++i) {
-        const Corner &p = in.corners[std::size_t(i)], &q = in.corners[std::size_t(i + 1 < in.count ? i + 1 : 0)];
-        const double dp = sign * p.p[axis] - limit, dq = sign * q.p[axis] - limit;
-        if (dp <= 0.0 && out.count < 8) out.corners[std::size_t(out.count++)] = p;
-        if ((dp <= 0.0) == (dq <= 0.0) || out.count == 8) continue;
+        const int next = i + 1 < in.count ? i + 1 : 0;
+        const Corner &p = in.corners[std::size_t(i)], &q = in.corners[std::size_t(next)];
+        const double dp = beyond[std::size_t(i)], dq = beyond[std::size_t(next)];
+        if (dp <= 0.0 && out.count < Polygon::capacity) out.corners[std::size_t(out.count++)] = p;
+        if ((dp <= 0.0) == (dq <= 0.0) || out.count == Polygon::capacity) continue;
         Corner& cut = out.corners[std::size_t(out.count++)];
         cut.p = p.p + dp / (dp - dq) * (q.p - p.p);
         cut.feature = (std::uint64_t(1) << 40) | (std::uint64_t(p.edge) << 20) | side_label(side);
         cut.edge = dp <= 0.0 ? side_label(side) : p.edge;
     }
+    return true;
 }
 
 // The incident box in the reference box's frame: centre c, axes the columns of r. `n`: the reference face's outward sign.
@@ -130,15 +140,15 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     const double depth = axis_preference(std::min(reference.radius, incident.radius));
     const std::uint32_t opposite = face_at_support(incident.half_extent, -sign * r.row(axis).transpose(), depth);
     const std::vector<std::uint32_t>& loop = incident.faces[opposite].vertices;
-    Polygon polygon, spare;
-    polygon.count = 4;
+    Polygon polygons[2];
+    Polygon *polygon = &polygons[0], *spare = &polygons[1];
+    polygon->count = 4;
     for (std::size_t i = 0; i < 4; ++i)
-        polygon.corners[i] = {c + r * incident.vertices[loop[i]], loop[i], std::uint32_t(i)};
+        polygon->corners[i] = {c + r * incident.vertices[loop[i]], loop[i], std::uint32_t(i)};
     const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
-    const Corner* deepest = &polygon.corners[0];
-    for (std::size_t i = 1; i < 4; ++i)
-        if (height(polygon.corners[i].p) < height(deepest->p)) deepest = &polygon.corners[i];
-    const Corner stand_in = *deepest;
+    Corner deepest = polygon->corners[0];
+    for (std::size_t i = 1; i < 4 && must_touch; ++i)
+        if (height(polygon->corners[i].p) < height(deepest.p)) deepest = polygon->corners[i];
 
     const std::vector<std::uint32_t>& sides = reference.faces[face].vertices;
     for (std::uint32_t s = 0; s < 4; ++s) {
@@ -146,8 +156,8 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         // The side lies across the one axis, besides the face's own, along which it does not run.
         int across = 0;
         while (across == axis || from[across] != to[across]) ++across;
-        clip(polygon, across, from[across] > 0.0 ? 1.0 : -1.0, reference.half_extent[across], s, spare);
-        std::swap(polygon, spare);
+        if (clip(*polygon, across, from[across] > 0.0 ? 1.0 : -1.0, reference.half_extent[across], s, *spare))
+            std::swap(polygon, spare);
     }
     const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
     scratch.points.clear();
@@ -158,8 +168,8 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         p[axis] -= 0.5 * sign * separation;
         scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
     };
-    for (int i = 0; i < polygon.count; ++i) keep(polygon.corners[std::size_t(i)]);
-    if (scratch.points.empty() && must_touch) keep(stand_in);   // rounding clipped a sliver away
+    for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
+    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
