@@ -154,13 +154,16 @@ NarrowPhase::Result NarrowPhase::examine(const Entry& entry, double h, std::size
     if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(entry, a, b, reach, thread);
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
-    if (holds(entry, a, b, reach, last, a.travel + b.travel - last.travel)) return {};
+    const double travel = a.travel + b.travel;
+    if (holds(entry, a, b, reach, last, last.spent + (travel - last.travel))) return {};
     const bool a_larger = a.radius >= b.radius;
     const View &large = a_larger ? a : b, &small = a_larger ? b : a;
     const Pose pose = seen_from(large.pose, small.pose);
-    if (holds(entry, a, b, reach, last, motion(last.pose, pose, small.radius))) return {};
+    last.spent += motion(last.pose, pose, small.radius);
     last.pose = pose;
-    last.travel = a.travel + b.travel;
+    last.travel = travel;
+    if (holds(entry, a, b, reach, last, last.spent)) return {};
+    last.spent = 0.0;
     return search(entry, a, b, reach, thread);
 }
 

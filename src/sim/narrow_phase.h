@@ -43,11 +43,13 @@ private:
         bool awake = false, flying = false;
         enum class Kind { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
     };
-    // The last search for a pair: the smaller body's pose in the frame of the larger, and how far apart they were.
+    // What is known of a pair: the last search, and the smaller body's pose in the frame of the larger: at the search, or at a later look,
+    // when it had moved by `spent` since.
     struct Search {
         enum class Outcome { none, apart, near } outcome = Outcome::none;
         std::uint32_t axis = 0;                   // hint for boxes
         double gap = 0.0;                         // m, at least
+        double spent = 0.0;                       // m
         double travel = 0.0;                      // m, of both bodies by then
         Pose pose;
     };

@@ -193,3 +193,49 @@ TEST(PairMemory, SurvivesSleep) {
     EXPECT_EQ(found[0].points[3].impulse, 4.0);
     EXPECT_EQ(found[0].twist, 12.0);
 }
+
+// A tessellated flat floor is flat, whether the manifolds are new or followed: nothing to bump against.
+TEST(PairMemory, SeamsAreFlat) {
+    for (const bool sphere : {false, true}) {
+        for (const double speed : {0.02, 0.7, 5.0}) {
+            const Collider shape = sphere ? Collider(Ball{0.3}) : Collider(box_of({0.6, 0.6, 0.6}));
+            Scene scene({body_at(surface_of(grid_mesh(20, 5.0, 0.0)), Vec3::Zero(), BodyType::fixed),
+                         body_at(shape, {-1.0, 0.3 - 1e-5, 0.13})});
+            Body& body = scene.bodies[1];
+            turn(body, Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY())));
+            body.velocity = speed * Vec3(1.0, 0.0, 0.3);
+            for (int step = 0; step < 30; ++step) {
+                body.position += h * body.velocity;
+                const auto& found = scene.find();
+                ASSERT_FALSE(found.empty());
+                EXPECT_NEAR(deepest(found), -1e-5, 1e-14) << step;
+                for (const Manifold& m : found) {
+                    EXPECT_LT((m.normal - Vec3::UnitY()).norm(), 1e-14) << step;
+                    for (int i = 0; i < m.count; ++i)
+                        EXPECT_NEAR(m.points[std::size_t(i)].separation, -1e-5, 1e-14);
+                }
+            }
+        }
+    }
+}
+
+// What sleeps costs nothing: it is in no list, and the way of a ball past it is as short as through empty space.
+TEST(BroadPhase, SleepersAreInNoList) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 500; ++i) {
+        bodies.push_back(body_at(box_of({1.0, 1.0, 1.0}), {1.01 * (i % 25), 1.01 * (i / 25), 0.0}));
+        bodies.back().asleep = true;
+    }
+    bodies.push_back(body_at(Ball{0.5}, {0.0, 0.0, 20.0}));
+    BroadPhase broad_phase;
+    EXPECT_TRUE(broad_phase.update(bodies, h).empty());
+    EXPECT_EQ(broad_phase.awake(), std::vector<std::uint32_t>{500});
+    bodies[7].asleep = false;
+    broad_phase.bodies_woke();
+    const auto pairs = broad_phase.update(bodies, h);
+    EXPECT_EQ(broad_phase.awake(), (std::vector<std::uint32_t>{7, 500}));
+    EXPECT_EQ(pairs.size(), 5u);   // the neighbours beside, above and across
+    for (const BroadPhase::Pair& pair : pairs) EXPECT_TRUE(pair.a == 7 || pair.b == 7);
+    bodies[7].asleep = true;
+    EXPECT_TRUE(broad_phase.update(bodies, h).empty());
+}
