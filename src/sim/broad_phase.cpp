@@ -4,79 +4,127 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tumble {
 namespace {
 
-double way_in_a_step(const Body& body, double h) {
-    return body.moves() ? h * (body.velocity.norm() + body.angular_velocity.norm() * body.radius) : 0.0;
+double turning_way(const Body& body, double h) { return h * body.angular_velocity.norm() * body.radius; }
+
+bool inside(const Bounds& inner, const Bounds& outer) {
+    for (int k = 0; k < 3; ++k)
+        if (inner.min[k] < outer.min[k] || inner.max[k] > outer.max[k]) return false;
+    return true;
+}
+
+Bounds carried(Bounds bounds, const Vec3& way) {
+    bounds.min += way.cwiseMin(0.0);
+    bounds.max += way.cwiseMax(0.0);
+    return bounds;
 }
 
 }  // namespace
 
-double contact_margin(const Body& body, double h) {
-    if (!body.moves()) return 0.0;
-    return tuning::speculative * body.radius + way_in_a_step(body, h);
+Bounds bounds_of_step(const Body& body, double h) {
+    const Bounds bounds = world_bounds(body.collider, body.pose());
+    if (!body.moves()) return bounds;
+    return carried(bounds.grown(tuning::speculative * body.radius + turning_way(body, h)), h * body.velocity);
 }
 
 const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h) {
-    bool escaped = !built_;
-    for (std::size_t i = 0; i < moving_.size() && !escaped; ++i) {
-        const Body& body = bodies[moving_[i]];
-        if (body.asleep || body.flying) continue;
-        const Bounds now = world_bounds(body.collider, body.pose()).grown(contact_margin(body, h));
-        const Bounds& fat = moving_tree_.item(std::uint32_t(i));
-        escaped = (now.min.array() < fat.min.array()).any() || (now.max.array() > fat.max.array()).any();
+    if (!built_) build(bodies);
+    if (look_for_awake_) find_awake(bodies);
+    std::size_t left = 0;
+    for (const std::uint32_t i : awake_) {
+        visit(i, bodies[i], h);
+        if (!bodies[i].asleep || kind_ == Pairs::all) awake_[left++] = i;
     }
-    if (escaped) rebuild(bodies, h);
+    awake_.resize(left);
+    if (moved_.empty() && !fell_asleep_) return pairs_;
+
+    added_.clear();
+    for (const std::uint32_t i : moved_) find_pairs_of(i, bodies);
+    std::sort(added_.begin(), added_.end());
+    spare_.clear();
+    std::erase_if(pairs_, [&](const Pair& pair) {
+        const State &a = states_[pair.a], &b = states_[pair.b];
+        return a.moved || b.moved || (!a.active && !b.active);
+    });
+    std::merge(pairs_.begin(), pairs_.end(), added_.begin(), added_.end(), std::back_inserter(spare_));
+    pairs_.swap(spare_);
+    for (const std::uint32_t i : moved_) states_[i].moved = false;
+    moved_.clear();
+    fell_asleep_ = false;
     return pairs_;
 }
 
-void BroadPhase::rebuild(const std::vector<Body>& bodies, double h) {
-    if (!built_) {
-        std::vector<Bounds> fixed_bounds;
-        for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-            const Body& body = bodies[i];
-            if (body.moves()) moving_.push_back(i);
-            else if (std::holds_alternative<HalfSpace>(body.collider)) half_spaces_.push_back(i);
-            else {
-                fixed_.push_back(i);
-                fixed_bounds.push_back(world_bounds(body.collider, body.pose()));
-            }
-        }
-        fixed_tree_ = BoundsTree(std::move(fixed_bounds));
-        built_ = true;
-    }
-    std::vector<Bounds> fat;
-    for (const std::uint32_t i : moving_) {
+void BroadPhase::build(const std::vector<Body>& bodies) {
+    std::vector<Bounds> fixed_bounds;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        const double margin = contact_margin(body, h) + tuning::fat_bounds * body.radius +
-                              tuning::fat_steps * way_in_a_step(body, h);
-        fat.push_back(world_bounds(body.collider, body.pose()).grown(margin));
-    }
-    moving_tree_ = BoundsTree(std::move(fat));
-
-    pairs_.clear();
-    const auto add = [&](std::uint32_t i, std::uint32_t j) {
-        if (bodies[i].dynamic() || bodies[j].dynamic()) pairs_.push_back({std::min(i, j), std::max(i, j)});
-    };
-    for (std::uint32_t k = 0; k < moving_.size(); ++k) {
-        const std::uint32_t i = moving_[k];
-        const Bounds& box = moving_tree_.item(k);
-        moving_tree_.query(box, [&](std::uint32_t other) {
-            if (other > k) add(i, moving_[other]);
-        });
-        if (!bodies[i].dynamic()) continue;
-        fixed_tree_.query(box, [&](std::uint32_t other) { add(i, fixed_[other]); });
-        for (const std::uint32_t plane : half_spaces_) {
-            // The half-space reaches the box if the box's lowest corner is below its plane.
-            const auto& space = std::get<HalfSpace>(bodies[plane].collider);
-            const Vec3 normal = bodies[plane].rotation * space.normal;
-            const double center = normal.dot(box.center() - bodies[plane].position) - space.offset;
-            if (center <= normal.cwiseAbs().dot(0.5 * box.extent())) add(i, plane);
+        if (body.moves()) continue;
+        if (std::holds_alternative<HalfSpace>(body.collider)) half_spaces_.push_back(i);
+        else {
+            fixed_.push_back(i);
+            fixed_bounds.push_back(world_bounds(body.collider, body.pose()));
         }
     }
-    std::sort(pairs_.begin(), pairs_.end());
+    fixed_tree_ = BoundsTree(std::move(fixed_bounds));
+    states_.resize(bodies.size());
+    built_ = true;
+}
+
+void BroadPhase::find_awake(const std::vector<Body>& bodies) {
+    awake_.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = bodies[i];
+        // Sleepers are visited once more, and once at the start for a place in the tree.
+        const bool known = moving_tree_.holds(i) && !states_[i].active;
+        if (body.moves() && (!body.asleep || kind_ == Pairs::all || !known)) awake_.push_back(i);
+    }
+    look_for_awake_ = false;
+}
+
+// Whether the body has left its fat bounds, or the list of the active.
+void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
+    State& state = states_[i];
+    const bool active = (!body.asleep || kind_ == Pairs::all) && !body.flying, was_active = state.active;
+    state.active = active;
+    if (was_active && !active) fell_asleep_ = true;
+    const bool known = moving_tree_.holds(i);
+    if (!active && known) return;
+    const Bounds now = bounds_of_step(body, h);
+    const double way = h * body.velocity.norm();
+    const bool shrinks = state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius;   // it was faster
+    const bool escaped = !known || shrinks || !inside(now, moving_tree_.box(i));
+    if (escaped) {
+        const Vec3 further = (tuning::fat_steps - 1.0) * h * body.velocity;
+        moving_tree_.set(i, carried(now.grown(tuning::fat_bounds * body.radius), further));
+        state.way = tuning::fat_steps * way;
+    }
+    if (!escaped && was_active) return;
+    state.moved = true;
+    moved_.push_back(i);
+}
+
+void BroadPhase::find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies) {
+    const Bounds& box = moving_tree_.box(i);
+    const bool active = states_[i].active, dynamic = bodies[i].dynamic();
+    moving_tree_.query(box, [&](std::uint32_t other) {
+        const State& state = states_[other];
+        if (other == i || (state.moved && other < i) || (!active && !state.active)) return;
+        if (dynamic || bodies[other].dynamic()) added_.push_back({std::min(i, other), std::max(i, other)});
+    });
+    if (!dynamic || !active) return;
+    const auto add = [&](std::uint32_t fixed) { added_.push_back({std::min(i, fixed), std::max(i, fixed)}); };
+    fixed_tree_.query(box, [&](std::uint32_t other) { add(fixed_[other]); });
+    for (const std::uint32_t plane : half_spaces_) {
+        // The half-space reaches the box if the box's lowest corner is below its plane.
+        const auto& space = std::get<HalfSpace>(bodies[plane].collider);
+        const Vec3 normal = bodies[plane].rotation * space.normal;
+        const double center = normal.dot(box.center() - bodies[plane].position) - space.offset;
+        if (center <= normal.cwiseAbs().dot(0.5 * box.extent())) add(plane);
+    }
 }
 
 }  // namespace tumble

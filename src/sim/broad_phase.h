@@ -1,9 +1,14 @@
-// Which bodies may touch: a tree over the moving bodies' fattened bounds, one over the fixed bodies, and a list of the
-// half-spaces. Built again only when a body has left its fat bounds: n log n then, n otherwise.
+// Which bodies may touch: one tree over the moving bodies' fattened bounds, one over the fixed bodies, and a list of the
+// half-spaces. A body that leaves its fat bounds moves in the tree alone; the list of pairs is kept, and changes where
+// somebody left, fell asleep or woke.
+//
+// Sleeping bodies cost nothing: only those awake are visited, and pairs of two sleeping ones are not in the list. A body
+// that falls asleep is noticed; who wakes is not, since nobody looks at sleepers: see bodies_woke().
 #pragma once
 
 #include "sim/body.h"
 #include "sim/collision/bounds_tree.h"
+#include "sim/collision/dynamic_tree.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,20 +21,44 @@ public:
         std::uint32_t a, b;   // a < b; at least one is dynamic
         friend auto operator<=>(const Pair&, const Pair&) = default;
     };
+    /// awake: pairs of which one body is awake, for the step. all: sleepers among themselves as well.
+    enum class Pairs { awake, all };
 
-    /// The pairs for the bodies' present poses and speeds, ascending. h: the step, s.
+    explicit BroadPhase(Pairs kind = Pairs::awake) : kind_(kind) {}
+
+    /// The pairs for the bodies' present poses and speeds, ascending: all whose bounds_of_step overlap. h: the step, s. The
+    /// bodies must be the same ones in every call.
     const std::vector<Pair>& update(const std::vector<Body>& bodies, double h);
 
-private:
-    void rebuild(const std::vector<Body>& bodies, double h);
+    /// To be called when any body's `asleep` has been cleared: the next update looks for all that are awake.
+    void bodies_woke() { look_for_awake_ = true; }
 
-    std::vector<std::uint32_t> moving_, fixed_, half_spaces_;
-    BoundsTree moving_tree_, fixed_tree_;
-    std::vector<Pair> pairs_;
-    bool built_ = false;
+    /// Bodies that move and are awake or in exact flight, ascending, as of the last update.
+    const std::vector<std::uint32_t>& awake() const { return awake_; }
+
+private:
+    void build(const std::vector<Body>& bodies);
+    void find_awake(const std::vector<Body>& bodies);
+    void visit(std::uint32_t i, const Body& body, double h);
+    void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies);
+
+    Pairs kind_;
+    bool built_ = false, look_for_awake_ = true;
+    std::vector<std::uint32_t> fixed_, half_spaces_, awake_;
+    BoundsTree fixed_tree_;
+    DynamicTree moving_tree_;
+    struct State {
+        bool active = false;    // awake and not in exact flight
+        bool moved = false;     // in this update: its pairs are looked for anew
+        double way = 0.0;       // m, that its fat bounds reach ahead
+    };
+    std::vector<State> states_;               // of the bodies
+    std::vector<std::uint32_t> moved_;
+    bool fell_asleep_ = false;
+    std::vector<Pair> pairs_, added_, spare_;
 };
 
-/// How far (m) the body's contacts are looked for: a part of its size, and its way in a step.
-double contact_margin(const Body& body, double h);
+/// Where the body can be in a step of h seconds at its present velocities, and a part of its size around that.
+Bounds bounds_of_step(const Body& body, double h);
 
 }  // namespace tumble

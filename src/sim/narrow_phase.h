@@ -1,31 +1,105 @@
 // Exact manifolds of all pairs that may touch, shared out over the threads and put in order.
+//
+// A pair remembers what was found for it. Apart by more than it has moved since, it is passed over; nearly unmoved, its
+// manifold follows the bodies by its anchors; else the shapes are searched again. Motion counts between the two bodies:
+// a heap that is carried along costs no more than one at rest.
 #pragma once
 
 #include "sim/broad_phase.h"
+#include "sim/collision/anchors.h"
 #include "sim/collision/collide.h"
 #include "sim/thread_pool.h"
 
+#include <map>
 #include <vector>
 
 namespace tumble {
 
 class NarrowPhase {
 public:
-    /// step: pairs of which one body is awake, with the margin of a step. measure: all pairs, touching points only.
+    /// step: pairs of which one body is awake, with the margin of a step. measure: all pairs, touching points only, never
+    /// from memory.
     enum class Mode { step, measure };
+    enum class Memory { on, off };
 
-    explicit NarrowPhase(int threads, Mode mode = Mode::step) : mode_(mode), scratch_(std::size_t(threads)) {}
+    explicit NarrowPhase(int threads, Mode mode = Mode::step, Memory memory = Memory::on)
+        : mode_(mode), remembers_(memory == Memory::on && mode == Mode::step), found_(std::size_t(threads)) {}
 
     /// Ascending by (a, b, part). Valid until the next call, which takes over what the solver has written into them
-    /// (impulses, friction, twist) for the pairs that are still there; it may come in the same step again.
+    /// (impulses, friction, twist) for the pairs that are still there; it may come in the same step again. A pair that
+    /// leaves the list because both its bodies sleep gets its own back when one wakes. `pairs` ascends.
     std::vector<Manifold>& find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies, double h,
                                 ThreadPool& pool);
 
 private:
+    // What the pairs need of a body, close together.
+    struct View {
+        Pose pose;
+        Vec3 velocity = Vec3::Zero();
+        double spin = 0.0, radius = 0.0, speculative = 0.0;   // spin: m/s of the farthest point
+        double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
+        Bounds bounds;
+        const Collider* collider = nullptr;
+        bool awake = false, flying = false;
+        enum class Kind { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
+    };
+    // What is known of a pair: the last search, and the smaller body's pose in the frame of the larger: at the search, or at a later look,
+    // when it had moved by `spent` since.
+    struct Search {
+        enum class Outcome { none, apart, near } outcome = Outcome::none;
+        std::uint32_t axis = 0;                   // hint for boxes
+        double gap = 0.0;                         // m, at least
+        double spent = 0.0;                       // m
+        double travel = 0.0;                      // m, of both bodies by then
+        Pose pose;
+    };
+    struct Entry {
+        BroadPhase::Pair pair;
+        std::uint32_t search = 0;                 // index in searches_
+        std::uint32_t first = 0, count = 0;       // in manifolds_ and anchors_
+    };
+    // Of this call, an entry: whether its manifolds stay where they are, else where the new ones lie.
+    struct Result {
+        bool stays = true;
+        std::uint32_t thread = 0, first = 0, count = 0;
+    };
+    struct Found {
+        CollisionScratch scratch;
+        std::vector<Manifold> manifolds;
+        std::vector<Anchors> anchors;
+    };
+    struct Parked {
+        Search search;
+        std::vector<Manifold> manifolds;
+        std::vector<Anchors> anchors;
+    };
+
+    void match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
+    void park(const Entry& entry);
+    void unpark(Entry& entry);
+    void view(const std::vector<Body>& bodies);
+    double margin(const View& a, const View& b, double h) const;
+    bool holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
+    Result examine(const Entry& entry, double h, std::size_t thread);
+    Result search(const Entry& entry, const View& a, const View& b, double margin, std::size_t thread);
+    void put_in_order();
+    void append(const std::vector<Manifold>& manifolds, const std::vector<Anchors>& anchors, std::uint32_t first,
+                std::uint32_t end);
+
     Mode mode_;
-    std::vector<CollisionScratch> scratch_;          // one a thread
-    std::vector<std::vector<Manifold>> found_;       // one a pair
-    std::vector<Manifold> manifolds_, previous_;
+    bool remembers_;
+    std::vector<Found> found_;                    // one a thread
+    std::vector<Entry> entries_, spare_entries_;  // ascending by pair
+    std::vector<Search> searches_;
+    std::vector<std::uint32_t> free_searches_;
+    std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
+    std::vector<Result> results_;                 // one an entry
+    std::vector<View> views_;                     // one a body; up to date where seen_ holds this call's number
+    std::vector<std::uint64_t> seen_;
+    std::uint64_t call_ = 0;
+    bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
+    std::vector<Manifold> manifolds_, spare_manifolds_;
+    std::vector<Anchors> anchors_, spare_anchors_;
 };
 
 }  // namespace tumble

@@ -17,6 +17,10 @@ inline constexpr double speculative = 0.02;
 /// features: corners that swap places on a rocking box carry the same load.
 inline constexpr double carry_reach = 0.1;
 
+/// Two bodies that moved by less than this part of the smaller one's radius against each other keep their manifold: points
+/// may lie that far from where a search would put them, separations are exact all the same.
+inline constexpr double reuse_motion = 2e-3;
+
 /// Bounds in the broad phase are grown by this part of a body's radius, and by its way in so many steps:
 /// a rebuild every few steps for falling bodies, none for resting ones.
 inline constexpr double fat_bounds = 0.1;

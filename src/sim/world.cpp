@@ -74,9 +74,6 @@ struct World::State {
     }
 
     double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
-    /// In the loop of the steps: neither asleep nor in exact flight.
-    bool awake(const Body& body) const { return body.dynamic() && !body.asleep && !body.flying; }
-
     double gravity_step() const { return settings.gravity.norm() * h; }   // m/s, that gravity adds in a step
 
     void advance(std::int64_t to);
@@ -144,6 +141,7 @@ void World::State::place_kinematic_bodies() {
 void World::State::list_awake() {
     if (sleep.changes() == seen_sleep_changes) return;
     seen_sleep_changes = sleep.changes();
+    broad_phase.bodies_woke();
     awake_bodies.clear();
     moving_bodies.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -161,11 +159,13 @@ void World::State::wake_where_forces_change() {
 
 void World::State::find_contacts() {
     wake_where_forces_change();
-    const auto find = [&] { manifolds = &narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool); };
+    const auto find = [&] {
+        list_awake();
+        manifolds = &narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool);
+    };
     find();
     // The woken ones need the contacts among themselves too, which were not looked for.
     if (sleep.wake_touched(*manifolds, bodies, h, gravity_step())) find();
-    list_awake();
     if (flights) {
         make_contacts(*manifolds, bodies, contacts);
         flights->take_off(contacts, bodies, forces, steps);
@@ -341,7 +341,7 @@ Measurement World::measure() const {
     State& s = *state_;
     // Contacts of the poses as they are now, not of the step that led here.
     Measurement m = measure_motion(s.bodies, s.settings.gravity);
-    BroadPhase broad_phase;
+    BroadPhase broad_phase(BroadPhase::Pairs::all);
     NarrowPhase narrow_phase(s.pool.size(), NarrowPhase::Mode::measure);
     measure_contacts(narrow_phase.find(broad_phase.update(s.bodies, s.h), s.bodies, s.h, s.pool), s.bodies, m);
     return m;

@@ -239,3 +239,39 @@ TEST(HullOnGround, ManyCornersAreSpannedByFour) {
         EXPECT_GT(contact_area(on_box[0]), 0.6 * whole) << sides;
     }
 }
+
+// The short way for boxes against the one for all polyhedra: the same manifolds, features and all.
+TEST(BoxOnBox, SameAsAnyPolyhedron) {
+    Random random(91);
+    int touching = 0, edges = 0, others = 0;
+    for (int i = 0; i < trials(10000); ++i) {
+        const Vec3 size_a = random.vector(0.5) + Vec3::Constant(0.8), size_b = random.vector(0.5) + Vec3::Constant(0.8);
+        // Half of them lie nearly flat: on top, or beside.
+        const Pose pose_a = random.pose(1.0);
+        Pose b_in_a = random.pose(0.9);
+        if (i % 2 == 0) {
+            b_in_a.rotation = turned(random.direction(), random(0.0, 0.05));
+            b_in_a.position[i / 2 % 3] = 0.5 * (size_a + size_b)[i / 2 % 3] + random(-0.03, 0.03);
+        }
+        const Pose pose_b = after(pose_a, b_in_a);
+        const auto expected = collide_all(plain_box(size_a), pose_a, plain_box(size_b), pose_b, 0.03);
+        const auto found = collide_all(box_of(size_a), pose_a, box_of(size_b), pose_b, 0.03);
+        ASSERT_EQ(found.size(), expected.size()) << i;
+        if (found.empty()) continue;
+        ++touching;
+        const Manifold &m = found[0], &e = expected[0];
+        if ((m.normal - e.normal).norm() > 1e-9 || m.count != e.count) {   // two axes that overlap equally, to rounding
+            ++others;
+            continue;
+        }
+        edges += (m.points[0].feature >> 62) == 1;
+        for (std::size_t k = 0; k < std::size_t(m.count); ++k) {
+            EXPECT_EQ(m.points[k].feature, e.points[k].feature) << i;
+            EXPECT_LT((m.points[k].position - e.points[k].position).norm(), 1e-9) << i;
+            EXPECT_NEAR(m.points[k].separation, e.points[k].separation, 1e-9) << i;
+        }
+    }
+    EXPECT_GT(touching, trials(5000));
+    EXPECT_GT(edges, trials(250));
+    EXPECT_LE(others, touching / 1000);
+}

@@ -37,11 +37,7 @@ Body body_of(Random& random, int kind) {
     return body;
 }
 
-bool within(const Body& a, const Body& b) {
-    const Bounds box_a = world_bounds(a.collider, a.pose()).grown(contact_margin(a, h));
-    const Bounds box_b = world_bounds(b.collider, b.pose()).grown(contact_margin(b, h));
-    return box_a.overlaps(box_b);
-}
+bool within(const Body& a, const Body& b) { return bounds_of_step(a, h).overlaps(bounds_of_step(b, h)); }
 
 }  // namespace
 
@@ -71,17 +67,22 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
                         EXPECT_FALSE(listed);
                         continue;
                     }
-                    if (listed || (a.asleep && b.asleep)) continue;
+                    const bool idle = (!a.moves() || a.asleep) && (!b.moves() || b.asleep);
+                    EXPECT_FALSE(listed && idle);
+                    if (listed || idle) continue;
                     if (std::holds_alternative<HalfSpace>(a.collider) || std::holds_alternative<HalfSpace>(b.collider)) {
                         std::vector<Manifold> out;
-                        collide(a.collider, a.pose(), b.collider, b.pose(), contact_margin(a, h) + contact_margin(b, h), scratch, out);
+                        collide(a.collider, a.pose(), b.collider, b.pose(), 0.02 * (a.moves() ? a.radius : b.radius), scratch, out);
                         EXPECT_TRUE(out.empty()) << i << " " << j;
                     } else {
                         EXPECT_FALSE(within(a, b)) << i << " " << j << " step " << step;
                     }
                 }
             for (Body& body : bodies) {
-                if (random(0.0, 1.0) < 0.02) body.asleep = body.dynamic() && !body.asleep;
+                if (random(0.0, 1.0) < 0.02) {
+                    body.asleep = body.dynamic() && !body.asleep;
+                    if (!body.asleep) broad_phase.bodies_woke();
+                }
                 if (!body.moves() || body.asleep) continue;
                 body.position += h * 5.0 * body.velocity;
                 body.orientation = (Quat(Eigen::AngleAxisd(0.01, random.direction())) * body.orientation).normalized();
@@ -91,6 +92,20 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
         EXPECT_GT(most, 20u);
         EXPECT_LT(most, 900u);   // of 1770: it does leave some out
     }
+}
+
+// For a measurement every pair counts, whoever sleeps.
+TEST(BroadPhase, SleepersAmongThemselves) {
+    Random random(84);
+    std::vector<Body> bodies;
+    for (int i = 0; i < 60; ++i) bodies.push_back(body_of(random, i % 40));
+    BroadPhase awake, all(BroadPhase::Pairs::all), still_all(BroadPhase::Pairs::all);
+    const std::vector<BroadPhase::Pair> pairs = awake.update(bodies, h);
+    EXPECT_EQ(all.update(bodies, h), pairs);
+    for (Body& body : bodies) body.asleep = body.dynamic();
+    std::erase_if(bodies, [](const Body& body) { return body.track != nullptr; });
+    EXPECT_TRUE(BroadPhase().update(bodies, h).empty());
+    EXPECT_GT(still_all.update(bodies, h).size(), 20u);
 }
 
 TEST(BroadPhase, NoBodiesAndOneBody) {
@@ -114,17 +129,19 @@ TEST(NarrowPhase, ThreadsChangeNothing) {
     BroadPhase broad_phase;
     const auto pairs = broad_phase.update(bodies, h);
     ASSERT_GT(pairs.size(), 200u);
-    std::vector<Manifold> expected;
+    std::vector<Manifold> of_round[3];   // what memory makes of the same poses differs in the last digits
     for (const int threads : {1, 2, 4}) {
         ThreadPool pool(threads);
         NarrowPhase narrow_phase(threads);
         for (int round = 0; round < 3; ++round) {
             const auto& found = narrow_phase.find(pairs, bodies, h, pool);
+            std::vector<Manifold>& expected = of_round[round];
             if (expected.empty()) expected = found;
             ASSERT_EQ(found.size(), expected.size());
             for (std::size_t i = 0; i < found.size(); ++i) {
                 const Manifold &m = found[i], &e = expected[i];
-                EXPECT_TRUE(m.a == e.a && m.b == e.b && m.part == e.part && m.normal == e.normal && m.count == e.count);
+                EXPECT_TRUE(m.a == e.a && m.b == e.b && m.part == e.part && m.count == e.count);
+                EXPECT_EQ(m.normal, e.normal);
                 EXPECT_EQ(m.points[0].position, e.points[0].position);
                 if (i == 0) continue;
                 const Manifold& before = found[i - 1];

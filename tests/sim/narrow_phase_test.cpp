@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 using namespace tumble;
 using namespace tumble::testing;
@@ -109,4 +110,132 @@ TEST(PersistentManifold, TakesTheNearestPointWhenFeaturesChange) {
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += m.points[std::size_t(i)].impulse;
     EXPECT_EQ(sum, 10.0) << "each old impulse once";
+}
+
+// A crowd in which some hardly move, some slide and some tumble: what memory gives against a search every time.
+TEST(PairMemory, AgreesWithFreshManifolds) {
+    Random random(92);
+    std::vector<Body> bodies{body_at(box_of({20.0, 1.0, 20.0}), {0.0, -0.5, 0.0}, BodyType::fixed),
+                             body_at(surface_of(grid_mesh(8, 10.0, 0.2)), {0.0, -0.2, 0.0}, BodyType::fixed),
+                             body_at(HalfSpace{Vec3::UnitY(), 0.0}, Vec3::Zero(), BodyType::fixed)};
+    for (int i = 0; i < 60; ++i) {
+        const Collider shape = i % 3 == 2 ? Collider(random_hull(random, 12, Vec3::Constant(0.6)))
+                                          : Collider(box_of(random.vector(0.3) + Vec3::Constant(0.9)));
+        bodies.push_back(body_at(shape, random.vector(1.8) + Vec3(0.0, 1.8, 0.0)));
+        if (i % 3 != 1) turn(bodies.back(), random.turn());
+    }
+    ThreadPool pool(1);
+    NarrowPhase with(1), without(1, NarrowPhase::Mode::step, NarrowPhase::Memory::off);
+    std::vector<BroadPhase::Pair> pairs;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        for (std::uint32_t j = std::max(i + 1, 3u); j < bodies.size(); ++j) pairs.push_back({i, j});
+    int same = 0, different = 0, missing = 0;
+    for (int step = 0; step < trials(60); ++step) {
+        for (std::size_t i = 3; i < bodies.size(); ++i) {
+            Body& body = bodies[i];
+            const double speed = i % 4 == 0 ? 1.0 : 0.01;
+            body.velocity = random.vector(speed);
+            body.angular_velocity = random.vector(speed);
+            body.position += h * body.velocity;
+            turn(body, Quat(Eigen::AngleAxisd(h * body.angular_velocity.norm(), body.angular_velocity.normalized())));
+        }
+        const std::vector<Manifold> found = with.find(pairs, bodies, h, pool), fresh = without.find(pairs, bodies, h, pool);
+        auto m = found.begin();
+        for (const Manifold& f : fresh) {
+            const auto key = [](const Manifold& of) { return std::tuple(of.a, of.b, of.part); };
+            while (m != found.end() && key(*m) < key(f)) ++m;
+            double nearest = 1.0;   // of the fresh points, over the smaller radius
+            for (int k = 0; k < f.count; ++k) nearest = std::min(nearest, f.points[std::size_t(k)].separation);
+            const double size = std::min(bodies[f.a].radius, bodies[f.b].radius);
+            if (m == found.end() || key(*m) != key(f)) {
+                // Left out only what came into reach since the last look: that far away, in no step's way.
+                missing += nearest < 0.02 * size;
+                continue;
+            }
+            if ((m->normal - f.normal).norm() > 0.01) {   // another axis that separates nearly as well
+                ++different;
+                continue;
+            }
+            ++same;
+            double least = 1.0;
+            for (int k = 0; k < m->count; ++k) least = std::min(least, m->points[std::size_t(k)].separation);
+            EXPECT_NEAR(least, nearest, tuning::reuse_motion * size) << f.a << " " << f.b << " step " << step;
+        }
+    }
+    EXPECT_EQ(missing, 0);
+    EXPECT_GT(same, trials(5000));
+    EXPECT_LT(different, same / 50);
+}
+
+// Two boxes face to face that shift by less than is searched for: separations are exact all the same.
+TEST(PairMemory, SeparationsFollowExactly) {
+    Scene scene = box_on_box();
+    scene.find();
+    const auto features = [&] { return scene.find()[0].points[0].feature; };
+    const std::uint64_t first = features();
+    for (const double y : {0.9991, 0.9987, 0.9995}) {
+        scene.bodies[1].position = {2e-4, y, -3e-4};
+        for (int i = 0; i < 4; ++i) EXPECT_NEAR(scene.find()[0].points[std::size_t(i)].separation, y - 1.0, 1e-15);
+        EXPECT_EQ(scene.find()[0].normal, Vec3::UnitY());
+        EXPECT_EQ(features(), first);
+    }
+}
+
+// While both sleep the pair is not in the list; when one wakes, what held it up is there again.
+TEST(PairMemory, SurvivesSleep) {
+    Scene scene = box_on_box();
+    mark(scene.find()[0]);
+    scene.bodies[1].asleep = true;
+    EXPECT_TRUE(scene.narrow_phase.find({}, scene.bodies, h, scene.pool).empty());
+    scene.bodies[1].asleep = false;
+    const auto& found = scene.narrow_phase.find({{0, 1}}, scene.bodies, h, scene.pool);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].points[3].impulse, 4.0);
+    EXPECT_EQ(found[0].twist, 12.0);
+}
+
+// A tessellated flat floor is flat, whether the manifolds are new or followed: nothing to bump against.
+TEST(PairMemory, SeamsAreFlat) {
+    for (const bool sphere : {false, true}) {
+        for (const double speed : {0.02, 0.7, 5.0}) {
+            const Collider shape = sphere ? Collider(Ball{0.3}) : Collider(box_of({0.6, 0.6, 0.6}));
+            Scene scene({body_at(surface_of(grid_mesh(20, 5.0, 0.0)), Vec3::Zero(), BodyType::fixed),
+                         body_at(shape, {-1.0, 0.3 - 1e-5, 0.13})});
+            Body& body = scene.bodies[1];
+            turn(body, Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY())));
+            body.velocity = speed * Vec3(1.0, 0.0, 0.3);
+            for (int step = 0; step < 30; ++step) {
+                body.position += h * body.velocity;
+                const auto& found = scene.find();
+                ASSERT_FALSE(found.empty());
+                EXPECT_NEAR(deepest(found), -1e-5, 1e-14) << step;
+                for (const Manifold& m : found) {
+                    EXPECT_LT((m.normal - Vec3::UnitY()).norm(), 1e-14) << step;
+                    for (int i = 0; i < m.count; ++i)
+                        EXPECT_NEAR(m.points[std::size_t(i)].separation, -1e-5, 1e-14);
+                }
+            }
+        }
+    }
+}
+
+// What sleeps costs nothing: it is in no list, and the way of a ball past it is as short as through empty space.
+TEST(BroadPhase, SleepersAreInNoList) {
+    std::vector<Body> bodies;
+    for (int i = 0; i < 500; ++i) {
+        bodies.push_back(body_at(box_of({1.0, 1.0, 1.0}), {1.01 * (i % 25), 1.01 * (i / 25), 0.0}));
+        bodies.back().asleep = true;
+    }
+    bodies.push_back(body_at(Ball{0.5}, {0.0, 0.0, 20.0}));
+    BroadPhase broad_phase;
+    EXPECT_TRUE(broad_phase.update(bodies, h).empty());
+    EXPECT_EQ(broad_phase.awake(), std::vector<std::uint32_t>{500});
+    bodies[7].asleep = false;
+    broad_phase.bodies_woke();
+    const auto pairs = broad_phase.update(bodies, h);
+    EXPECT_EQ(broad_phase.awake(), (std::vector<std::uint32_t>{7, 500}));
+    EXPECT_EQ(pairs.size(), 5u);   // the neighbours beside, above and across
+    for (const BroadPhase::Pair& pair : pairs) EXPECT_TRUE(pair.a == 7 || pair.b == 7);
+    bodies[7].asleep = true;
+    EXPECT_TRUE(broad_phase.update(bodies, h).empty());
 }

@@ -17,6 +17,10 @@ enum class AxisChoice { steady, nearest };
 /// Working space, kept from pair to pair so that nothing is allocated in the loop.
 struct CollisionScratch {
     AxisChoice choice = AxisChoice::steady;
+    // Of two boxes: the axis that kept them apart last, tried first, and in return the one that does now. And how far apart
+    // (m) the shapes are at least, where nothing was found and that is known.
+    std::uint32_t axis = 0;
+    double gap = 0.0;
     std::vector<ContactPoint> points;
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;
@@ -48,6 +52,9 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
                              std::vector<Manifold>& out);
 void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                        CollisionScratch& scratch, std::vector<Manifold>& out);
+/// Both boxes (Polyhedron::is_box): what collide_polyhedra gives, ten times as fast.
+void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                   CollisionScratch& scratch, std::vector<Manifold>& out);
 void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
                           double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
 void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,

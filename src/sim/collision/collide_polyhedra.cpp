@@ -59,13 +59,13 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
                        CollisionScratch& scratch, std::vector<Manifold>& out) {
     const double reach = a.radius + b.radius + margin;
     if ((pose_b.position - pose_a.position).squaredNorm() > reach * reach) return;
+    if (a.is_box && b.is_box) return collide_boxes(a, pose_a, b, pose_b, margin, scratch, out);
     // In A's frame, which keeps the digits of scenes far from the origin.
     const Pose b_in_a{pose_a.to_body(pose_b.position), pose_a.rotation.transpose() * pose_b.rotation};
     const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, EdgeSearch::nearby, scratch);
     const std::size_t first = out.size();
     add_manifold(a, pose_a, b, b_in_a, axis, margin, scratch, out);
-    const bool exact = a.is_box && b.is_box;   // their nine edge axes are all looked at
-    if (exact || axis.separation >= 0.0 || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
+    if (axis.separation >= 0.0 || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
     // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
     out.resize(first);
     add_manifold(a, pose_a, b, b_in_a, find_separating_axis(a, b, b_in_a, margin, EdgeSearch::all, scratch), margin,

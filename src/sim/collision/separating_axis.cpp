@@ -124,53 +124,6 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
     }
 }
 
-// The edge of a box along `axis` that lies farthest along a direction, by the signs of the other two axes.
-std::uint32_t box_edge(const Polyhedron& box, int axis, const Vec3& direction) {
-    std::uint32_t best = 0;
-    double farthest = lowest;
-    for (std::uint32_t e = 0; e < box.edges.size(); ++e) {
-        const Vec3 &tail = box.vertices[box.edges[e].tail], &head = box.vertices[box.edges[e].head];
-        if (tail[axis] == head[axis]) continue;
-        const double d = direction.dot(tail + head);
-        if (d > farthest) {
-            farthest = d;
-            best = e;
-        }
-    }
-    return best;
-}
-
-// Boxes have three edge directions each, so nine axes in place of 144 edge pairs.
-void search_box_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, double& best,
-                      SeparatingAxis& axis) {
-    int best_i = -1, best_j = -1;
-    Vec3 best_n = Vec3::Zero();
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            Vec3 n = Vec3::Unit(i).cross(b_in_a.rotation.col(j));
-            const double square = n.squaredNorm();
-            if (square < parallel) continue;
-            n /= std::sqrt(square);
-            double d = n.dot(b_in_a.position);
-            if (d < 0.0) {
-                n = -n;
-                d = -d;
-            }
-            const double separation = d - a.half_extent.dot(n.cwiseAbs()) -
-                                      b.half_extent.dot((b_in_a.rotation.transpose() * n).cwiseAbs());
-            if (separation <= best) continue;
-            best = separation;
-            best_i = i;
-            best_j = j;
-            best_n = n;
-            if (separation > margin) break;
-        }
-    }
-    if (best_i < 0) return;
-    axis = {SeparatingAxis::Kind::edges, best, box_edge(a, best_i, best_n),
-            box_edge(b, best_j, -(b_in_a.rotation.transpose() * best_n)), best_n};
-}
-
 }  // namespace
 
 double edge_reach(EdgeSearch search, double margin, double best_separation) {
@@ -202,8 +155,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
         axis = {SeparatingAxis::Kind::face_a, face_a.separation, face_a.face, 0, a.faces[face_a.face].normal};
     }
     double best = axis.separation + preference;
-    if (a.is_box && b.is_box) search_box_edges(a, b, b_in_a, margin, best, axis);
-    else search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
+    search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (axis.separation > margin) return {};
     return axis;
 }

@@ -1,0 +1,238 @@
+// Box against box: the answers of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp) with the same
+// choices and the same names of features, from the matrix that turns one box into the other.
+#include "sim/collision/feature_contact.h"
+#include "sim/collision/separating_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double lowest = -std::numeric_limits<double>::infinity();
+constexpr double parallel = 1e-8;   // squared sine: as in separating_axis.cpp
+
+// Box B in A's frame: t and the matrix r, with the absolute values of its elements.
+struct Relative {
+    const Vec3 &a, &b;      // half extents
+    Vec3 t, t_in_b;         // B's centre in A's frame; A's in B's frame, negated
+    Mat3 r, abs;
+
+    double face_a(int k) const {
+        return std::abs(t[k]) - a[k] - (abs(k, 0) * b[0] + abs(k, 1) * b[1] + abs(k, 2) * b[2]);
+    }
+    double face_b(int k) const {
+        return std::abs(t_in_b[k]) - b[k] - (abs(0, k) * a[0] + abs(1, k) * a[1] + abs(2, k) * a[2]);
+    }
+    // Along A's axis i x B's axis j; `flip` tells that the axis points towards A. lowest: the two are parallel.
+    double edges(int i, int j, bool& flip) const {
+        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+        const double square = r(i1, j) * r(i1, j) + r(i2, j) * r(i2, j);
+        if (square < parallel) return lowest;
+        const double d = t[i2] * r(i1, j) - t[i1] * r(i2, j);
+        flip = d < 0.0;
+        const double reach = a[i1] * abs(i2, j) + a[i2] * abs(i1, j) + b[j1] * abs(i, j2) + b[j2] * abs(i, j1);
+        return (std::abs(d) - reach) / std::sqrt(square);
+    }
+    double along(std::uint32_t axis) const {
+        bool flip = false;
+        if (axis < 3) return face_a(int(axis));
+        return axis < 6 ? face_b(int(axis) - 3) : edges(int(axis - 6) / 3, int(axis - 6) % 3, flip);
+    }
+};
+
+struct FaceAxis {
+    int axis = 0;
+    double separation = lowest;
+};
+
+// The largest; the one whose face the other's centre is highest above wins a tie, as in separating_axis.cpp.
+template <class Separation>
+FaceAxis best_face(const Vec3& center, const Vec3& half, Separation&& separation) {
+    int first = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(center[k]) - half[k] > std::abs(center[first]) - half[first]) first = k;
+    FaceAxis best{first, separation(first)};
+    for (int k = 0; k < 3; ++k) {
+        const double s = k == first ? lowest : separation(k);
+        if (s > best.separation) best = {k, s};
+    }
+    return best;
+}
+
+// Edge of a box along an axis, by the signs of its other two coordinates: all boxes are numbered alike.
+struct BoxEdges {
+    std::array<std::array<std::uint32_t, 4>, 3> index{};
+    BoxEdges() {
+        const Polyhedron box = make_box(Vec3::Constant(2.0));
+        for (std::uint32_t e = 0; e < box.edges.size(); ++e) {
+            const Vec3 sum = box.vertices[box.edges[e].tail] + box.vertices[box.edges[e].head];
+            for (int k = 0; k < 3; ++k)
+                if (sum[k] == 0.0) index[std::size_t(k)][sign_bits(sum, k)] = e;
+        }
+    }
+    static std::size_t sign_bits(const Vec3& direction, int axis) {
+        return std::size_t(direction[(axis + 1) % 3] > 0.0) | std::size_t(direction[(axis + 2) % 3] > 0.0) << 1;
+    }
+};
+
+// The face of a box that lies against a plane across a direction (Polyhedron::face_at_support): at the farthest corner, the
+// one with most corners no farther than `depth` behind it, then the one that looks most that way.
+std::uint32_t face_at_support(const Vec3& half, const Vec3& direction, double depth) {
+    std::uint32_t best = 0;
+    int best_count = 0;
+    double most = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double drop1 = 2.0 * half[(k + 1) % 3] * std::abs(direction[(k + 1) % 3]);
+        const double drop2 = 2.0 * half[(k + 2) % 3] * std::abs(direction[(k + 2) % 3]);
+        const int count = 1 + (drop1 <= depth) + (drop2 <= depth) + (drop1 + drop2 <= depth);
+        const double d = std::abs(direction[k]);
+        if (count < best_count || (count == best_count && d <= most)) continue;
+        best = std::uint32_t(2 * k + (direction[k] <= 0.0));
+        best_count = count;
+        most = d;
+    }
+    return best;
+}
+
+struct Corner {
+    Vec3 p;                  // in the reference box's frame
+    std::uint64_t feature;
+    std::uint32_t edge;      // label of the edge that starts here
+};
+struct Polygon {
+    static constexpr int capacity = 8;   // a rectangle cut by four lines
+    std::array<Corner, capacity> corners;
+    int count = 0;
+};
+
+// Keeps sign * p[axis] <= limit. Whether anything had to go: otherwise `out` is left as it was.
+bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t side, Polygon& out) {
+    std::array<double, Polygon::capacity> beyond;
+    bool cuts = false;
+    for (std::size_t i = 0; i < std::size_t(in.count); ++i) {
+        beyond[i] = sign * in.corners[i].p[axis] - limit;
+        cuts = cuts || beyond[i] > 0.0;
+    }
+    if (!cuts) return false;
+    out.count = 0;
+    for (int i = 0; i < in.count; ++i) {
+        const int next = i + 1 < in.count ? i + 1 : 0;
+        const Corner &p = in.corners[std::size_t(i)], &q = in.corners[std::size_t(next)];
+        const double dp = beyond[std::size_t(i)], dq = beyond[std::size_t(next)];
+        if (dp <= 0.0 && out.count < Polygon::capacity) out.corners[std::size_t(out.count++)] = p;
+        if ((dp <= 0.0) == (dq <= 0.0) || out.count == Polygon::capacity) continue;
+        Corner& cut = out.corners[std::size_t(out.count++)];
+        cut.p = p.p + dp / (dp - dq) * (q.p - p.p);
+        cut.feature = (std::uint64_t(1) << 40) | (std::uint64_t(p.edge) << 20) | side_label(side);
+        cut.edge = dp <= 0.0 ? side_label(side) : p.edge;
+    }
+    return true;
+}
+
+// The incident box in the reference box's frame: centre c, axes the columns of r. `n`: the reference face's outward sign.
+void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pose& pose, const Vec3& c, const Mat3& r,
+              int axis, double sign, bool on_b, bool must_touch, double margin, CollisionScratch& scratch,
+              std::vector<Manifold>& out) {
+    const std::uint32_t face = std::uint32_t(2 * axis + (sign < 0.0));
+    const double depth = axis_preference(std::min(reference.radius, incident.radius));
+    const std::uint32_t opposite = face_at_support(incident.half_extent, -sign * r.row(axis).transpose(), depth);
+    const std::vector<std::uint32_t>& loop = incident.faces[opposite].vertices;
+    Polygon polygons[2];
+    Polygon *polygon = &polygons[0], *spare = &polygons[1];
+    polygon->count = 4;
+    for (std::size_t i = 0; i < 4; ++i)
+        polygon->corners[i] = {c + r * incident.vertices[loop[i]], loop[i], std::uint32_t(i)};
+    const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
+    Corner deepest = polygon->corners[0];
+    for (std::size_t i = 1; i < 4 && must_touch; ++i)
+        if (height(polygon->corners[i].p) < height(deepest.p)) deepest = polygon->corners[i];
+
+    const std::vector<std::uint32_t>& sides = reference.faces[face].vertices;
+    for (std::uint32_t s = 0; s < 4; ++s) {
+        const Vec3 &from = reference.vertices[sides[s]], &to = reference.vertices[sides[(s + 1) % 4]];
+        // The side lies across the one axis, besides the face's own, along which it does not run.
+        int across = 0;
+        while (across == axis || from[across] != to[across]) ++across;
+        if (clip(*polygon, across, from[across] > 0.0 ? 1.0 : -1.0, reference.half_extent[across], s, *spare))
+            std::swap(polygon, spare);
+    }
+    const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
+    scratch.points.clear();
+    const auto keep = [&](const Corner& corner) {
+        const double separation = height(corner.p);
+        if (separation > margin) return;
+        Vec3 p = corner.p;
+        p[axis] -= 0.5 * sign * separation;
+        scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
+    };
+    for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
+    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
+    if (scratch.points.empty()) return;
+    Manifold& m = out.emplace_back();
+    m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
+    keep_best_points(scratch.points, m);
+}
+
+}  // namespace
+
+void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                   CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const Vec3 between = pose_b.position - pose_a.position;
+    Relative rel{a.half_extent, b.half_extent, pose_a.rotation.transpose() * between,
+                 pose_b.rotation.transpose() * between, pose_a.rotation.transpose() * pose_b.rotation, Mat3::Zero()};
+    rel.abs = rel.r.cwiseAbs();
+    const auto apart = [&](std::uint32_t axis, double separation) {
+        if (separation <= margin) return false;
+        scratch.axis = axis;
+        scratch.gap = separation;
+        return true;
+    };
+    if (scratch.axis < 15 && apart(scratch.axis, rel.along(scratch.axis))) return;
+    const FaceAxis face_a = best_face(rel.t, a.half_extent, [&](int k) { return rel.face_a(k); });
+    if (apart(std::uint32_t(face_a.axis), face_a.separation)) return;
+    const FaceAxis face_b = best_face(rel.t_in_b, b.half_extent, [&](int k) { return rel.face_b(k); });
+    if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
+
+    const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
+    const bool of_b = face_b.separation > face_a.separation + preference;
+    double separation = of_b ? face_b.separation : face_a.separation;
+    double best = separation + preference;
+    int edge_i = -1, edge_j = -1;
+    bool flip = false;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            bool turned = false;
+            const double s = rel.edges(i, j, turned);
+            if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
+            if (s <= best) continue;
+            separation = best = s;
+            edge_i = i;
+            edge_j = j;
+            flip = turned;
+        }
+    if (edge_i >= 0) {
+        static const BoxEdges edges;
+        Vec3 n = Vec3::Unit(edge_i).cross(rel.r.col(edge_j)).normalized();
+        if (flip) n = -n;
+        const Vec3 n_in_b = rel.r.transpose() * n;
+        const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
+        const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
+        const Pose b_in_a{rel.t, rel.r};
+        add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head],
+                          b_in_a.to_world(b.vertices[b.edges[eb].tail]), b_in_a.to_world(b.vertices[b.edges[eb].head]), n,
+                          separation, ea, eb, pose_a, out);
+    } else if (of_b) {
+        // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
+        const int k = face_b.axis;
+        add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), k, rel.t_in_b[k] > 0.0 ? -1.0 : 1.0, true,
+                 separation < 0.0, margin, scratch, out);
+    } else {
+        const int k = face_a.axis;
+        add_face(a, b, pose_a, rel.t, rel.r, k, rel.t[k] < 0.0 ? -1.0 : 1.0, false, separation < 0.0, margin, scratch, out);
+    }
+}
+
+}  // namespace tumble
