@@ -31,9 +31,16 @@ inline constexpr double fat_steps = 8.0;
 inline constexpr double restitution_threshold = 2.0;
 
 /// The soft contact solver's substep, s: 8 in a step of 1/60 s hold a heap of a thousand boxes with overlaps below a
-/// thousandth of their size; steps shorter than this need none.
+/// thousandth of their size. Overlaps go with its square: short steps are cut too, for what they are taken for.
 inline constexpr double soft_substep = 1.0 / 480.0;
+inline constexpr int soft_least_substeps = 4;
 inline constexpr int soft_most_substeps = 64;
+/// Where a body carries more than so many times its own mass, substeps are halved, or halved twice: tall piles of soft
+/// contacts would buckle.
+inline constexpr double soft_load_ratio = 32.0;
+inline constexpr double soft_large_load_ratio = 128.0;
+/// Steps for which a load ratio is taken to hold, in islands that are solved softly.
+inline constexpr int soft_load_ratio_age = 8;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
 /// keeps a pyramid trembling (0.25: 0.1 m/s), softer sinks in (0.125: twice the overlap).
 inline constexpr double soft_frequency = 0.18;
@@ -47,14 +54,16 @@ inline constexpr double friction_far_weight = 0.01;
 inline constexpr std::size_t soft_team_manifolds = 500;
 
 /// The direct contact solver's compliance of normal contact, over the island's mass: small enough for a few rounds, large
-/// enough for masses of 1 : 1e6 in double precision. Friction is as stiff, or, where Newton's method stalls on the edges of
-/// the discs, softer by a factor.
+/// enough for masses of 1 : 1e6 in double precision. Friction begins softer by a factor, without which Newton's method
+/// stalls on the edges of the discs, and stiffens from round to round down to as stiff.
 inline constexpr double direct_compliance = 1e-3;
-inline constexpr double direct_friction_stiff = 1.0;
 inline constexpr double direct_friction_soft = 1e4;
+inline constexpr double direct_friction_stiffening = 0.3;
+inline constexpr double direct_friction_stiff = 1.0;
 /// Convergence of its Newton steps and of its rounds, relative to the step's own change of velocity and to the impulses.
 inline constexpr double direct_tolerance = 1e-9;
 inline constexpr double direct_round_tolerance = 1e-4;
+inline constexpr int direct_first_newton_steps = 40;   // after a landing, every contact of a stack of 30 changes its mind
 inline constexpr int direct_newton_steps = 12;
 inline constexpr int direct_rounds = 12;
 inline constexpr int direct_line_search = 25;
@@ -71,6 +80,8 @@ inline constexpr double direct_push_across = 0.03;
 /// Islands up to this size are solved directly whatever they carry.
 inline constexpr std::size_t direct_small_bodies = 3;
 inline constexpr std::size_t direct_small_manifolds = 8;
+/// All islands of a scene with so few manifolds in contact are.
+inline constexpr std::size_t direct_few_manifolds = 128;
 /// Larger ones when a body carries so many times its own mass, and up to so many bodies.
 inline constexpr double direct_load_ratio = 16.0;
 inline constexpr std::size_t direct_most_bodies = 512;
@@ -79,7 +90,7 @@ inline constexpr std::size_t direct_most_bodies = 512;
 inline constexpr std::size_t direct_work_each = 30;
 inline constexpr std::size_t direct_work_free = 50;
 inline constexpr std::size_t direct_budget_each = 2;
-inline constexpr std::size_t direct_budget = 4000;
+inline constexpr std::size_t direct_budget = 8000;
 /// Steps until an island is tried again after a failure, doubled with every further one so many times.
 inline constexpr int direct_wait = 6;
 inline constexpr int direct_most_failures = 6;

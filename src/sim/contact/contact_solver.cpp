@@ -35,9 +35,21 @@ void temper(Manifold& m, const ContactProblem& problem) {
 ContactSolver::ContactSolver(std::size_t bodies, int threads, Choice choice)
     : choice_(choice), memory_(bodies), load_ratio_(bodies), soft_(bodies, threads) {}
 
-bool ContactSolver::small(const ContactIslands& islands, std::size_t island) const {
-    return islands.bodies(island).size() <= tuning::direct_small_bodies &&
-           islands.manifolds(island).size() <= tuning::direct_small_manifolds;
+// As it was up to `holds` steps ago; 1 where no body can carry much.
+double ContactSolver::load_ratio(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
+    const auto bodies = islands.bodies(island);
+    Memory& memory = memory_[bodies[0]];
+    if (memory.looked-- > 0) return memory.load_ratio;
+    memory.looked = holds;
+    memory.load_ratio = 1.0;
+    double mass = 0.0, least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t i : bodies) {
+        mass += problem.bodies[i].mass;
+        least = std::min(least, problem.bodies[i].mass);
+    }
+    if (mass >= tuning::direct_load_ratio * least)
+        memory.load_ratio = load_ratio_.find(problem.bodies, problem.manifolds, bodies, islands.manifolds(island));
+    return memory.load_ratio;
 }
 
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
@@ -45,36 +57,28 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     softly_.clear();
     candidates_.clear();
     std::size_t all_manifolds = 0;
+    for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
+    const bool few = all_manifolds <= tuning::direct_few_manifolds;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
-        all_manifolds += manifolds.size();
+        if (choice_ != Choice::by_island) {
+            (choice_ == Choice::soft ? softly_ : direct_).push_back(k);
+            continue;
+        }
         Memory& memory = memory_[bodies[0]];
-        if (choice_ == Choice::soft) {
-            softly_.push_back(k);
-            continue;
-        }
-        if (choice_ == Choice::direct) {
-            direct_.push_back(k);
-            continue;
-        }
         if (memory.wait > 0) {
             --memory.wait;
             softly_.push_back(k);
             continue;
         }
-        if (small(islands, k)) {
+        if (bodies.size() <= tuning::direct_small_bodies && manifolds.size() <= tuning::direct_small_manifolds) {
             direct_.push_back(k);
             continue;
         }
-        double mass = 0.0, least = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t i : bodies) {
-            mass += problem.bodies[i].mass;
-            least = std::min(least, problem.bodies[i].mass);
-        }
-        if (bodies.size() <= tuning::direct_most_bodies && mass >= tuning::direct_load_ratio * least) {
-            const double ratio = load_ratio_.find(problem.bodies, problem.manifolds, bodies, manifolds);
-            if (ratio >= tuning::direct_load_ratio) {
+        if (bodies.size() <= tuning::direct_most_bodies) {
+            const double ratio = load_ratio(problem, islands, k, 0);
+            if (few || ratio >= tuning::direct_load_ratio) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 const std::size_t work = memory.solver->factor_work(problem, bodies, manifolds);
                 if (work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
@@ -96,35 +100,53 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             direct_.push_back(c.island);
         } else {
             softly_.push_back(c.island);
+            // One hard step must not shut it out for good.
+            int& expected = memory_[islands.bodies(c.island)[0]].factorisations;
+            expected -= expected / 4;
         }
     }
     std::sort(direct_.begin(), direct_.end());
 }
 
-// Soft islands into parts: as many as threads where no island is a large share, else one.
+int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+    const double ratio = load_ratio(problem, islands, island, tuning::soft_load_ratio_age);
+    return ratio > tuning::soft_large_load_ratio ? 4 : ratio > tuning::soft_load_ratio ? 2 : 1;
+}
+
+// Soft islands into parts of as fine substeps: as many as threads where no island is a large share, else one.
 void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads) {
     std::sort(softly_.begin(), softly_.end());
-    std::size_t all = 0, largest = 0;
-    for (const std::size_t k : softly_) {
-        all += islands.manifolds(k).size();
-        largest = std::max(largest, islands.manifolds(k).size());
-    }
-    const bool apart = threads > 1 && all >= tuning::parallel_grain && 2 * largest * threads < 3 * all;
-    const std::size_t count = apart ? threads : 1;
-    parts_.resize(count);
-    for (SoftSolver::Part& part : parts_) {
-        part.bodies.clear();
-        part.manifolds.clear();
-    }
-    std::size_t dealt = 0;
-    for (const std::size_t k : softly_) {
-        SoftSolver::Part& part = parts_[std::min(count - 1, dealt * count / std::max<std::size_t>(all, 1))];
-        const auto bodies = islands.bodies(k);
-        const auto manifolds = islands.manifolds(k);
-        part.bodies.insert(part.bodies.end(), bodies.begin(), bodies.end());
-        part.manifolds.insert(part.manifolds.end(), manifolds.begin(), manifolds.end());
-        dealt += manifolds.size();
-        for (const std::uint32_t m : manifolds) temper(problem.manifolds[m], problem);
+    parts_used_ = 0;
+    std::vector<int> fineness;
+    for (const std::size_t k : softly_) fineness.push_back(finer(problem, islands, k));
+    for (const int wanted : {1, 2, 4}) {
+        std::size_t all = 0, largest = 0;
+        for (std::size_t s = 0; s < softly_.size(); ++s) {
+            if (fineness[s] != wanted) continue;
+            all += islands.manifolds(softly_[s]).size();
+            largest = std::max(largest, islands.manifolds(softly_[s]).size());
+        }
+        if (all == 0) continue;
+        const bool apart = threads > 1 && all >= tuning::parallel_grain && 2 * largest * threads < 3 * all;
+        const std::size_t first = parts_used_, count = apart ? threads : 1;
+        parts_used_ += count;
+        if (parts_.size() < parts_used_) parts_.resize(parts_used_);
+        for (std::size_t p = first; p < parts_used_; ++p) {
+            parts_[p].bodies.clear();
+            parts_[p].manifolds.clear();
+            parts_[p].finer = wanted;
+        }
+        std::size_t dealt = 0;
+        for (std::size_t s = 0; s < softly_.size(); ++s) {
+            if (fineness[s] != wanted) continue;
+            SoftSolver::Part& part = parts_[first + std::min(count - 1, dealt * count / all)];
+            const auto bodies = islands.bodies(softly_[s]);
+            const auto manifolds = islands.manifolds(softly_[s]);
+            part.bodies.insert(part.bodies.end(), bodies.begin(), bodies.end());
+            part.manifolds.insert(part.manifolds.end(), manifolds.begin(), manifolds.end());
+            dealt += manifolds.size();
+            for (const std::uint32_t m : manifolds) temper(problem.manifolds[m], problem);
+        }
     }
 }
 
@@ -151,7 +173,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     }
     if (softly_.empty()) return;
     deal(islands, problem, std::size_t(pool.size()));
-    soft_.solve(problem, parts_, pool);
+    soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
 }
 
 }  // namespace tumble

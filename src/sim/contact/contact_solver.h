@@ -29,6 +29,8 @@ private:
         std::unique_ptr<DirectSolver> solver;
         int wait = 0, failures = 0;   // steps until the next trial; failures in a row
         int factorisations = 2;       // of the last solve: what the next may take
+        double load_ratio = 1.0;      // as of the last look
+        int looked = 0;               // steps for which that holds
     };
     struct Candidate {
         std::size_t island;
@@ -36,7 +38,8 @@ private:
         std::size_t work;
     };
     void choose(const ContactProblem& problem, const ContactIslands& islands);
-    bool small(const ContactIslands& islands, std::size_t island) const;
+    double load_ratio(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds);
+    int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
 
     Choice choice_;
@@ -47,6 +50,7 @@ private:
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
     std::vector<SoftSolver::Part> parts_;
+    std::size_t parts_used_ = 0;
 };
 
 }  // namespace tumble

@@ -392,35 +392,33 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
 
-    bool converged = false;
-    for (const double ratio : {tuning::direct_friction_stiff, tuning::direct_friction_soft}) {
-        friction_compliance_ = ratio * compliance_;
-        start();
-        for (int round = 0; round < tuning::direct_rounds; ++round) {
-            if (!minimise(tuning::direct_newton_steps)) break;
-            double change = 0.0, largest = 0.0;
-            for (Patch& patch : patches_) {
-                each_row(patch, [&](Row& row) {
-                    change = std::max(change, std::abs(row.impulse - row.estimate));
-                    largest = std::max(largest, std::abs(row.impulse));
-                    row.estimate = row.impulse;
-                });
-                set_limits(patch);
-            }
-            converged = change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
-            if (converged) break;
+    // Friction soft at first, where Newton's method does not stall on the edges of the discs; then stiffer from round to
+    // round, each beginning where the one before ended, as far as that goes.
+    friction_compliance_ = tuning::direct_friction_soft * compliance_;
+    start();
+    bool found = false;
+    for (int round = 0; round < tuning::direct_rounds; ++round) {
+        if (found) kept_ = velocity_;
+        if (!minimise(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
+            if (!found) return false;
+            velocity_ = kept_;
+            for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.impulse = row.estimate; });
+            break;
         }
-        if (converged) break;
-        // The next ratio begins from last step's impulses again.
+        found = true;
+        double change = 0.0, largest = 0.0;
         for (Patch& patch : patches_) {
-            const Manifold& m = problem.manifolds[patch.manifold];
-            for (int i = 0; i < patch.count; ++i) patch.normal[i].estimate = patch.geometry.points[std::size_t(i)].impulse;
-            patch.friction[0].estimate = m.friction[0];
-            patch.friction[1].estimate = m.friction[1];
-            patch.twist.estimate = m.twist;
+            each_row(patch, [&](Row& row) {
+                change = std::max(change, std::abs(row.impulse - row.estimate));
+                largest = std::max(largest, std::abs(row.impulse));
+                row.estimate = row.impulse;
+            });
+            set_limits(patch);
         }
+        if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
+        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening, tuning::direct_friction_stiff * compliance_);
     }
-    if (!converged || !admissible()) return false;
+    if (!admissible()) return false;
     const bool pushed = push_out(problem.patches.h);
     store(problem, bodies, pushed);
     return true;

@@ -98,7 +98,7 @@ private:
     bool driven_ = false;            // something given moves: energy may come in
     int factorisations_ = 0;
     std::vector<Mass> masses_;
-    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_;   // u*, u, du, ...; six a body
+    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_, kept_;   // u*, u, du, ...; six a body
     std::vector<Patch> patches_;
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

@@ -55,7 +55,7 @@ void put(float* row, int stride, const Vec3& v) {
 int substeps_of(double h) {
     // A step of exactly so many substeps must not get one more by rounding.
     const double n = std::ceil(h / tuning::soft_substep - 1e-6);
-    return int(std::clamp(n, 1.0, double(tuning::soft_most_substeps)));
+    return int(std::clamp(n, double(tuning::soft_least_substeps), double(tuning::soft_most_substeps)));
 }
 
 // One part's contacts in the kernel's layout.
@@ -223,7 +223,7 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
 }
 
 void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
-    substeps_ = substeps_of(problem.patches.h);
+    substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
     moving_ = softness(tuning::soft_frequency / d_, d_);
     fixed_ = softness(2.0 * tuning::soft_frequency / d_, d_);

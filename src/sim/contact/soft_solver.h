@@ -44,6 +44,7 @@ public:
     /// The result depends neither on how islands are dealt into parts nor on the number of threads.
     struct Part {
         std::vector<std::uint32_t> bodies, manifolds;
+        int finer = 1;   // substeps in place of one
     };
     void solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool);
 
