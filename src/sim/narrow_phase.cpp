@@ -146,8 +146,12 @@ NarrowPhase::Result NarrowPhase::examine(const Entry& entry, double h, std::size
     const Result nothing{.stays = entry.count == 0};
     // Exact flights meet others at impacts, not at steps.
     if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return nothing;
-    const double reach = margin(a, b, h);
-    if (distance(a.bounds, b.bounds) > reach) {
+    const double apart = distance(a.bounds, b.bounds);
+    // Most pairs end here: first without the square root, by the sum of the components.
+    const bool far = mode_ == Mode::step && apart > a.speculative + b.speculative +
+                                                        h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
+    const double reach = far ? 0.0 : margin(a, b, h);
+    if (far || apart > reach) {
         if (entry.count > 0) last.outcome = Search::Outcome::none;
         return nothing;
     }
