@@ -21,9 +21,10 @@ inline constexpr double carry_reach = 0.1;
 /// may lie that far from where a search would put them, separations are exact all the same.
 inline constexpr double reuse_motion = 2e-3;
 
-/// Bounds in the broad phase are grown by this part of a body's radius, and by its way in so many steps:
-/// a rebuild every few steps for falling bodies, none for resting ones.
-inline constexpr double fat_bounds = 0.1;
+/// Bounds in the broad phase are grown by this part of a body's radius, and ahead by its way in so many steps: a search in
+/// the tree every few steps for falling bodies, none for resting ones. Measured on heaps of 1000 boxes: twice as much trebles
+/// the pairs of neighbours that do not touch, half as much the searches.
+inline constexpr double fat_bounds = 0.05;
 inline constexpr double fat_steps = 8.0;
 
 /// Slower approaches than this times |g| h do not bounce. A resting contact meets gravity's own g h each step;

@@ -194,6 +194,19 @@ TEST(PairMemory, SurvivesSleep) {
     EXPECT_EQ(found[0].twist, 12.0);
 }
 
+// What was left out for a while is looked for again, though nothing has moved.
+TEST(PairMemory, ComesBackAfterAFlight) {
+    Scene scene = box_on_box();
+    ASSERT_EQ(scene.find().size(), 1u);
+    for (bool Body::*out : {&Body::flying, &Body::asleep}) {
+        const std::vector<BroadPhase::Pair> pairs{{0, 1}};
+        scene.bodies[1].*out = true;
+        EXPECT_TRUE(scene.narrow_phase.find(pairs, scene.bodies, h, scene.pool).empty());
+        scene.bodies[1].*out = false;
+        EXPECT_EQ(scene.narrow_phase.find(pairs, scene.bodies, h, scene.pool).size(), 1u);
+    }
+}
+
 // A tessellated flat floor is flat, whether the manifolds are new or followed: nothing to bump against.
 TEST(PairMemory, SeamsAreFlat) {
     for (const bool sphere : {false, true}) {

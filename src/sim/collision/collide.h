@@ -52,7 +52,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
                              std::vector<Manifold>& out);
 void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                        CollisionScratch& scratch, std::vector<Manifold>& out);
-/// Both boxes (Polyhedron::is_box): what collide_polyhedra gives, ten times as fast.
+/// Both boxes (Polyhedron::is_box): what the general routine gives, in a fraction of the time.
 void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                    CollisionScratch& scratch, std::vector<Manifold>& out);
 void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
