@@ -63,15 +63,17 @@ void find_near_parts(const Compound& whole, const Pose& pose, const Collider& ot
     std::sort(parts.begin(), parts.end());
 }
 
-// Each part of A against the whole of B.
-void collide_parts(const Compound& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
-                   CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const std::uint32_t stride = part_count(b);
-    std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(b) ? 1 : 0];
-    find_near_parts(a, pose_a, b, pose_b, margin, near);
+// Each part of a compound against the whole of the other shape, in the given order.
+void collide_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, bool whole_is_a,
+                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const std::uint32_t stride = part_count(other);
+    std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
+    find_near_parts(whole, pose, other, pose_other, margin, near);
     for (const std::uint32_t k : near) {
         const std::size_t first = out.size();
-        collide(a.parts[k].collider, part_pose(pose_a, a.parts[k]), b, pose_b, margin, scratch, out);
+        const Compound::Part& part = whole.parts[k];
+        if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
+        else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
     }
 }
@@ -81,13 +83,11 @@ void collide_parts(const Compound& a, const Pose& pose_a, const Collider& b, con
 void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out) {
     if (const auto* whole = std::get_if<CompoundRef>(&a)) {
-        collide_parts(**whole, pose_a, b, pose_b, margin, scratch, out);
+        collide_parts(**whole, pose_a, b, pose_b, true, margin, scratch, out);
         return;
     }
     if (const auto* whole = std::get_if<CompoundRef>(&b)) {
-        const std::size_t first = out.size();
-        collide_parts(**whole, pose_b, a, pose_a, margin, scratch, out);
-        for (std::size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
+        collide_parts(**whole, pose_b, a, pose_a, false, margin, scratch, out);
         return;
     }
     std::visit(
