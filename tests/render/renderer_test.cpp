@@ -91,8 +91,14 @@ TEST(Renderer, DrawsAllPartsOfABody) {
     EXPECT_GT(color_at(Vec3(1.5, 1.0, 0.5))[2], 2 * color_at(Vec3(1.5, 1.0, 0.5))[0]);
 
     SceneDescription apart = scene;
-    apart.bodies = {ground_plane(), ball_body(Vec3(-1.5, 1.0, 0.0), 0.5, {220, 30, 30}, quarter),
-                    box_body(Vec3(1.5, 1.0, 0.0), Vec3(0.6, 1.0, 1.0), {30, 30, 220}, quarter * right.rotation), scene.bodies[2]};
+    BodyDescription ball = body, box = body;
+    ball.shape = left.shape;
+    ball.position = Vec3(-1.5, 1.0, 0.0);
+    box.shape = right.shape;
+    box.position = Vec3(1.5, 1.0, 0.0);
+    box.rotation = quarter * right.rotation;
+    box.surface.color = *right.color;
+    apart.bodies = {ground_plane(), ball, box, scene.bodies[2]};
     apart.cords[0].body = 3;
     const Image other = drawn(apart);
     std::size_t different = 0;
