@@ -122,16 +122,16 @@ Motion motion_of(const Traveller& t, double time) {
 
 // A ball around what is searched, and what bounds its motion.
 struct Ballpark {
+    Traveller traveller;
     Vec3 center, velocity, acceleration;
     double acceleration_change, turning_speed, radius;
 };
 
-Ballpark ballpark_of(const Traveller& t, double horizon) {
-    const Motion motion = motion_of(t, 0.0);
+Ballpark ballpark_of(const Traveller& t, const Motion& motion, double horizon) {
     const Vec3 acceleration = t.path->acceleration(t.since);
     const double change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - acceleration).norm();
     const double arm = t.part ? t.part->place.position.norm() : 0.0;
-    return {pose_of(t, motion).position, motion.velocity, acceleration, change, t.path->spin_bound() * arm, size_of(t)};
+    return {t, pose_of(t, motion).position, motion.velocity, acceleration, change, t.path->spin_bound() * arm, size_of(t)};
 }
 
 // How long two things certainly take to close a gap, whatever their direction.
@@ -144,11 +144,15 @@ double least_time(double gap, const Ballpark& a, const Ballpark& b) {
 }
 
 // A compound's parts as travellers of their own; anything else as it is.
-void list_parts(const Traveller& whole, std::vector<Traveller>& parts) {
-    parts.clear();
-    const auto* compound = std::get_if<CompoundRef>(&whole.body->collider);
-    if (!compound) parts.push_back(whole);
-    else for (const Compound::Part& part : (*compound)->parts) parts.push_back({whole.body, whole.path, whole.since, &part});
+std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
+    const Motion motion = motion_of(whole, 0.0);
+    std::vector<Ballpark> parts;
+    if (const auto* compound = std::get_if<CompoundRef>(&whole.body->collider))
+        for (const Compound::Part& part : (*compound)->parts)
+            parts.push_back(ballpark_of({whole.body, whole.path, whole.since, &part}, motion, horizon));
+    else
+        parts.push_back(ballpark_of(whole, motion, horizon));
+    return parts;
 }
 
 // The half-space as the point of its plane below the other's centre.
@@ -328,23 +332,21 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Mat3& ro
 
 // Part by part, those that can meet first before the others: the first impact of all ends the search for the rest.
 TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap) {
-    list_parts(a, parts_a_);
-    list_parts(b, parts_b_);
     const auto* plane = std::get_if<HalfSpace>(&a.body->collider);
     const bool surface = std::holds_alternative<SurfaceRef>(a.body->collider);
+    const Vec3 normal = plane ? Vec3(a.path->orientation(a.since) * plane->normal) : Vec3(Vec3::Zero());
+    const auto time = [&](const Ballpark& ball_a, const Ballpark& ball_b) {
+        if (plane && a.path->turns()) return 0.0;
+        const Vec3 d = ball_b.center - ball_a.center;
+        return least_time((plane ? normal.dot(d) - plane->offset : d.norm() - ball_a.radius) - ball_b.radius, ball_a, ball_b);
+    };
+    if (!(time(ballpark_of(a, motion_of(a, 0.0), horizon), ballpark_of(b, motion_of(b, 0.0), horizon)) < horizon)) return {};
+    const std::vector<Ballpark> parts_a = parts_of(a, horizon), parts_b = parts_of(b, horizon);
     part_pairs_.clear();
-    for (const Traveller& part_a : parts_a_) {
-        const Ballpark ball_a = ballpark_of(part_a, horizon);
-        for (const Traveller& part_b : parts_b_) {
-            const Ballpark ball_b = ballpark_of(part_b, horizon);
-            double from = 0.0;
-            if (plane && !a.path->turns()) {
-                const Vec3 normal = a.path->orientation(a.since) * plane->normal;
-                from = least_time(normal.dot(ball_b.center - ball_a.center) - plane->offset - ball_b.radius, ball_a, ball_b);
-            } else if (!plane) {
-                from = least_time((ball_b.center - ball_a.center).norm() - ball_a.radius - ball_b.radius, ball_a, ball_b);
-            }
-            if (from < horizon) part_pairs_.push_back({from, part_a, part_b});
+    for (const Ballpark& part_a : parts_a) {
+        for (const Ballpark& part_b : parts_b) {
+            const double from = time(part_a, part_b);
+            if (from < horizon) part_pairs_.push_back({from, part_a.traveller, part_b.traveller});
         }
     }
     std::stable_sort(part_pairs_.begin(), part_pairs_.end(), [](const PartPair& l, const PartPair& r) { return l.from < r.from; });
@@ -370,7 +372,7 @@ TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Travel
     candidates_.clear();
     triangles.tree.query({center - half, center + half}, [&](std::uint32_t i) { candidates_.push_back(i); });
     std::sort(candidates_.begin(), candidates_.end());
-    const Ballpark still = ballpark_of(surface, horizon), ball = ballpark_of(other, horizon);
+    const Ballpark still = ballpark_of(surface, frame, horizon), ball = ballpark_of(other, motion_of(other, 0.0), horizon);
     const Vec3 middle = frame.rotation.transpose() * (ball.center - frame.position);
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {

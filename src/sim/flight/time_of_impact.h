@@ -57,7 +57,6 @@ private:
         Traveller a, b;
     };
     std::vector<PartPair> part_pairs_;
-    std::vector<Traveller> parts_a_, parts_b_;
 };
 
 }  // namespace tumble
