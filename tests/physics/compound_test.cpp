@@ -137,6 +137,21 @@ TEST(Compound, HookedLBlocksHoldEachOther) {
     EXPECT_LT(world.measure().max_penetration, 2e-3);
 }
 
+// A frictionless box over a floor of twelve boxes side by side: the seams do not catch it.
+TEST(Compound, SeamsBetweenPartsAreSmooth) {
+    std::vector<CompoundPart> parts;
+    for (int i = 0; i < 12; ++i) parts.push_back(part(BoxShape{Vec3(0.5, 0.2, 2.0)}, {0.5 * i, -0.1, 0.0}));
+    SceneDescription scene;
+    add_compound(scene, compound_of(parts), Vec3::Zero(), 0.0).type = BodyType::fixed;
+    add_box(scene, {0.4, 0.4, 0.4}, {0.0, 0.2, 0.0}).velocity = {2.2, 0.0, 0.0};
+    World world(scene);
+    run(world, scene, 2.0);
+    const BodyState box = world.snapshot().bodies[1];
+    EXPECT_NEAR(box.origin.x(), 4.4, 1e-3);
+    EXPECT_NEAR(box.origin.y(), 0.2, 1e-4);
+    EXPECT_LT(box.orientation.vec().norm(), 1e-3);
+}
+
 // Steps far longer than a wall is thick: spinning links and dumbbells thrown at a wall with a frame come back.
 TEST(Compound, NothingTunnelsThroughAThinPart) {
     Random random(7);

@@ -1,6 +1,7 @@
 #include "sim/collision/collide.h"
 
 #include "sim/collision/compound.h"
+#include "sim/tuning.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -63,6 +64,26 @@ void find_near_parts(const Compound& whole, const Pose& pose, const Collider& ot
     std::sort(parts.begin(), parts.end());
 }
 
+bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
+    const Vec3 p = part.place.to_body(point);
+    if (const auto* ball = std::get_if<Ball>(&part.collider)) return p.norm() <= ball->radius + tolerance;
+    const auto& faces = std::get<PolyhedronRef>(part.collider)->faces;
+    return std::all_of(faces.begin(), faces.end(), [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
+}
+
+// Whether what part k would push towards is the body itself: what slides over a seam between parts is not caught by it.
+bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
+    const double size = whole.parts[k].reach;
+    return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
+        const Vec3 probe = pose.to_body(point.position + tuning::seam_probe * size * outward);
+        bool inside = false;
+        whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
+            inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
+        });
+        return inside;
+    });
+}
+
 // Each part of a compound against the whole of the other shape, in the given order.
 void collide_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, bool whole_is_a,
                    double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
@@ -74,6 +95,8 @@ void collide_parts(const Compound& whole, const Pose& pose, const Collider& othe
         const Compound::Part& part = whole.parts[k];
         if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
         else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
+        const auto seam = [&](const Manifold& m) { return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal)); };
+        out.erase(std::remove_if(out.begin() + std::ptrdiff_t(first), out.end(), seam), out.end());
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
     }
 }
