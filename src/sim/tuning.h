@@ -225,6 +225,11 @@ inline constexpr int most_substeps = 200000;
 inline constexpr double sleep_drift = 2e-4;
 inline constexpr double sleep_time = 0.5;
 
+/// A contact of a part of a compound is inside the body, a seam, when this share of the part's size out along its normal all
+/// points lie in other parts, or no farther outside them than the second share: far above rounding, below any real edge.
+inline constexpr double seam_probe = 1e-3;
+inline constexpr double seam_tolerance = 1e-5;
+
 /// Fewer pairs or islands than this are not worth waking the other threads for.
 inline constexpr std::size_t parallel_grain = 64;
 

@@ -2,6 +2,7 @@
 // surface, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number of threads.
 #include "sim/body_builder.h"
 #include "sim/integrator/advance.h"
+#include "support/compounds.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 
@@ -52,6 +53,11 @@ int main(int argc, char** argv) {
     BodyDescription& ramp = add_body(scene, MeshShape{open_ramp()}, Vec3(-3.0, 0.0, 0.0));
     ramp.type = BodyType::fixed;
     ramp.friction = 0.4;
+    for (const Vec3& at : {Vec3(1.0, 2.6, 1.0), Vec3(1.2, 3.8, 1.2)}) {
+        BodyDescription& compound = add_body(scene, at.y() < 3.0 ? table() : square_link(1.0, 0.2), at);
+        compound.friction = 0.5;
+        compound.angular_velocity = Vec3(1.0, 0.5, 2.0);
+    }
     BodyDescription& paddle = add_body(scene, BoxShape{Vec3(0.2, 1.0, 3.0)}, Vec3(5.0, 0.5, 1.5));
     paddle.type = BodyType::kinematic;
     paddle.keyframes = {{0.2, Vec3(5.0, 0.5, 1.5), Quat::Identity()},
