@@ -1,8 +1,31 @@
-#include "accuracy/scene.h"
+#include "harness/scene.h"
 
+#include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace tumble::bench {
+namespace {
+
+// Integrals of x^2, y^2, z^2 over a hexahedron about the origin, over its volume: the sum of the tetrahedra that its
+// sides, cut in two, span with the origin.
+Vector mean_squares(const Corners& c) {
+    Vector sum;
+    double volume = 0.0;
+    const auto tetrahedron = [&](const Vector& p, const Vector& q, const Vector& r) {
+        const double v = dot(p, cross(q, r)) / 6.0;
+        const auto square = [](double a, double b, double d) { return (a * a + b * b + d * d + a * b + b * d + d * a) / 10.0; };
+        sum = sum + v * Vector{square(p.x, q.x, r.x), square(p.y, q.y, r.y), square(p.z, q.z, r.z)};
+        volume += v;
+    };
+    for (const auto& s : sides) {
+        tetrahedron(c[std::size_t(s[0])], c[std::size_t(s[1])], c[std::size_t(s[2])]);
+        tetrahedron(c[std::size_t(s[0])], c[std::size_t(s[2])], c[std::size_t(s[3])]);
+    }
+    return 1.0 / volume * sum;
+}
+
+}  // namespace
 
 Orientation turn(const Vector& axis, double radians) {
     const Vector u = std::sin(0.5 * radians) / norm(axis) * axis;
@@ -21,8 +44,28 @@ Vector Body::principal_inertia() const {
         const double i = 0.4 * mass * radius * radius;
         return {i, i, i};
     }
+    if (kind == Kind::hexahedron) {
+        const Vector m = mean_squares(corners);
+        return {mass * (m.y + m.z), mass * (m.x + m.z), mass * (m.x + m.y)};
+    }
     const double xx = size.x * size.x, yy = size.y * size.y, zz = size.z * size.z;
     return {mass / 12.0 * (yy + zz), mass / 12.0 * (xx + zz), mass / 12.0 * (xx + yy)};
+}
+
+Corners Body::outline() const {
+    if (kind == Kind::hexahedron) return corners;
+    Corners c;
+    for (std::size_t i = 0; i < 8; ++i)
+        c[i] = {(i & 1 ? 0.5 : -0.5) * size.x, (i & 2 ? 0.5 : -0.5) * size.y, (i & 4 ? 0.5 : -0.5) * size.z};
+    return c;
+}
+
+double Body::reach() const {
+    if (kind == Kind::plane) return std::numeric_limits<double>::infinity();
+    if (kind == Kind::sphere) return radius;
+    double farthest = 0.0;
+    for (const Vector& corner : outline()) farthest = std::max(farthest, norm(corner));
+    return farthest;
 }
 
 double mean_projected_area(const Body& body) {
