@@ -88,6 +88,13 @@ Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion) {
     return sum;
 }
 
+double told_friction(const Scene& scene, const Body& body) {
+    if (body.moves()) return body.friction;
+    for (const Body& other : scene.bodies)
+        if (other.moves()) return std::sqrt(body.friction * other.friction);
+    return body.friction;
+}
+
 Vector angular_momentum(const Body& body, const Motion& motion) {
     const Vector w = rotate_back(motion.orientation, motion.angular_velocity), i = body.principal_inertia();
     return rotate(motion.orientation, {i.x * w.x, i.y * w.y, i.z * w.z});

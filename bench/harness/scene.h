@@ -93,6 +93,10 @@ struct Wrench {
 Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion);
 double mean_projected_area(const Body& body);
 
+/// What engines are told that take the smaller (or, of fixed bodies first, their own) friction of a pair: fixed bodies
+/// that of the pair with the first moving body, moving ones their own.
+double told_friction(const Scene& scene, const Body& body);
+
 /// Kinetic and potential energy, J.
 double energy(const Scene& scene, const std::vector<Motion>& motions);
 Vector angular_momentum(const Body& body, const Motion& motion);  // about its centre of mass, kg m^2/s
