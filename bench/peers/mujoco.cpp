@@ -41,6 +41,12 @@ std::string solref(const Scene& scene, double h, bool stiff) {
     return out.str();
 }
 
+std::string solimp(const Scene& scene, bool stiff) {
+    for (const Body& body : scene.bodies)
+        if (body.moves() && body.restitution > 0.0) return " solimp='0.9999 0.9999 0.001'";
+    return stiff ? " solimp='0.99 0.999 0.001'" : "";  // nearer to 1, CG does not converge
+}
+
 std::string model_of(const Scene& scene, double h, const Settings& settings) {
     bool rough = false;
     for (const Body& body : scene.bodies) rough |= body.friction > 0.0;
@@ -49,8 +55,8 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
     xml.precision(17);
     xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << settings.integrator
         << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts << "' njmax='" << rows
-        << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='" << solref(scene, h, settings.stiff) << "'"
-        << (settings.stiff ? " solimp='0.9999 0.9999 0.001'" : "") << "/></default><asset>";
+        << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
+        << solref(scene, h, settings.stiff) << "'" << solimp(scene, settings.stiff) << "/></default><asset>";
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].kind != Kind::hexahedron) continue;
         xml << "<mesh name='" << i << "' vertex='";

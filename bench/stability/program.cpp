@@ -80,14 +80,13 @@ void map(const StabilityCase& c, const std::string& program, const StabilityWay&
         for (const double rate : rates) {
             Trial trial = c.trial(parameter, rate);
             if (quick) trial.seconds = std::min(trial.seconds, 1.0);
-            Outcome outcome{HUGE_VAL, "fail", 0};
             try {
-                outcome = run(trial, way, rate);
+                write(c, program, way, rate, parameter, run(trial, way, rate));
             } catch (const std::exception& e) {  // it blew up, and says so
                 std::fprintf(stderr, "%s, %s, %s, %g at 1/%g: %s\n", c.name.c_str(), program.c_str(), way.name.c_str(),
                              parameter, rate, e.what());
+                write(c, program, way, rate, parameter, {HUGE_VAL, "fail", 0});
             }
-            write(c, program, way, rate, parameter, outcome);
         }
 }
 
