@@ -43,6 +43,7 @@ ShapeText shape_text(const Shape& shape) {
             return {"mesh", fmt::format("{}, {} triangles", std::filesystem::path(s.asset->file).filename().string(),
                                         s.asset->surface.triangles.size())};
         }
+        ShapeText operator()(const CompoundShape& s) const { return {"compound", fmt::format("{} parts", s.parts->size())}; }
     };
     return std::visit(Tell{}, shape);
 }

@@ -75,6 +75,8 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
     look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
+void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
+
 }  // namespace
 
 SceneLooks make_scene_looks(const SceneDescription& scene) {

@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "render/camera_view.h"
 #include "render/draw_list.h"
+#include "render/drawn_parts.h"
 #include "render/frame_uniforms.h"
 #include "render/framebuffer.h"
 #include "render/gl_context.h"
@@ -28,7 +29,8 @@ std::string words(const GlFunctions& gl, GLenum name) {
 
 struct Renderer::State {
     State(const SceneDescription& description, const RenderOptions& options, const std::filesystem::path& shaders)
-        : scene(description),
+        : drawn(description),
+          scene(drawn.scene()),
           looks(make_scene_looks(scene)),
           view(scene.camera, scene.output.width, scene.output.height),
           stage(scene, looks, view, shadow_map_texels),
@@ -48,7 +50,8 @@ struct Renderer::State {
         gl.DepthFunc(GL_LEQUAL);
     }
 
-    SceneDescription scene;
+    DrawnParts drawn;
+    const SceneDescription& scene;
     SceneLooks looks;
     CameraView view;
     ShadowStage stage;
@@ -70,8 +73,9 @@ Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) 
 
 Renderer::~Renderer() = default;
 
-void Renderer::render(const Snapshot& snapshot, Image& frame) {
+void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
+    const Snapshot& snapshot = s.drawn.snapshot(whole);
     const double near_distance = near_distance_for(s.looks, snapshot, s.view);
     const Visibility visibility = find_visible(s.looks, snapshot, s.view);
     const OcclusionAtlas atlas = make_occlusion_atlas(s.looks, snapshot, s.view, visibility);

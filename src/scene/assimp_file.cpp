@@ -78,6 +78,7 @@ void add_node(const aiNode& node, const aiScene& scene, const Transform& parent,
               MeshFile& result) {
     if (depth > deepest_node) throw MeshError(fmt::format("nests its nodes deeper than {}", deepest_node));
     const Transform transform = parent.then(node.mTransformation);
+    if (node.mNumMeshes > 0) result.begin_object();   // an `o` or `g` of an OBJ, a node of a glTF
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         if (node.mMeshes[i] >= scene.mNumMeshes) throw MeshError("names a part that it does not hold");
         add_mesh(*scene.mMeshes[node.mMeshes[i]], transform, with_normals, result);

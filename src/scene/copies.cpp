@@ -15,7 +15,7 @@ namespace {
 
 constexpr Choice<bool> scatter_rotations[] = {{"random", true}, {"none", false}};
 
-// Meshes come in this many sizes between the two ends of `scale`: copies of one size share their mesh.
+// Meshes and compounds come in this many sizes between the two ends of `scale`: copies of one size share theirs.
 constexpr int mesh_sizes = 9;
 
 /// A number for all three axes, or one for each.
@@ -63,14 +63,14 @@ void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest&
     if (request.min_scale > request.max_scale) value->fail("must have the smaller factor first");
     const Vec3 extent = local_bounds(shape.shape).extent();
     if (!limits::size.contains(request.max_scale * extent.maxCoeff()) ||
-        (!std::holds_alternative<MeshShape>(shape.shape) &&
+        (!shared_data(shape.shape) &&
          !limits::size.contains(request.min_scale * extent.minCoeff()))) {
         value->fail(fmt::format("makes copies of unusable size (a length {})", limits::size.requirement()));
     }
 }
 
-double draw_scale(const CopiesRequest& request, bool is_mesh, Random& random) {
-    const double part = is_mesh ? double(random.index(mesh_sizes)) / (mesh_sizes - 1) : random.unit();
+double draw_scale(const CopiesRequest& request, bool shares, Random& random) {
+    const double part = shares ? double(random.index(mesh_sizes)) / (mesh_sizes - 1) : random.unit();
     return request.min_scale + (request.max_scale - request.min_scale) * part;
 }
 
@@ -95,12 +95,12 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
 void place_scattered(const ScatterRequest& scatter, const Origin& origin, Random& place, Random& turn,
                      std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
-    std::map<const MeshAsset*, BoundingSphere> of_mesh;   // found once for each mesh; only looked up
+    std::map<const void*, BoundingSphere> known;   // found once for each mesh or compound; only looked up
     for (BodyDescription& copy : copies) {
         if (scatter.random_rotation) copy.rotation = turn.rotation();
         BoundingSphere sphere;
-        if (const auto* mesh = std::get_if<MeshShape>(&copy.shape)) {
-            const auto [entry, is_new] = of_mesh.try_emplace(mesh->asset.get());
+        if (const void* shared = shared_data(copy.shape)) {
+            const auto [entry, is_new] = known.try_emplace(shared);
             if (is_new) entry->second = bounding_sphere(copy.shape);
             sphere = entry->second;
         } else {
@@ -162,9 +162,9 @@ std::vector<BodyDescription> make_copies(const CopiesRequest& request, const Bod
     Random place(seed, table, Random::Purpose::place), turn(seed, table, Random::Purpose::turn);
     Random look(seed, table, Random::Purpose::look), size(seed, table, Random::Purpose::size);
     std::vector<BodyDescription> copies(static_cast<std::size_t>(number_of(request)), model);
-    const bool is_mesh = std::holds_alternative<MeshShape>(shape.shape);
+    const bool shares = shared_data(shape.shape) != nullptr;
     for (BodyDescription& copy : copies) {
-        copy.shape = scaled(shape, draw_scale(request, is_mesh, size), meshes);
+        copy.shape = scaled(shape, draw_scale(request, shares, size), meshes);
         if (!request.colors.empty()) copy.surface.color = request.colors[look.index(request.colors.size())];
     }
     if (const auto* grid = std::get_if<GridRequest>(&request.arrangement)) place_in_grid(*grid, place, turn, copies);

@@ -81,19 +81,19 @@ double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const 
     return drop;
 }
 
-/// Local bounds, those of a mesh found once for all bodies that share it.
+/// Local bounds, those of a mesh or compound found once for all bodies that share it.
 class BoundsOfShapes {
 public:
     Bounds operator()(const Shape& shape) {
-        const auto* mesh = std::get_if<MeshShape>(&shape);
-        if (!mesh) return local_bounds(shape);
-        const auto [entry, is_new] = known_.try_emplace(mesh->asset.get());
+        const void* shared = shared_data(shape);
+        if (!shared) return local_bounds(shape);
+        const auto [entry, is_new] = known_.try_emplace(shared);
         if (is_new) entry->second = local_bounds(shape);
         return entry->second;
     }
 
 private:
-    std::map<const MeshAsset*, Bounds> known_;
+    std::map<const void*, Bounds> known_;   // only looked up
 };
 
 std::vector<Vec3> moving_points(const SceneDescription& scene) {

@@ -98,7 +98,20 @@ struct SphereShape {
 struct MeshShape {
     std::shared_ptr<const MeshAsset> asset;
 };
-using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape>;
+struct CompoundPart;
+/// Several shapes that are one body: a table, a ring, an L. Shared by the bodies that use it.
+struct CompoundShape {
+    std::shared_ptr<const std::vector<CompoundPart>> parts;   // at least one
+};
+using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape, CompoundShape>;
+
+struct CompoundPart {
+    Shape shape;                      // a box, a sphere or a mesh; a mesh collides as its convex hull
+    Vec3 position = Vec3::Zero();     // of the part's origin, body frame, m
+    Quat rotation = Quat::Identity(); // of the part, body frame
+    std::optional<double> density;    // kg/m^3, in place of the body's
+    std::optional<Color> color;       // in place of the body's
+};
 
 enum class Pattern { plain, grid, checker };
 
@@ -124,7 +137,7 @@ struct BodyDescription {
     BodyType type = BodyType::dynamic;
     Shape shape;
     Surface surface;
-    double density = 1000.0;      // kg/m^3, of the volume; not used when mass is given
+    double density = 1000.0;      // kg/m^3, of the volume; when mass is given, only its ratio to parts' own counts
     std::optional<double> mass;   // kg
     double restitution = 0.5;     // 0..1; a pair uses the larger
     double friction = 0.0;        // >= 0; a pair uses sqrt(a b)

@@ -30,6 +30,8 @@ inline constexpr std::int64_t image_side = 16'384;        // pixels: the largest
 
 // -- Amounts
 inline constexpr std::int64_t bodies = 1'000'000;         // about half a gigabyte of description
+inline constexpr std::int64_t parts = 512;                // of one body: a part and a triangle (mesh_triangles) together
+                                                          // number a contact in 32 bits
 inline constexpr std::int64_t scatter_attempts = 1000;    // a place for a copy is drawn this often before giving up:
                                                           // at the densest packing by chance (38 % of the volume,
                                                           // Renyi 1958, Torquato 2006) it takes about that

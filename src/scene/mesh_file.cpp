@@ -49,6 +49,10 @@ void MeshFile::add_position(const Vec3& position) {
     positions.push_back(position);
 }
 
+void MeshFile::begin_object() {
+    if (objects.empty() || objects.back() != triangles.size()) objects.push_back(triangles.size());
+}
+
 void MeshFile::add_polygon(const std::vector<Corner>& corners) {
     if (corners.size() < 3) return;   // points and lines
     if (corners.size() > static_cast<std::size_t>(limits::polygon_corners)) {
@@ -86,6 +90,8 @@ MeshFile read_mesh_file(const std::filesystem::path& file) {
     check_file(file, extension);
     MeshFile mesh = extension == ".ply" ? read_ply(file) : read_with_assimp(file, extension != ".stl");
     if (mesh.triangles.empty()) throw MeshError("holds no triangles");
+    if (mesh.objects.empty()) mesh.objects.push_back(0);
+    if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();   // an object of points and lines
     return mesh;
 }
 

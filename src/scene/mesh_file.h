@@ -24,9 +24,12 @@ struct MeshFile {
     };
     std::vector<Vec3> positions;         // not welded
     std::vector<std::array<Corner, 3>> triangles;
+    std::vector<std::size_t> objects;    // the first triangle of each object of the file, ascending
 
     /// Throws MeshError when the position is not finite or beyond 1e30, whose squares would be none.
     void add_position(const Vec3& position);
+    /// The triangles added from here on are another object.
+    void begin_object();
     /// Cuts the polygon into triangles. Throws MeshError when it or the file has too many corners.
     void add_polygon(const std::vector<Corner>& corners);
 };

@@ -114,8 +114,9 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
     return result;
 }
 
-LoadedMesh load_mesh(const std::filesystem::path& file) {
-    MeshFile read = read_mesh_file(file);
+namespace {
+
+LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     const std::vector<std::uint32_t> same = weld(read.positions);
 
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -156,6 +157,35 @@ LoadedMesh load_mesh(const std::filesystem::path& file) {
     return result;
 }
 
+/// The triangles of one object, with the positions that they use.
+MeshFile object_of(const MeshFile& whole, std::size_t number) {
+    const std::size_t first = whole.objects[number];
+    const std::size_t last = number + 1 < whole.objects.size() ? whole.objects[number + 1] : whole.triangles.size();
+    MeshFile object;
+    std::map<std::uint32_t, std::uint32_t> renumbered;
+    for (std::size_t t = first; t < last; ++t) {
+        Corners corners = whole.triangles[t];
+        for (MeshFile::Corner& corner : corners) {
+            const auto [entry, is_new] = renumbered.try_emplace(corner.position, std::uint32_t(object.positions.size()));
+            if (is_new) object.positions.push_back(whole.positions[corner.position]);
+            corner.position = entry->second;
+        }
+        object.triangles.push_back(corners);
+    }
+    return object;
+}
+
+}  // namespace
+
+LoadedMesh load_mesh(const std::filesystem::path& file) { return loaded(read_mesh_file(file), file); }
+
+std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file) {
+    const MeshFile read = read_mesh_file(file);
+    std::vector<LoadedMesh> result;
+    for (std::size_t i = 0; i < read.objects.size(); ++i) result.push_back(loaded(object_of(read, i), file));
+    return result;
+}
+
 const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scale) {
     auto found = files_.find(file);
     if (found == files_.end()) found = files_.emplace(file, load_mesh(file)).first;
@@ -164,6 +194,36 @@ const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scal
     auto made = scaled_.find(key);
     if (made == scaled_.end()) made = scaled_.emplace(key, scaled(found->second, scale)).first;
     return made->second;
+}
+
+const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::path& file, double scale) {
+    const auto find = [&](double at) { return objects_.find(std::pair(file, at)); };
+    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file));
+    if (find(scale) == objects_.end()) {
+        std::vector<LoadedMesh> made;
+        for (const LoadedMesh& mesh : find(1.0)->second) made.push_back(scaled(mesh, scale));
+        objects_.emplace(std::pair(file, scale), std::move(made));
+    }
+    return find(scale)->second;
+}
+
+CompoundShape MeshCache::enlarged(const CompoundShape& shape, double factor) {
+    auto& known = larger_compounds_[{shape.parts.get(), factor}];
+    if (!known.made) {
+        std::vector<CompoundPart> parts = *shape.parts;
+        for (CompoundPart& part : parts) {
+            part.position *= factor;
+            if (auto* box = std::get_if<BoxShape>(&part.shape)) box->size *= factor;
+            if (auto* ball = std::get_if<SphereShape>(&part.shape)) ball->radius *= factor;
+            if (auto* mesh = std::get_if<MeshShape>(&part.shape)) {
+                auto& larger = larger_meshes_[{mesh->asset.get(), factor}];
+                if (!larger.made) larger = {mesh->asset, scaled(LoadedMesh{mesh->asset, {}}, factor).asset};
+                mesh->asset = larger.made;
+            }
+        }
+        known = {shape.parts, std::make_shared<const std::vector<CompoundPart>>(std::move(parts))};
+    }
+    return {known.made};
 }
 
 }  // namespace tumble

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 
@@ -23,15 +24,30 @@ class MeshCache {
 public:
     /// Throws MeshError. `file` is resolved already.
     const LoadedMesh& load(const std::filesystem::path& file, double scale);
+    /// Each object of the file as a mesh of its own. Throws MeshError.
+    const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
+    /// All parts larger by a factor, their places too.
+    CompoundShape enlarged(const CompoundShape& shape, double factor);
 
 private:
     std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
+    std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
+    // By address, so the keys are kept alive beside the values; only looked up.
+    template <class T>
+    struct Larger {
+        std::shared_ptr<const T> original, made;
+    };
+    std::map<std::pair<const MeshAsset*, double>, Larger<MeshAsset>> larger_meshes_;
+    std::map<std::pair<const void*, double>, Larger<std::vector<CompoundPart>>> larger_compounds_;
 };
 
 /// One file at scale 1: welded, turned to face outward when it is closed, without triangles that have no area, with
 /// normals for drawing. Throws MeshError.
 LoadedMesh load_mesh(const std::filesystem::path& file);
+
+/// The same for each object of the file: a group of an OBJ, a node of a glTF; of other kinds the whole.
+std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size; the first of each group in file order stays.
 /// Returns for each vertex the one that stands for it.

@@ -1,5 +1,6 @@
 #include "scene/shapes.h"
 
+#include "scene/compound.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>
@@ -10,13 +11,21 @@
 namespace tumble {
 namespace {
 
-enum class ShapeKind { plane, box, sphere, mesh };
+enum class ShapeKind { plane, box, sphere, mesh, compound };
 
 constexpr Choice<ShapeKind> shape_kinds[] = {
     {"plane", ShapeKind::plane},
     {"box", ShapeKind::box},
     {"sphere", ShapeKind::sphere},
     {"mesh", ShapeKind::mesh},
+    {"compound", ShapeKind::compound},
+};
+
+// One convex hull around the mesh, or one around each object of the file.
+enum class MeshParts { whole, objects };
+
+constexpr Choice<MeshParts> mesh_parts[] = {
+    {"objects", MeshParts::objects},
 };
 
 PlaneShape read_plane(const TomlTable& table) {
@@ -27,23 +36,24 @@ PlaneShape read_plane(const TomlTable& table) {
 }
 
 /// A dynamic body's mass and inertia are those of what its mesh encloses, so it must enclose something.
-void require_solid(const LoadedMesh& mesh, const TomlValue& file) {
+/// `which`: nothing, or the object of the file.
+void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::string& which = {}) {
     const Closedness& c = mesh.closedness;
     if (c.open_edges > 0) {
         file.fail(
-            fmt::format("is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
+            fmt::format("{}is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
                         "has no mass; close it, or use it with type = \"fixed\"",
-                        c.open_edges));
+                        which, c.open_edges));
     }
     if (c.crowded_edges > 0) {
         file.fail(
-            fmt::format("is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
+            fmt::format("{}is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
                         "on which side is out; repair it, or use it with type = \"fixed\"",
-                        c.crowded_edges));
+                        which, c.crowded_edges));
     }
     const double extent = mesh.asset->surface.bounds().extent().norm();
     constexpr double rounding = 1e-12;   // of the bounds' diagonal cubed; a closed sheet has less, a hair has more
-    if (c.signed_volume <= rounding * extent * extent * extent) file.fail("is a mesh that encloses no volume");
+    if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
 }
 
 void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
@@ -58,6 +68,23 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
     }
 }
 
+/// Each object of the file as a part.
+CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request, MeshCache& meshes) {
+    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh_file, request.mesh_scale);
+    if (objects.size() > std::size_t(limits::parts))
+        file.fail(fmt::format("holds {} objects: the limit of a body's parts is {}", objects.size(), limits::parts));
+    auto made = std::make_shared<std::vector<CompoundPart>>();
+    const auto scale = table.find("scale");
+    for (const LoadedMesh& object : objects) {
+        if (type == BodyType::dynamic) require_solid(object, file, fmt::format("(object {}) ", made->size() + 1));
+        check_mesh_size(object, scale ? *scale : file);
+        CompoundPart part;
+        part.shape = MeshShape{object.asset};
+        made->push_back(std::move(part));
+    }
+    return {std::move(made)};
+}
+
 ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
     ShapeRequest request;
     table.read("scale", request.mesh_scale, limits::mesh_scale);
@@ -66,7 +93,13 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
     if (name.empty()) file.fail("must not be empty");
     if (name.find('\0') != std::string::npos) file.fail("must not hold a zero byte");
     request.mesh_file = (folder / std::filesystem::path(name)).lexically_normal();
+    MeshParts parts = MeshParts::whole;
+    table.read<MeshParts>("parts", parts, mesh_parts);
     try {
+        if (parts == MeshParts::objects) {
+            request.shape = read_objects(table, type, file, request, meshes);
+            return request;
+        }
         const LoadedMesh& mesh = meshes.load(request.mesh_file, request.mesh_scale);
         if (type == BodyType::dynamic) require_solid(mesh, file);
         const auto scale = table.find("scale");
@@ -103,11 +136,14 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
             table.set_title("a sphere");
             table.expect_keys({"type", "radius"});
             return {SphereShape{table.require("radius").number(limits::size)}, {}, 1.0};
+        case ShapeKind::compound:
+            table.set_title("a compound");
+            return {read_compound(table, type, folder, meshes), {}, 1.0};
         case ShapeKind::mesh:
             break;
     }
     table.set_title("a mesh");
-    table.expect_keys({"type", "file", "scale"});
+    table.expect_keys({"type", "file", "scale", "parts"});
     return read_mesh(table, type, folder, meshes);
 }
 
@@ -118,6 +154,7 @@ Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
     if (std::holds_alternative<MeshShape>(request.shape)) {
         return MeshShape{meshes.load(request.mesh_file, request.mesh_scale * factor).asset};
     }
+    if (const auto* compound = std::get_if<CompoundShape>(&request.shape)) return meshes.enlarged(*compound, factor);
     return request.shape;
 }
 

@@ -1,4 +1,4 @@
-// shape = { type = "box", ... }: planes, boxes, spheres and meshes.
+// shape = { type = "box", ... }: planes, boxes, spheres, meshes and compounds of them.
 #pragma once
 
 #include "scene/description.h"

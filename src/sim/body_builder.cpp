@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <vector>
+
 namespace tumble {
 namespace {
 
@@ -13,16 +15,26 @@ namespace {
 double mean_projected_area(const Collider& collider) {
     if (const auto* ball = std::get_if<Ball>(&collider)) return pi * ball->radius * ball->radius;
     if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&collider)) return 0.25 * (*hull)->surface_area();
-    return 0.0;
+    double sum = 0.0;   // of a compound: as if no part stood in another's lee
+    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&collider))
+        for (const Compound::Part& part : (*compound)->parts) sum += mean_projected_area(part.collider);
+    return sum;
+}
+
+MassProperties mass_of_shape(const Shape& shape, double density) {
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return box_mass(box->size, density);
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return sphere_mass(sphere->radius, density);
+    if (const auto* mesh = std::get_if<MeshShape>(&shape))
+        return closedness(mesh->asset->surface).closed() ? mesh_mass(mesh->asset->surface, density) : MassProperties{};
+    std::vector<MassProperties> parts;
+    if (const auto* compound = std::get_if<CompoundShape>(&shape))
+        for (const CompoundPart& part : *compound->parts)
+            parts.push_back(placed(mass_of_shape(part.shape, part.density.value_or(density)), part.position, part.rotation));
+    return sum_of_masses(parts);
 }
 
 MassProperties mass_of(const BodyDescription& d) {
-    MassProperties p;
-    if (const auto* box = std::get_if<BoxShape>(&d.shape)) p = box_mass(box->size, d.density);
-    else if (const auto* sphere = std::get_if<SphereShape>(&d.shape)) p = sphere_mass(sphere->radius, d.density);
-    else if (const auto* mesh = std::get_if<MeshShape>(&d.shape)) {
-        if (closedness(mesh->asset->surface).closed()) p = mesh_mass(mesh->asset->surface, d.density);
-    }
+    const MassProperties p = mass_of_shape(d.shape, d.density);
     return d.mass && p.mass > 0.0 ? with_mass(p, *d.mass) : p;
 }
 
@@ -56,6 +68,27 @@ Collider BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, con
     }
 }
 
+Collider BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin) {
+    if (const auto* plane = std::get_if<PlaneShape>(&shape)) return HalfSpace{plane->normal, plane->offset};
+    if (const auto* sphere = std::get_if<SphereShape>(&shape)) return Ball{sphere->radius};
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return std::make_shared<const Polyhedron>(make_box(box->size));
+    return mesh_collider(*std::get<MeshShape>(shape).asset, meshes_as_surfaces, origin);
+}
+
+Collider BodyBuilder::compound_collider(const CompoundShape& shape, double density, const Vec3& origin) {
+    KnownCompound& known = compounds_[shape.parts.get()];
+    if (known.made && known.origin == origin) return known.made;   // another density may move the centre of mass
+    auto compound = std::make_shared<Compound>();
+    for (const CompoundPart& part : *shape.parts) {
+        const Vec3 middle = mass_of_shape(part.shape, density).center_of_mass;   // the collider's own origin
+        compound->parts.push_back({collider(part.shape, false, middle),
+                                   {part.position + part.rotation * middle - origin, part.rotation.toRotationMatrix()}});
+    }
+    compound->complete();
+    known = {origin, std::move(compound)};
+    return known.made;
+}
+
 Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     Body body;
     body.name = d.name;
@@ -65,12 +98,10 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     body.integrator = d.integrator.value_or(integrator);
     const MassProperties mass = mass_of(d);
     body.center_of_mass = mass.center_of_mass;
-    if (const auto* plane = std::get_if<PlaneShape>(&d.shape)) body.collider = HalfSpace{plane->normal, plane->offset};
-    else if (const auto* sphere = std::get_if<SphereShape>(&d.shape)) body.collider = Ball{sphere->radius};
-    else if (const auto* box = std::get_if<BoxShape>(&d.shape))
-        body.collider = std::make_shared<const Polyhedron>(make_box(box->size));
-    else if (const auto* mesh = std::get_if<MeshShape>(&d.shape))
-        body.collider = mesh_collider(*mesh->asset, d.type == BodyType::fixed, mass.center_of_mass);
+    if (const auto* compound = std::get_if<CompoundShape>(&d.shape))
+        body.collider = compound_collider(*compound, d.density, mass.center_of_mass);
+    else
+        body.collider = collider(d.shape, d.type == BodyType::fixed, mass.center_of_mass);
     body.radius = bounding_radius(body.collider);
     if (d.type == BodyType::dynamic) {
         body.mass = mass.mass;

@@ -3,6 +3,7 @@
 
 #include "scene/description.h"
 #include "sim/body.h"
+#include "sim/collision/compound.h"
 
 #include <map>
 #include <memory>
@@ -21,9 +22,16 @@ private:
         std::shared_ptr<const TriangleSurface> surface;
     };
     Collider mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin);
+    Collider collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
+    Collider compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
     // Looked up only, never iterated: the order of addresses decides nothing.
     std::map<const MeshAsset*, Mesh> meshes_;
+    struct KnownCompound {
+        Vec3 origin = Vec3::Zero();
+        std::shared_ptr<const Compound> made;
+    };
+    std::map<const void*, KnownCompound> compounds_;
 };
 
 }  // namespace tumble

@@ -48,6 +48,31 @@ MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
     return p;
 }
 
+MassProperties placed(const MassProperties& properties, const Vec3& position, const Quat& rotation) {
+    MassProperties p = properties;
+    p.center_of_mass = position + rotation * properties.center_of_mass;
+    const Mat3 turn = rotation.toRotationMatrix();
+    const Mat3 inertia = turn * properties.inertia * turn.transpose();
+    p.inertia = 0.5 * (inertia + inertia.transpose());   // symmetric to the last bit
+    return p;
+}
+
+MassProperties sum_of_masses(const std::vector<MassProperties>& parts) {
+    MassProperties whole;
+    Vec3 first = Vec3::Zero();   // sum of m x
+    for (const MassProperties& part : parts) {
+        whole.mass += part.mass;
+        first += part.mass * part.center_of_mass;
+    }
+    if (!(whole.mass > 0.0)) return whole;
+    whole.center_of_mass = first / whole.mass;
+    for (const MassProperties& part : parts) {
+        const Vec3 d = part.center_of_mass - whole.center_of_mass;
+        whole.inertia += part.inertia + part.mass * (d.squaredNorm() * Mat3::Identity() - d * d.transpose());
+    }
+    return whole;
+}
+
 MassProperties with_mass(const MassProperties& properties, double mass) {
     MassProperties p = properties;
     p.inertia *= mass / properties.mass;

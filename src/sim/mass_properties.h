@@ -4,6 +4,8 @@
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
 
+#include <vector>
+
 namespace tumble {
 
 struct MassProperties {
@@ -21,6 +23,12 @@ MassProperties sphere_mass(double radius, double density);
 /// A solid bounded by a closed, outward-facing triangle mesh, by exact integration over the tetrahedra from one point
 /// (Tonon 2004, "Explicit exact formulas for the 3-D tetrahedron inertia tensor"; Blow and Binstock 2004).
 MassProperties mesh_mass(const TriangleMesh& mesh, double density);
+
+/// The same body placed in another frame.
+MassProperties placed(const MassProperties& properties, const Vec3& position, const Quat& rotation);
+
+/// Several bodies as one, by the parallel axis theorem (Steiner); all in one frame. Where they overlap, both count.
+MassProperties sum_of_masses(const std::vector<MassProperties>& parts);
 
 /// The same body with another mass.
 MassProperties with_mass(const MassProperties& properties, double mass);

@@ -1,5 +1,6 @@
 #include "sim/measurement.h"
 
+#include "sim/collision/compound.h"
 #include "sim/tuning.h"
 
 #include <Eigen/Eigenvalues>
@@ -41,6 +42,11 @@ BodyReport describe(const Body& body) {
         r.hull_vertices = (*hull)->vertices.size();
     if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.collider))
         r.triangles = (*surface)->triangles.size();
+    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&body.collider)) {
+        for (const Compound::Part& part : (*compound)->parts)
+            if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&part.collider))
+                r.hull_vertices += (*hull)->vertices.size();
+    }
     return r;
 }
 

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <memory>
 #include <set>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -62,6 +65,47 @@ TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
         egl.reset();
         EXPECT_EQ(image, drawn(scene)) << samples << " samples";
     }
+}
+
+// Each part where the body's pose puts it, in its own colour, and as if it were a body of its own.
+TEST(Renderer, DrawsAllPartsOfABody) {
+    SceneDescription scene = empty_scene();
+    const Quat quarter(Eigen::AngleAxisd(0.5 * EIGEN_PI, Vec3::UnitZ()));
+    CompoundPart left, right;
+    left.shape = SphereShape{0.5};
+    left.position = Vec3(0.0, 1.5, 0.0);   // turned by the body: to the left
+    right.shape = BoxShape{Vec3(0.6, 1.0, 1.0)};
+    right.position = Vec3(0.0, -1.5, 0.0);
+    right.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+    right.color = Color{30, 30, 220};
+    BodyDescription body = box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {220, 30, 30}, quarter);
+    body.shape = CompoundShape{std::make_shared<const std::vector<CompoundPart>>(std::vector{left, right})};
+    scene.bodies = {ground_plane(), body, ball_body(Vec3(0.0, 2.5, 0.0), 0.3, {30, 220, 30})};
+    scene.cords.push_back({2, Vec3::Zero(), Vec3(0.0, 4.0, 0.0), 0.02, {60, 60, 60}});
+    const Image image = drawn(scene);
+    const auto color_at = [&](const Vec3& point) {
+        const Pixel p = pixel_of(scene, point);
+        return image.at(p.x, p.y);
+    };
+    EXPECT_GT(color_at(Vec3(-1.5, 1.0, 0.5))[0], 2 * color_at(Vec3(-1.5, 1.0, 0.5))[2]);
+    EXPECT_GT(color_at(Vec3(1.5, 1.0, 0.5))[2], 2 * color_at(Vec3(1.5, 1.0, 0.5))[0]);
+
+    SceneDescription apart = scene;
+    BodyDescription ball = body, box = body;
+    ball.shape = left.shape;
+    ball.position = Vec3(-1.5, 1.0, 0.0);
+    box.shape = right.shape;
+    box.position = Vec3(1.5, 1.0, 0.0);
+    box.rotation = quarter * right.rotation;
+    box.surface.color = *right.color;
+    apart.bodies = {ground_plane(), ball, box, scene.bodies[2]};
+    apart.cords[0].body = 3;
+    const Image other = drawn(apart);
+    std::size_t different = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) different += std::abs(image.at(x, y)[c] - other.at(x, y)[c]) > 2;
+    EXPECT_LT(different, 30u) << "but for the rounding of poses the pictures are the same";
 }
 
 TEST(Renderer, NamesItsDriver) {

@@ -1,5 +1,8 @@
 #include "sim/collision/collide.h"
 
+#include "sim/collision/compound.h"
+
+#include <algorithm>
 #include <type_traits>
 
 namespace tumble {
@@ -7,6 +10,7 @@ namespace {
 
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+using CompoundRef = std::shared_ptr<const Compound>;
 
 // The pairs that have a routine of their own, in the order it takes them.
 struct Pair {
@@ -37,16 +41,60 @@ struct Pair {
 // Neither shape can be on a moving body.
 template <class T>
 constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, SurfaceRef>;
+// Taken apart before.
+template <class T>
+constexpr bool compound = std::is_same_v<T, CompoundRef>;
+
+// In how many ways a pair with this collider can be told apart by Manifold::part. Below 2^32 for two colliders together:
+// limits::parts and limits::mesh_triangles see to it.
+std::uint32_t part_count(const Collider& collider) {
+    if (const auto* surface = std::get_if<SurfaceRef>(&collider)) return std::uint32_t((*surface)->triangles.size());
+    if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
+    return 1;
+}
+
+// Which parts come within the margin of the other shape, by bounds, ascending.
+void find_near_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, double margin,
+                     std::vector<std::uint32_t>& parts) {
+    const Pose relative{pose.to_body(pose_other.position), pose.rotation.transpose() * pose_other.rotation};
+    const Bounds bounds = world_bounds(other, relative).grown(margin);
+    parts.clear();
+    whole.tree.query(bounds, [&](std::uint32_t part) { parts.push_back(part); });
+    std::sort(parts.begin(), parts.end());
+}
+
+// Each part of a compound against the whole of the other shape, in the given order.
+void collide_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, bool whole_is_a,
+                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const std::uint32_t stride = part_count(other);
+    std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
+    find_near_parts(whole, pose, other, pose_other, margin, near);
+    for (const std::uint32_t k : near) {
+        const std::size_t first = out.size();
+        const Compound::Part& part = whole.parts[k];
+        if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
+        else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
+        for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
+    }
+}
 
 }  // namespace
 
 void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out) {
+    if (const auto* whole = std::get_if<CompoundRef>(&a)) {
+        collide_parts(**whole, pose_a, b, pose_b, true, margin, scratch, out);
+        return;
+    }
+    if (const auto* whole = std::get_if<CompoundRef>(&b)) {
+        collide_parts(**whole, pose_b, a, pose_a, false, margin, scratch, out);
+        return;
+    }
     std::visit(
         [&](const auto& shape_a, const auto& shape_b) {
             using A = std::decay_t<decltype(shape_a)>;
             using B = std::decay_t<decltype(shape_b)>;
-            if constexpr (immovable<A> && immovable<B>) {
+            if constexpr ((immovable<A> && immovable<B>) || compound<A> || compound<B>) {
                 return;
             } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
                 Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);

@@ -30,6 +30,7 @@ struct CollisionScratch {
     std::vector<SurfaceHit> hits;
     std::vector<std::pair<std::uint32_t, double>> at_edges, at_vertices;
     std::vector<std::uint32_t> used_vertices, used_edges;
+    std::vector<std::uint32_t> near_parts[2];   // of compounds: of the last one taken apart, and of the one before
 };
 
 /// Appends the manifolds of the pair: points nearer than `margin` (m). Normals point away from `a`; body indices are

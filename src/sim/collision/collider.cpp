@@ -1,5 +1,7 @@
 #include "sim/collision/collider.h"
 
+#include "sim/collision/compound.h"
+
 #include <limits>
 
 namespace tumble {
@@ -26,7 +28,8 @@ Bounds world_bounds(const Collider& collider, const Pose& pose) {
         Overloaded{[&](const HalfSpace&) { return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)}; },
                    [&](const Ball& ball) { return Bounds{pose.position, pose.position}.grown(ball.radius); },
                    [&](const std::shared_ptr<const Polyhedron>& p) { return turned(p->bounds, pose); },
-                   [&](const std::shared_ptr<const TriangleSurface>& s) { return turned(s->tree.bounds(), pose); }},
+                   [&](const std::shared_ptr<const TriangleSurface>& s) { return turned(s->tree.bounds(), pose); },
+                   [&](const std::shared_ptr<const Compound>& c) { return turned(c->tree.bounds(), pose); }},
         collider);
 }
 
@@ -34,7 +37,17 @@ double bounding_radius(const Collider& collider) {
     return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
                                  [](const Ball& ball) { return ball.radius; },
                                  [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
-                                 [](const std::shared_ptr<const TriangleSurface>& s) { return s->radius; }},
+                                 [](const std::shared_ptr<const TriangleSurface>& s) { return s->radius; },
+                                 [](const std::shared_ptr<const Compound>& c) { return c->radius; }},
+                      collider);
+}
+
+double depth(const Collider& collider) {
+    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
+                                 [](const Ball& ball) { return ball.radius; },
+                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->inner_radius; },
+                                 [](const std::shared_ptr<const TriangleSurface>&) { return infinity; },
+                                 [](const std::shared_ptr<const Compound>& c) { return c->inner_radius; }},
                       collider);
 }
 

@@ -1,4 +1,5 @@
-// What of a body collides: a half-space, a sphere, a convex polyhedron, or a triangle surface as it is.
+// What of a body collides: a half-space, a sphere, a convex polyhedron, a triangle surface as it is, or several convex
+// shapes together.
 // Frame: the body's, with its centre of mass at the origin.
 #pragma once
 
@@ -28,13 +29,20 @@ struct Ball {
     double radius;    // m
 };
 
+struct Compound;   // sim/collision/compound.h
+
 /// Shared where bodies share a mesh: a hull is built once.
-using Collider = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const TriangleSurface>>;
+using Collider = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const TriangleSurface>,
+                              std::shared_ptr<const Compound>>;
 
 /// World bounds of a posed collider; a half-space's are infinite.
 Bounds world_bounds(const Collider& collider, const Pose& pose);
 
 /// Distance of the farthest point from the centre of mass, m; infinity for a half-space.
 double bounding_radius(const Collider& collider);
+
+/// How far something may come into the shape and still be pushed back out of the side it came in by, m: the inner radius;
+/// infinity for half-spaces and surfaces, where what counts is how thin the other shape is.
+double depth(const Collider& collider);
 
 }  // namespace tumble

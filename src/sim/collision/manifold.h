@@ -21,7 +21,7 @@ struct Manifold {
     static constexpr int capacity = 4;   // spans any flat contact area; more points only repeat each other
 
     std::uint32_t a = 0, b = 0;   // bodies
-    std::uint32_t part = 0;       // the triangle of a triangle surface, else 0
+    std::uint32_t part = 0;       // of the pair: which parts of compounds and which triangle of a surface meet, else 0
     Vec3 normal = Vec3::Zero();
     int count = 0;
     std::array<ContactPoint, capacity> points;

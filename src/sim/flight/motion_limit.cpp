@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 namespace tumble {
 namespace {
 
-// How far something may come into the body and still be pushed back out of the side it came in by.
-double depth(const Body& body) {
-    if (const auto* ball = std::get_if<Ball>(&body.collider)) return ball->radius;
-    if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider)) return (*hull)->inner_radius;
-    return std::numeric_limits<double>::infinity();   // what counts of a surface is how thin the other body is
-}
+double depth(const Body& body) { return depth(body.collider); }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 

@@ -1,5 +1,6 @@
 #include "sim/flight/time_of_impact.h"
 
+#include "sim/collision/compound.h"
 #include "sim/flight/closest_axis.h"
 #include "sim/flight/separation_bound.h"
 #include "sim/tuning.h"
@@ -14,6 +15,15 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+using CompoundRef = std::shared_ptr<const Compound>;
+
+// What of a traveller is searched: all of it, or one part of a compound, at its place in the body.
+const Collider& collider_of(const Traveller& t) { return t.part ? t.part->collider : t.body->collider; }
+double size_of(const Traveller& t) { return t.part ? t.part->reach : t.body->radius; }
+Pose pose_of(const Traveller& t, const Motion& motion) {
+    const Pose body{motion.position, motion.rotation};
+    return t.part ? part_pose(body, *t.part) : body;
+}
 
 // Where on its way a pair is, for what rounding does to it.
 struct Scale {
@@ -75,11 +85,11 @@ double rounding_of(const Collider& collider) {
 void prepare(Cloud& cloud, const Traveller& t, double horizon) {
     cloud.spin_bound = t.path->spin_bound();
     cloud.turning_bound = t.path->turning_bound();
-    cloud.radius = rounding_of(t.body->collider);
-    cloud.reach = 0.0;
+    cloud.radius = rounding_of(collider_of(t));
+    cloud.reach = t.part ? t.part->place.position.norm() : 0.0;
     cloud.arms.assign(1, Vec3::Zero());
-    if (const auto* hull = std::get_if<PolyhedronRef>(&t.body->collider)) {
-        cloud.reach = (*hull)->radius;
+    if (const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t))) {
+        cloud.reach += (*hull)->radius;
         cloud.arms.resize((*hull)->vertices.size());
     }
     cloud.acceleration_change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
@@ -90,8 +100,14 @@ void pose(Cloud& cloud, const Traveller& t, double time, const Motion& motion) {
     cloud.velocity = motion.velocity;
     cloud.acceleration = t.path->acceleration(t.since + time);
     cloud.angular_velocity = motion.angular_velocity;
-    if (const auto* hull = std::get_if<PolyhedronRef>(&t.body->collider))
+    const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t));
+    if (t.part) {   // the arms begin at the body's centre of mass all the same: the cloud moves as the body does
+        const Vec3 place = motion.rotation * t.part->place.position;
+        const Mat3 turn = motion.rotation * t.part->place.rotation;
+        for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
+    } else if (hull) {
         for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = motion.rotation * (*hull)->vertices[i];
+    }
 }
 
 // A ball does not need its orientation.
@@ -102,6 +118,37 @@ Motion motion_of(const Traveller& t, double time) {
     motion.position = t.path->position(at);
     motion.velocity = t.path->velocity(at);
     return motion;
+}
+
+// A ball around what is searched, and what bounds its motion.
+struct Ballpark {
+    Vec3 center, velocity, acceleration;
+    double acceleration_change, turning_speed, radius;
+};
+
+Ballpark ballpark_of(const Traveller& t, double horizon) {
+    const Motion motion = motion_of(t, 0.0);
+    const Vec3 acceleration = t.path->acceleration(t.since);
+    const double change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - acceleration).norm();
+    const double arm = t.part ? t.part->place.position.norm() : 0.0;
+    return {pose_of(t, motion).position, motion.velocity, acceleration, change, t.path->spin_bound() * arm, size_of(t)};
+}
+
+// How long two things certainly take to close a gap, whatever their direction.
+double least_time(double gap, const Ballpark& a, const Ballpark& b) {
+    if (!(gap > 0.0)) return 0.0;
+    const double speed = (b.velocity - a.velocity).norm() + a.turning_speed + b.turning_speed;
+    const double acceleration = (b.acceleration - a.acceleration).norm() + a.acceleration_change + b.acceleration_change;
+    const double root = std::sqrt(speed * speed + 2.0 * acceleration * gap);
+    return speed + root > 0.0 ? 2.0 * gap / (speed + root) : infinity;
+}
+
+// A compound's parts as travellers of their own; anything else as it is.
+void list_parts(const Traveller& whole, std::vector<Traveller>& parts) {
+    parts.clear();
+    const auto* compound = std::get_if<CompoundRef>(&whole.body->collider);
+    if (!compound) parts.push_back(whole);
+    else for (const Compound::Part& part : (*compound)->parts) parts.push_back({whole.body, whole.path, whole.since, &part});
 }
 
 // The half-space as the point of its plane below the other's centre.
@@ -140,6 +187,7 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
         return find(b, a, horizon, overlap);
     }
+    if (std::holds_alternative<CompoundRef>(shape_a) || std::holds_alternative<CompoundRef>(shape_b)) return search_parts(a, b, horizon, overlap);
     if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, overlap);
 
     Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a), nullptr, 0};
@@ -237,19 +285,20 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     }
     // So near, only the features themselves give the axis to the last digit.
     if (pair.surface) {
-        if (const auto* shape = std::get_if<PolyhedronRef>(&pair.b.body->collider)) propose_triangle_axes(**shape, b);
+        if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b))) propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
     } else {
         manifolds_.clear();
-        collide(pair.a.body->collider, {a.position, a.rotation}, pair.b.body->collider, {b.position, b.rotation}, 16.0 * near,
-                scratch_, manifolds_);
+        collide(collider_of(pair.a), pose_of(pair.a, a), collider_of(pair.b), pose_of(pair.b, b), 16.0 * near, scratch_, manifolds_);
         for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
     }
     if (distance > 0.0) normals_.push_back(*v / distance);
-    if (normals_.empty()) normals_.push_back((b_.center - a_.center).normalized());
+    if (!normals_.empty()) return;
+    const Vec3 from = pair.a.part ? pose_of(pair.a, a).position : a_.center;
+    normals_.push_back(((pair.b.part ? pose_of(pair.b, b).position : b_.center) - from).normalized());
 }
 
 // The separating axes of a triangle and a polyhedron: both shapes' face normals and the cross products of their edges.
-void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Motion& motion) {
+void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Mat3& rotation) {
     Vec3 best = Vec3::Zero();
     double most = -infinity;
     const Vec3 d = b_.center - a_.center;
@@ -268,13 +317,47 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Motion& 
         }
     };
     consider((a_.arms[1] - a_.arms[0]).cross(a_.arms[2] - a_.arms[0]));
-    for (const Polyhedron::Face& face : shape.faces) consider(motion.rotation * face.normal);
+    for (const Polyhedron::Face& face : shape.faces) consider(rotation * face.normal);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 own = (a_.arms[(i + 1) % 3] - a_.arms[i]).normalized();
         for (const Polyhedron::Edge& e : shape.edges)
             consider(own.cross((b_.arms[e.head] - b_.arms[e.tail]).normalized()));
     }
     if (most > -infinity) normals_.push_back(best);
+}
+
+// Part by part, those that can meet first before the others: the first impact of all ends the search for the rest.
+TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap) {
+    list_parts(a, parts_a_);
+    list_parts(b, parts_b_);
+    const auto* plane = std::get_if<HalfSpace>(&a.body->collider);
+    const bool surface = std::holds_alternative<SurfaceRef>(a.body->collider);
+    part_pairs_.clear();
+    for (const Traveller& part_a : parts_a_) {
+        const Ballpark ball_a = ballpark_of(part_a, horizon);
+        for (const Traveller& part_b : parts_b_) {
+            const Ballpark ball_b = ballpark_of(part_b, horizon);
+            double from = 0.0;
+            if (plane && !a.path->turns()) {
+                const Vec3 normal = a.path->orientation(a.since) * plane->normal;
+                from = least_time(normal.dot(ball_b.center - ball_a.center) - plane->offset - ball_b.radius, ball_a, ball_b);
+            } else if (!plane) {
+                from = least_time((ball_b.center - ball_a.center).norm() - ball_a.radius - ball_b.radius, ball_a, ball_b);
+            }
+            if (from < horizon) part_pairs_.push_back({from, part_a, part_b});
+        }
+    }
+    std::stable_sort(part_pairs_.begin(), part_pairs_.end(), [](const PartPair& l, const PartPair& r) { return l.from < r.from; });
+    TimeOfImpact first;
+    for (const PartPair& p : part_pairs_) {
+        if (!(p.from < horizon)) break;
+        const Pair pair{p.a, p.b, scale_of(p.a, p.b), std::min(size_of(p.a), size_of(p.b)), overlap, plane, nullptr, 0};
+        const TimeOfImpact found = surface ? search_surface(p.a, p.b, horizon, overlap) : search(pair, p.from, horizon);
+        if (found.kind == TimeOfImpact::Kind::none) continue;
+        first = found;
+        horizon = found.time;
+    }
+    return first;
 }
 
 TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap) {
@@ -287,9 +370,14 @@ TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Travel
     candidates_.clear();
     triangles.tree.query({center - half, center + half}, [&](std::uint32_t i) { candidates_.push_back(i); });
     std::sort(candidates_.begin(), candidates_.end());
+    const Ballpark still = ballpark_of(surface, horizon), ball = ballpark_of(other, horizon);
+    const Vec3 middle = frame.rotation.transpose() * (ball.center - frame.position);
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {
-        const Pair pair{surface, other, scale_of(surface, other), other.body->radius, overlap, nullptr, &triangles, triangle};
+        const Bounds& box = triangles.tree.item(triangle);
+        const double gap = (middle - middle.cwiseMax(box.min).cwiseMin(box.max)).norm() - ball.radius;
+        if (other.part && !(least_time(gap, still, ball) < horizon)) continue;
+        const Pair pair{surface, other, scale_of(surface, other), size_of(other), overlap, nullptr, &triangles, triangle};
         const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
         if (found.kind != TimeOfImpact::Kind::none) first = found;
     }

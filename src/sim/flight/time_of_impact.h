@@ -5,6 +5,7 @@
 
 #include "sim/body.h"
 #include "sim/collision/collide.h"
+#include "sim/collision/compound.h"
 #include "sim/flight/cloud.h"
 
 #include <vector>
@@ -16,6 +17,7 @@ struct Traveller {
     const Body* body = nullptr;
     const Path* path = nullptr;
     double since = 0.0;   // s
+    const Compound::Part* part = nullptr;   // of a compound, the part that is searched for
 };
 
 struct TimeOfImpact {
@@ -39,9 +41,10 @@ public:
 private:
     struct Pair;
     TimeOfImpact search(const Pair& pair, double from, double horizon);
+    TimeOfImpact search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap);
     TimeOfImpact search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap);
     void propose(const Pair& pair, const Motion& a, const Motion& b, double near);
-    void propose_triangle_axes(const Polyhedron& shape, const Motion& motion);
+    void propose_triangle_axes(const Polyhedron& shape, const Mat3& rotation);
 
     Cloud a_, b_;
     Vec3 last_axis_ = Vec3::UnitY();
@@ -49,6 +52,12 @@ private:
     CollisionScratch scratch_;
     std::vector<Manifold> manifolds_;
     std::vector<std::uint32_t> candidates_;   // triangles
+    struct PartPair {
+        double from;   // s, before which they certainly stay apart
+        Traveller a, b;
+    };
+    std::vector<PartPair> part_pairs_;
+    std::vector<Traveller> parts_a_, parts_b_;
 };
 
 }  // namespace tumble

@@ -1,0 +1,32 @@
+// Compounds as what is drawn of them: each part becomes a body of its own, so that everything behind draws single shapes.
+#pragma once
+
+#include "scene/description.h"
+#include "sim/snapshot.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace tumble {
+
+class DrawnParts {
+public:
+    explicit DrawnParts(const SceneDescription& scene);
+
+    /// The scene with every compound replaced by its parts, at its own place in the list; cords are hung to the first.
+    const SceneDescription& scene() const { return scene_; }
+    /// The snapshot that goes with it. Valid until the next call, or as long as the argument.
+    const Snapshot& snapshot(const Snapshot& whole);
+
+private:
+    struct Part {
+        std::size_t body;   // of the scene it was made from
+        Vec3 position = Vec3::Zero();       // body frame
+        Quat rotation = Quat::Identity();
+    };
+    SceneDescription scene_;
+    std::vector<Part> parts_;   // one a drawn body; empty when there are no compounds
+    Snapshot snapshot_;
+};
+
+}  // namespace tumble
