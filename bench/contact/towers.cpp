@@ -88,6 +88,28 @@ ContactCase arch(int stones) {
     return c;
 }
 
+// Flat hoops of 16 boxes each, 2 m across, one on the other, each turned a little from the one below.
+ContactCase hoops(int count) {
+    ContactCase c = standing(std::to_string(count) + " stacked hoops", 60.0, 0.2);
+    constexpr int pieces = 16;
+    const double radius = 1.0, thick = 0.1, half = pi / pieces;
+    Body hoop;
+    hoop.kind = Kind::compound;
+    for (int i = 0; i < pieces; ++i) {
+        const Orientation q = turn({0.0, 0.0, 1.0}, 2.0 * half * i);
+        hoop.parts.push_back({{thick, 2.0 * radius * std::tan(half), thick}, rotate(q, {radius, 0.0, 0.0}), q});
+    }
+    hoop.mass = 10.0;
+    for (int i = 0; i < count; ++i) {
+        hoop.position = {0.0, 0.0, (0.5 + i) * thick};
+        hoop.orientation = turn({0.0, 0.0, 1.0}, 0.7 * i);
+        c.scene.bodies.push_back(hoop);
+    }
+    c.scene.bodies.push_back(floor_box());
+    set_materials(c.scene, 0.5, 0.0);
+    return c;
+}
+
 // Storeys of leaning pairs of cards with cards across their tops.
 ContactCase card_house(int storeys) {
     ContactCase c = standing("card house of " + std::to_string(storeys) + " storeys", 60.0, 0.2);
@@ -125,6 +147,7 @@ void add_towers(std::vector<ContactCase>& cases) {
     cases.push_back(pyramid(100, 60.0));
     cases.push_back(arch(15));
     cases.push_back(card_house(3));
+    cases.push_back(hoops(5));
 }
 
 }  // namespace tumble::bench

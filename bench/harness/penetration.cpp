@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace tumble::bench {
 namespace {
@@ -100,6 +101,17 @@ bool close(const Body& a, const Motion& at, const Body& b, const Motion& bt, dou
     return dot(d, d) <= reach * reach;
 }
 
+// A part of a compound as a body of its own.
+std::pair<Body, Motion> apart(const BoxPart& part, const Motion& whole) {
+    Body box;
+    box.kind = Kind::box;
+    box.size = part.size;
+    Motion motion = whole;
+    motion.position = whole.position + rotate(whole.orientation, part.position);
+    motion.orientation = whole.orientation * part.orientation;
+    return {box, motion};
+}
+
 Motion pose(const Body& body, const Motion& motion) {
     return body.moves() ? motion : Motion{body.position, body.orientation, {}, {}};
 }
@@ -113,6 +125,15 @@ bool finite(const Motion& m) {
 }
 
 double depth(const Body& a, const Motion& at, const Body& b, const Motion& bt, double near) {
+    if (a.kind == Kind::compound) {
+        double deepest = -never;
+        for (const BoxPart& part : a.parts) {
+            const auto [box, motion] = apart(part, at);
+            deepest = std::max(deepest, depth(box, motion, b, bt, near));
+        }
+        return deepest;
+    }
+    if (b.kind == Kind::compound) return depth(b, bt, a, at, near);
     if (a.kind == Kind::plane) return b.kind == Kind::plane ? -never : plane_depth(a, b, bt);
     if (b.kind == Kind::plane) return plane_depth(b, a, at);
     if (!close(a, at, b, bt, near)) return -never;

@@ -25,11 +25,37 @@ Vector mean_squares(const Corners& c) {
     return 1.0 / volume * sum;
 }
 
+// Each part's share of the mass goes with its volume.
+Vector compound_inertia(const Body& body) {
+    double volume = 0.0;
+    for (const BoxPart& part : body.parts) volume += part.size.x * part.size.y * part.size.z;
+    Vector sum;
+    for (const BoxPart& part : body.parts) {
+        Body one;
+        one.kind = Kind::box;
+        one.size = part.size;
+        one.mass = body.mass * part.size.x * part.size.y * part.size.z / volume;
+        const Vector own = one.principal_inertia(), &p = part.position;
+        const auto about = [&](const Vector& axis) {
+            const Vector u = rotate_back(part.orientation, axis);
+            return own.x * u.x * u.x + own.y * u.y * u.y + own.z * u.z * u.z +
+                   one.mass * (dot(p, p) - dot(p, axis) * dot(p, axis));
+        };
+        sum = sum + Vector{about({1.0, 0.0, 0.0}), about({0.0, 1.0, 0.0}), about({0.0, 0.0, 1.0})};
+    }
+    return sum;
+}
+
 }  // namespace
 
 Orientation turn(const Vector& axis, double radians) {
     const Vector u = std::sin(0.5 * radians) / norm(axis) * axis;
     return {std::cos(0.5 * radians), u.x, u.y, u.z};
+}
+
+Orientation operator*(const Orientation& a, const Orientation& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 Vector rotate(const Orientation& q, const Vector& v) {
@@ -48,6 +74,7 @@ Vector Body::principal_inertia() const {
         const Vector m = mean_squares(corners);
         return {mass * (m.y + m.z), mass * (m.x + m.z), mass * (m.x + m.y)};
     }
+    if (kind == Kind::compound) return compound_inertia(*this);
     const double xx = size.x * size.x, yy = size.y * size.y, zz = size.z * size.z;
     return {mass / 12.0 * (yy + zz), mass / 12.0 * (xx + zz), mass / 12.0 * (xx + yy)};
 }
@@ -64,6 +91,10 @@ double Body::reach() const {
     if (kind == Kind::plane) return std::numeric_limits<double>::infinity();
     if (kind == Kind::sphere) return radius;
     double farthest = 0.0;
+    if (kind == Kind::compound) {
+        for (const BoxPart& part : parts) farthest = std::max(farthest, norm(part.position) + 0.5 * norm(part.size));
+        return farthest;
+    }
     for (const Vector& corner : outline()) farthest = std::max(farthest, norm(corner));
     return farthest;
 }

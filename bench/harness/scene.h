@@ -27,11 +27,12 @@ struct Orientation {
     double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
 };
 Orientation turn(const Vector& axis, double radians);
+Orientation operator*(const Orientation& a, const Orientation& b);  // first b, then a
 Vector rotate(const Orientation& q, const Vector& v);
 Vector rotate_back(const Orientation& q, const Vector& v);
 
-/// hexahedron: a box with its corners moved, all faces flat; here the stones of arches.
-enum class Kind { plane, box, sphere, hexahedron };
+/// hexahedron: a box with its corners moved, all faces flat; here the stones of arches. compound: several boxes.
+enum class Kind { plane, box, sphere, hexahedron, compound };
 
 /// Corner i of a box or hexahedron lies at the + end of x, y, z where bit 0, 1, 2 of i is set.
 using Corners = std::array<Vector, 8>;
@@ -40,10 +41,16 @@ inline constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2
 inline constexpr int edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                      {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
+struct BoxPart {
+    Vector size, position;  // m; body frame
+    Orientation orientation;
+};
+
 struct Body {
     Kind kind = Kind::sphere;
     Vector size;                   // box: edge lengths, m
     Corners corners{};             // hexahedron, m, from its centre of mass, along its principal axes
+    std::vector<BoxPart> parts;    // compound, about its centre of mass, along its principal axes
     double radius = 0.0;           // sphere, m
     Vector normal{0.0, 0.0, 1.0};  // plane: unit; solid are the points p with normal . p < offset
     double offset = 0.0;           // m

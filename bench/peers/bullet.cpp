@@ -16,6 +16,9 @@ struct Settings {
 };
 
 btVector3 vec(const Vector& v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
+btTransform pose(const Orientation& q, const Vector& position) {
+    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)), vec(position));
+}
 Vector vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 class BulletSimulator : public Simulator {
@@ -70,11 +73,18 @@ private:
             hull->setMargin(btScalar(0.001));  // it grows by as much; default 4 cm
             shape = std::move(hull);
         }
+        if (body.kind == Kind::compound) {
+            auto whole = std::make_unique<btCompoundShape>();
+            for (const BoxPart& part : body.parts) {
+                parts_.push_back(std::make_unique<btBoxShape>(vec(0.5 * part.size)));
+                whole->addChildShape(pose(part.orientation, part.position), parts_.back().get());
+            }
+            shape = std::move(whole);
+        }
         const bool moves = body.moves();
         const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0, 0, 0);
         btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape.get(), inertia);
-        const Orientation& q = body.orientation;
-        info.m_startWorldTransform = btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)), vec(body.position));
+        info.m_startWorldTransform = pose(body.orientation, body.position);
         info.m_friction = btScalar(std::sqrt(body.friction));  // a pair takes the product
         info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair takes the product
         auto rigid = std::make_unique<btRigidBody>(info);
@@ -102,7 +112,7 @@ private:
     btDbvtBroadphase broad_phase_;
     btSequentialImpulseConstraintSolver solver_;
     btDiscreteDynamicsWorld world_;
-    std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+    std::vector<std::unique_ptr<btCollisionShape>> parts_, shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 

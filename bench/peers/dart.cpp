@@ -92,7 +92,7 @@ Way way(const std::string& name, std::vector<Task> tasks) {
     return {name, std::move(tasks),
             [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                 for (const Body& body : scene.bodies)
-                    if (body.kind == Kind::hexahedron) return nullptr;  // its detector knows boxes and spheres
+                    if (body.kind == Kind::hexahedron || body.kind == Kind::compound) return nullptr;  // boxes and spheres
                 return std::make_unique<DartSimulator>(scene, rate, false);
             },
             250};

@@ -50,7 +50,9 @@ std::string solimp(const Scene& scene, bool stiff) {
 std::string model_of(const Scene& scene, double h, const Settings& settings) {
     bool rough = false;
     for (const Body& body : scene.bodies) rough |= body.friction > 0.0;
-    const std::size_t contacts = std::max<std::size_t>(100, 8 * scene.bodies.size()), rows = (rough ? 3 : 1) * contacts;
+    std::size_t shapes = 0;
+    for (const Body& body : scene.bodies) shapes += std::max<std::size_t>(1, body.parts.size());
+    const std::size_t contacts = std::max<std::size_t>(100, 8 * shapes), rows = (rough ? 3 : 1) * contacts;
     std::ostringstream xml;
     xml.precision(17);
     xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << settings.integrator
@@ -83,7 +85,13 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
         } else {
             xml << "<body pos='" << text(body.position) << "' quat='" << q.w << ' ' << q.x << ' ' << q.y << ' ' << q.z
                 << "'><freejoint/><inertial pos='0 0 0' mass='" << body.mass << "' diaginertia='"
-                << text(body.principal_inertia()) << "'/><geom " << geom << "/></body>";
+                << text(body.principal_inertia()) << "'/>";
+            if (body.kind != Kind::compound) xml << "<geom " << geom << "/>";
+            for (const BoxPart& part : body.parts)
+                xml << "<geom type='box' size='" << text(0.5 * part.size) << "' pos='" << text(part.position) << "' quat='"
+                    << part.orientation.w << ' ' << part.orientation.x << ' ' << part.orientation.y << ' '
+                    << part.orientation.z << "'" << material.str() << "/>";
+            xml << "</body>";
         }
     }
     xml << "</worldbody></mujoco>";

@@ -95,7 +95,7 @@ private:
             const Hull& hull = *hulls_.back();
             geom = dCreateConvex(space_, hull.planes, 6, hull.points, 8, hull.polygons);
         }
-        dGeomSetData(geom, &scene_.bodies[i]);
+        if (geom) dGeomSetData(geom, &scene_.bodies[i]);
         const dQuaternion q{body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z};
         bodies_.push_back(body.moves() ? dBodyCreate(world_) : nullptr);
         if (!body.moves()) {
@@ -109,7 +109,16 @@ private:
         const Vector inertia = body.principal_inertia();
         dMassSetParameters(&mass, body.mass, 0.0, 0.0, 0.0, inertia.x, inertia.y, inertia.z, 0.0, 0.0, 0.0);
         dBodySetMass(rigid, &mass);
-        dGeomSetBody(geom, rigid);
+        if (geom) dGeomSetBody(geom, rigid);
+        for (const BoxPart& part : body.parts) {
+            const dGeomID piece = dCreateBox(space_, part.size.x, part.size.y, part.size.z);
+            const Orientation& turned = part.orientation;
+            const dQuaternion offset{turned.w, turned.x, turned.y, turned.z};
+            dGeomSetData(piece, &scene_.bodies[i]);
+            dGeomSetBody(piece, rigid);
+            dGeomSetOffsetPosition(piece, part.position.x, part.position.y, part.position.z);
+            dGeomSetOffsetQuaternion(piece, offset);
+        }
         dBodySetPosition(rigid, body.position.x, body.position.y, body.position.z);
         dBodySetQuaternion(rigid, q);
         dBodySetLinearVel(rigid, body.velocity.x, body.velocity.y, body.velocity.z);
@@ -122,7 +131,7 @@ private:
         dContact contacts[most];
         const int n = dCollide(a, b, most, &contacts[0].geom, sizeof(dContact));
         const auto &first = *static_cast<const Body*>(dGeomGetData(a)), &second = *static_cast<const Body*>(dGeomGetData(b));
-        if (!first.moves() && !second.moves()) return;
+        if (&first == &second || (!first.moves() && !second.moves())) return;
         const double restitution = std::max(first.moves() ? first.restitution : 0.0, second.moves() ? second.restitution : 0.0);
         auto* world = static_cast<OdeSimulator*>(self);
         for (int i = 0; i < n; ++i) {

@@ -19,6 +19,19 @@ std::shared_ptr<const MeshAsset> mesh_of(const Body& body) {
     return asset;
 }
 
+CompoundShape compound_of(const Body& body) {
+    auto parts = std::make_shared<std::vector<CompoundPart>>();
+    for (const BoxPart& part : body.parts) {
+        const Orientation& q = part.orientation;
+        CompoundPart p;
+        p.shape = BoxShape{vec(part.size)};
+        p.position = vec(part.position);
+        p.rotation = Quat(q.w, q.x, q.y, q.z);
+        parts->push_back(p);
+    }
+    return {parts};
+}
+
 BodyDescription described(const Body& body, std::size_t index) {
     BodyDescription d;
     d.name = std::to_string(index);
@@ -35,6 +48,9 @@ BodyDescription described(const Body& body, std::size_t index) {
             break;
         case Kind::hexahedron:
             d.shape = MeshShape{mesh_of(body)};
+            break;
+        case Kind::compound:
+            d.shape = compound_of(body);
             break;
     }
     if (body.moves()) d.mass = body.mass;
