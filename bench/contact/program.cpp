@@ -114,8 +114,9 @@ int run_contact(int argc, char** argv, const std::string& program, const std::ve
             if (std::find(way.tasks.begin(), way.tasks.end(), c.task) == way.tasks.end()) continue;
             try {
                 write(c.name, program, way, run(c, way, options));
-            } catch (const std::exception& e) {  // a world that blew up: its rows are missing, the others go on
+            } catch (const std::exception& e) {  // a world that blew up
                 std::fprintf(stderr, "%s, %s, %s: %s\n", c.name.c_str(), program.c_str(), way.name.c_str(), e.what());
+                write(c.name, program, way, {{"ended by an error", 1.0, ""}});
             }
         }
     }

@@ -4,6 +4,8 @@
 #include <ode/ode.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <stdexcept>
 
 namespace {
 
@@ -170,10 +172,17 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
     return std::make_unique<OdeSimulator>(scene, rate, settings);
 }
 
+// In place of ending the program, and of talking at each step that its solver gives up.
+void fail(int, const char* text, va_list) { throw std::runtime_error(text); }
+void be_silent(int, const char*, va_list) {}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     dInitODE2(0);
+    dSetErrorHandler(fail);
+    dSetDebugHandler(fail);
+    dSetMessageHandler(be_silent);
     Peer peer{"ODE", {}, {}, {}};
     // The full step (dWorldStep) is left out: in flight it is the quick step, in crowds its dense matrix takes minutes,
     // and on rows its LCP solver gives up ("internal error, s <= 0").
