@@ -51,7 +51,7 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
     bool rough = false;
     for (const Body& body : scene.bodies) rough |= body.friction > 0.0;
     std::size_t shapes = 0;
-    for (const Body& body : scene.bodies) shapes += std::max<std::size_t>(1, body.parts.size());
+    for (const Body& body : scene.bodies) shapes += std::max<std::size_t>(1, 2 * body.parts.size());
     const std::size_t contacts = std::max<std::size_t>(100, 8 * shapes), rows = (rough ? 3 : 1) * contacts;
     std::ostringstream xml;
     xml.precision(17);
