@@ -53,9 +53,9 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
     const std::size_t contacts = std::max<std::size_t>(100, 8 * scene.bodies.size()), rows = (rough ? 3 : 1) * contacts;
     std::ostringstream xml;
     xml.precision(17);
-    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << settings.integrator
-        << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts << "' njmax='" << rows
-        << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
+    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='"
+        << settings.integrator << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts
+        << "' njmax='" << rows << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
         << solref(scene, h, settings.stiff) << "'" << solimp(scene, settings.stiff) << "/></default><asset>";
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].kind != Kind::hexahedron) continue;
@@ -174,7 +174,8 @@ Way way(const std::string& name, std::vector<Task> tasks, const Settings& settin
             300};
 }
 
-// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its start.
+// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its
+// start.
 void complain(const char* text) { throw std::runtime_error(text); }
 
 }  // namespace

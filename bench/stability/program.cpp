@@ -96,10 +96,11 @@ Outcome run_apart(const Trial& trial, const StabilityWay& way, double rate) {
     return outcome;
 }
 
-void write_row(const StabilityCase& c, const std::string& program, const StabilityWay& way, double rate, double parameter,
-           const Outcome& o) {
+void write_row(const StabilityCase& c, const std::string& program, const StabilityWay& way, double rate,
+               double parameter, const Outcome& o) {
     std::printf("%s,%s,\"%s\",\"%s\",\"%s\",%g,%g,%.3g,%s,%ld\n", c.name.c_str(), program.c_str(), way.name.c_str(),
-                c.parameter.c_str(), c.pass_line.c_str(), rate, parameter, o.worst, verdict_names[int(o.verdict)], o.steps);
+                c.parameter.c_str(), c.pass_line.c_str(), rate, parameter, o.worst, verdict_names[int(o.verdict)],
+                o.steps);
     std::fflush(stdout);
 }
 
@@ -125,7 +126,8 @@ void map_random(const std::string& program, const StabilityWay& way, bool quick)
         std::vector<Count> sum;
         for (long kin = 0; kin < 4; ++kin) {
             const std::vector<Count> counts = run_random_scenes(way, rates[k], long(k) * 4 + kin, each, all);
-            if (sum.empty()) sum = counts;
+            if (sum.empty())
+                sum = counts;
             else
                 for (std::size_t i = 0; i < sum.size(); ++i)
                     for (std::size_t n = 0; n < 4; ++n) {
