@@ -31,8 +31,8 @@ struct ContactCase {
     std::string name;
     Task task = Task::tower;
     Scene scene;
-    double rate = 60.0;       // steps a second
-    double seconds = 10.0;    // simulated
+    double rate = 60.0;     // steps a second
+    double seconds = 10.0;  // simulated
     double quick_seconds = 0.5;
     double look_every = 0.1;  // s
     std::function<std::unique_ptr<Witness>(const Scene&)> witness;

@@ -62,7 +62,8 @@ std::vector<Quantity> run(const ContactCase& c, const Way& way, const Options& o
         spent.add(cpu_seconds() - cpu, wall_seconds() - wall, double(next - done) / c.rate, late);
         done = next;
     }
-    std::vector<Quantity> all{{"CPU", spent.cpu / spent.simulated, "s/s"}, {"wall", spent.wall / spent.simulated, "s/s"}};
+    std::vector<Quantity> all{{"CPU", spent.cpu / spent.simulated, "s/s"},
+                              {"wall", spent.wall / spent.simulated, "s/s"}};
     if (spent.late_simulated > 0.0)
         all.push_back({"CPU of the last 2 s", spent.late_cpu / spent.late_simulated, "s/s"});
     if (done < steps) all.push_back({"cut short at", double(done) / c.rate, "s"});
@@ -82,12 +83,18 @@ bool read(int argc, char** argv, Options& options) {
     for (int i = 1; i < argc; ++i) {
         const std::string_view option = argv[i];
         const bool more = i + 1 < argc;
-        if (option == "--quick") options.quick = true;
-        else if (option == "--case" && more) options.cases.emplace_back(argv[++i]);
-        else if (option == "--way" && more) options.ways.emplace_back(argv[++i]);
-        else if (option == "--patience" && more) options.patience = std::atof(argv[++i]);
-        else if (option == "--header") std::puts("case,program,way,quantity,value,unit");
-        else return false;
+        if (option == "--quick")
+            options.quick = true;
+        else if (option == "--case" && more)
+            options.cases.emplace_back(argv[++i]);
+        else if (option == "--way" && more)
+            options.ways.emplace_back(argv[++i]);
+        else if (option == "--patience" && more)
+            options.patience = std::atof(argv[++i]);
+        else if (option == "--header")
+            std::puts("case,program,way,quantity,value,unit");
+        else
+            return false;
     }
     return true;
 }

@@ -22,7 +22,9 @@ public:
         way_ = way - start_;
         exact_ = 0.5 * acceleration_ * (time * time - from_ * from_);
     }
-    std::vector<Quantity> tell() const override { return {{"way", way_, "m"}, {"error of the way", std::abs(way_ - exact_), "m"}}; }
+    std::vector<Quantity> tell() const override {
+        return {{"way", way_, "m"}, {"error of the way", std::abs(way_ - exact_), "m"}};
+    }
 
 private:
     Vector down_;

@@ -115,7 +115,7 @@ ContactCase card_house(int storeys) {
     ContactCase c = standing("card house of " + std::to_string(storeys) + " storeys", 60.0, 0.2);
     const double length = 0.9, width = 0.6, thick = 0.02, lean = 0.3, mass = 1000.0 * length * width * thick;
     const double s = std::sin(lean), k = std::cos(lean);
-    const double up = 0.5 * (length * k + thick * s);    // of a leaning card's centre over its foot
+    const double up = 0.5 * (length * k + thick * s);     // of a leaning card's centre over its foot
     const double aside = 0.5 * (thick * k + length * s);  // of its centre from the plane where the two meet
     const double pitch = 0.8, storey = 2.0 * up + thick;
     for (int level = 0; level < storeys; ++level) {

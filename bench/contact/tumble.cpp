@@ -18,8 +18,8 @@ int main(int argc, char** argv) {
     asleep.sleep = true;
     exact.integrator = tumble::IntegratorKind::exact;
     exact.impacts = tumble::ImpactMode::exact;
-    return run_contact(argc, argv, "Tumble",
-                       {way("default", {Task::pile, Task::spheres, Task::tower}, one),
-                        way("two threads", {Task::pile}, two), way("sleep", {Task::pile, Task::sleeping}, asleep),
-                        way("exact + exact impacts", {Task::tower}, exact)});
+    return run_contact(
+        argc, argv, "Tumble",
+        {way("default", {Task::pile, Task::spheres, Task::tower}, one), way("two threads", {Task::pile}, two),
+         way("sleep", {Task::pile, Task::sleeping}, asleep), way("exact + exact impacts", {Task::tower}, exact)});
 }

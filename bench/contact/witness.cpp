@@ -19,8 +19,10 @@ public:
         long lost = 0;
         for (std::size_t i = 0; i < last_.size(); ++i) {
             if (!scene_.bodies[i].moves()) continue;
-            if (!finite(last_[i]) || last_[i].position.z < 0.0) ++lost;
-            else speed = std::max(speed, norm(last_[i].velocity));
+            if (!finite(last_[i]) || last_[i].position.z < 0.0)
+                ++lost;
+            else
+                speed = std::max(speed, norm(last_[i].velocity));
         }
         return {{"mean penetration", 1e3 * p.mean, "mm"},
                 {"largest penetration", 1e3 * p.largest, "mm"},

@@ -137,8 +137,7 @@ double depth(const Body& a, const Motion& at, const Body& b, const Motion& bt, d
     if (a.kind == Kind::plane) return b.kind == Kind::plane ? -never : plane_depth(a, b, bt);
     if (b.kind == Kind::plane) return plane_depth(b, a, at);
     if (!close(a, at, b, bt, near)) return -never;
-    if (a.kind == Kind::sphere && b.kind == Kind::sphere)
-        return a.radius + b.radius - norm(at.position - bt.position);
+    if (a.kind == Kind::sphere && b.kind == Kind::sphere) return a.radius + b.radius - norm(at.position - bt.position);
     if (a.kind == Kind::sphere) return sphere_box_depth(a.radius, at, b, bt);
     if (b.kind == Kind::sphere) return sphere_box_depth(b.radius, bt, a, at);
     return solid_depth(placed(a, at), placed(b, bt), near);

@@ -14,7 +14,9 @@ Vector mean_squares(const Corners& c) {
     double volume = 0.0;
     const auto tetrahedron = [&](const Vector& p, const Vector& q, const Vector& r) {
         const double v = dot(p, cross(q, r)) / 6.0;
-        const auto square = [](double a, double b, double d) { return (a * a + b * b + d * d + a * b + b * d + d * a) / 10.0; };
+        const auto square = [](double a, double b, double d) {
+            return (a * a + b * b + d * d + a * b + b * d + d * a) / 10.0;
+        };
         sum = sum + v * Vector{square(p.x, q.x, r.x), square(p.y, q.y, r.y), square(p.z, q.z, r.z)};
         volume += v;
     };

@@ -9,9 +9,9 @@ using namespace tumble::bench;
 
 struct Settings {
     int gyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    bool swept = false;     // a sphere swept along with fast bodies
-    bool elastic = true;    // set up for bounces; else for rest
-    int iterations = 50;    // default 10
+    bool swept = false;   // a sphere swept along with fast bodies
+    bool elastic = true;  // set up for bounces; else for rest
+    int iterations = 50;  // default 10
     bool sleep = false;
 };
 
@@ -32,7 +32,8 @@ public:
         btContactSolverInfo& info = world_.getSolverInfo();
         info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower blows do not bounce
         info.m_numIterations = settings.iterations;
-        if (settings.elastic) info.m_erp2 = 0.0f;  // no pushing out of overlaps: that adds energy, up to 40-fold in the pit
+        if (settings.elastic)
+            info.m_erp2 = 0.0f;  // no pushing out of overlaps: that adds energy, up to 40-fold in the pit
         for (const Body& body : scene.bodies) add(body, settings);
     }
     ~BulletSimulator() override {
@@ -64,7 +65,8 @@ public:
 private:
     void add(const Body& body, const Settings& settings) {
         std::unique_ptr<btCollisionShape> shape;
-        if (body.kind == Kind::plane) shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
+        if (body.kind == Kind::plane)
+            shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
         if (body.kind == Kind::box) shape = std::make_unique<btBoxShape>(vec(0.5 * body.size));
         if (body.kind == Kind::sphere) shape = std::make_unique<btSphereShape>(btScalar(body.radius));
         if (body.kind == Kind::hexahedron) {
@@ -85,7 +87,7 @@ private:
         const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0, 0, 0);
         btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape.get(), inertia);
         info.m_startWorldTransform = pose(body.orientation, body.position);
-        info.m_friction = btScalar(std::sqrt(body.friction));  // a pair takes the product
+        info.m_friction = btScalar(std::sqrt(body.friction));           // a pair takes the product
         info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair takes the product
         auto rigid = std::make_unique<btRigidBody>(info);
         rigid->setLinearVelocity(vec(body.velocity));

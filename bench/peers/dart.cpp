@@ -13,7 +13,8 @@ Vector vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 class DartSimulator : public Simulator {
 public:
-    DartSimulator(const Scene& scene, double rate, bool elastic) : scene_(scene), world_(dart::simulation::World::create()) {
+    DartSimulator(const Scene& scene, double rate, bool elastic)
+        : scene_(scene), world_(dart::simulation::World::create()) {
         world_->setTimeStep(1.0 / rate);
         world_->setGravity(Eigen::Vector3d(0.0, 0.0, -scene.gravity));
         world_->getConstraintSolver()->setCollisionDetector(dart::collision::DARTCollisionDetector::create());
@@ -92,7 +93,8 @@ Way way(const std::string& name, std::vector<Task> tasks) {
     return {name, std::move(tasks),
             [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                 for (const Body& body : scene.bodies)
-                    if (body.kind == Kind::hexahedron || body.kind == Kind::compound) return nullptr;  // boxes and spheres
+                    if (body.kind == Kind::hexahedron || body.kind == Kind::compound)
+                        return nullptr;  // boxes and spheres
                 return std::make_unique<DartSimulator>(scene, rate, false);
             },
             250};
@@ -112,6 +114,7 @@ int main(int argc, char** argv) {
                         [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                             return std::make_unique<DartSimulator>(scene, rate, true);
                         }};
-    return run_peer(argc, argv, {"DART", {euler}, {way("Dantzig", {Task::spheres, Task::tower})},
-                                 {{"Dantzig", true, make_steady, 60}}});
+    return run_peer(
+        argc, argv,
+        {"DART", {euler}, {way("Dantzig", {Task::spheres, Task::tower})}, {{"Dantzig", true, make_steady, 60}}});
 }

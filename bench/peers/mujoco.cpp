@@ -55,9 +55,9 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
     const std::size_t contacts = std::max<std::size_t>(100, 8 * shapes), rows = (rough ? 3 : 1) * contacts;
     std::ostringstream xml;
     xml.precision(17);
-    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << settings.integrator
-        << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts << "' njmax='" << rows
-        << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
+    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='"
+        << settings.integrator << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts
+        << "' njmax='" << rows << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
         << solref(scene, h, settings.stiff) << "'" << solimp(scene, settings.stiff) << "/></default><asset>";
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].kind != Kind::hexahedron) continue;
@@ -88,8 +88,8 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
                 << text(body.principal_inertia()) << "'/>";
             if (body.kind != Kind::compound) xml << "<geom " << geom << "/>";
             for (const BoxPart& part : body.parts)
-                xml << "<geom type='box' size='" << text(0.5 * part.size) << "' pos='" << text(part.position) << "' quat='"
-                    << part.orientation.w << ' ' << part.orientation.x << ' ' << part.orientation.y << ' '
+                xml << "<geom type='box' size='" << text(0.5 * part.size) << "' pos='" << text(part.position)
+                    << "' quat='" << part.orientation.w << ' ' << part.orientation.x << ' ' << part.orientation.y << ' '
                     << part.orientation.z << "'" << material.str() << "/>";
             xml << "</body>";
         }
@@ -182,7 +182,8 @@ Way way(const std::string& name, std::vector<Task> tasks, const Settings& settin
             300};
 }
 
-// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its start.
+// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its
+// start.
 void complain(const char* text) { throw std::runtime_error(text); }
 
 }  // namespace

@@ -132,9 +132,11 @@ private:
         constexpr int most = 8;
         dContact contacts[most];
         const int n = dCollide(a, b, most, &contacts[0].geom, sizeof(dContact));
-        const auto &first = *static_cast<const Body*>(dGeomGetData(a)), &second = *static_cast<const Body*>(dGeomGetData(b));
+        const auto &first = *static_cast<const Body*>(dGeomGetData(a)),
+                   &second = *static_cast<const Body*>(dGeomGetData(b));
         if (&first == &second || (!first.moves() && !second.moves())) return;
-        const double restitution = std::max(first.moves() ? first.restitution : 0.0, second.moves() ? second.restitution : 0.0);
+        const double restitution =
+            std::max(first.moves() ? first.restitution : 0.0, second.moves() ? second.restitution : 0.0);
         auto* world = static_cast<OdeSimulator*>(self);
         for (int i = 0; i < n; ++i) {
             contacts[i].surface = dSurfaceParameters{};

@@ -4,6 +4,9 @@
 #include "harness/penetration.h"
 #include "stability/random_scenes.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -25,16 +28,20 @@ bool wanted(const std::vector<std::string>& names, const std::string& name) {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
+// late: stopped by patience; none: the program cannot hold the scene.
+enum class Verdict { pass, fail, late, none };
+constexpr const char* verdict_names[] = {"pass", "fail", "late", "none"};
+
 struct Outcome {
     double worst = 0.0;
-    const char* verdict = "pass";  // pass, fail, late (stopped by patience), none (cannot hold the scene)
+    Verdict verdict = Verdict::pass;
     long steps = 0;
 };
 
 Outcome run(const Trial& trial, const StabilityWay& way, double rate) {
-    if (trial.scene.bodies.size() > way.most_bodies) return {0.0, "none", 0};
+    if (trial.scene.bodies.size() > way.most_bodies) return {0.0, Verdict::none, 0};
     const auto world = way.make(trial.scene, rate);
-    if (!world) return {0.0, "none", 0};
+    if (!world) return {0.0, Verdict::none, 0};
     Outcome outcome;
     const long steps = std::lround(trial.seconds * rate);
     std::vector<Motion> motions(trial.scene.bodies.size());
@@ -52,21 +59,48 @@ Outcome run(const Trial& trial, const StabilityWay& way, double rate) {
         outcome.worst = std::isnan(now) ? HUGE_VAL : std::max(outcome.worst, now);
         outcome.steps = i;
         if (outcome.worst > 1.0) {
-            outcome.verdict = "fail";
+            outcome.verdict = Verdict::fail;
             return outcome;
         }
         if (cpu_seconds() - start > patience && i < steps) {
-            outcome.verdict = "late";
+            outcome.verdict = Verdict::late;
             return outcome;
         }
     }
     return outcome;
 }
 
-void write(const StabilityCase& c, const std::string& program, const StabilityWay& way, double rate, double parameter,
-           const Outcome& o) {
+// In a process of its own: there are worlds that end the program when they blow up (assertions in DART).
+Outcome run_apart(const Trial& trial, const StabilityWay& way, double rate) {
+    const Outcome blown_up{HUGE_VAL, Verdict::fail, 0};
+    int ends[2];
+    if (pipe(ends) != 0) return run(trial, way, rate);
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        Outcome outcome = blown_up;
+        try {
+            const Outcome found = run(trial, way, rate);
+            outcome = found;
+        } catch (const std::exception& e) {
+            std::fprintf(stderr, "%s at 1/%g: %s\n", way.name.c_str(), rate, e.what());
+        }
+        const bool written = write(ends[1], &outcome, sizeof outcome) == ssize_t(sizeof outcome);
+        _exit(written ? 0 : 1);
+    }
+    close(ends[1]);
+    Outcome outcome;
+    if (child < 0 || read(ends[0], &outcome, sizeof outcome) != ssize_t(sizeof outcome)) outcome = blown_up;
+    close(ends[0]);
+    if (child > 0) waitpid(child, nullptr, 0);
+    return outcome;
+}
+
+void write_row(const StabilityCase& c, const std::string& program, const StabilityWay& way, double rate,
+               double parameter, const Outcome& o) {
     std::printf("%s,%s,\"%s\",\"%s\",\"%s\",%g,%g,%.3g,%s,%ld\n", c.name.c_str(), program.c_str(), way.name.c_str(),
-                c.parameter.c_str(), c.pass_line.c_str(), rate, parameter, o.worst, o.verdict, o.steps);
+                c.parameter.c_str(), c.pass_line.c_str(), rate, parameter, o.worst, verdict_names[int(o.verdict)],
+                o.steps);
     std::fflush(stdout);
 }
 
@@ -80,13 +114,7 @@ void map(const StabilityCase& c, const std::string& program, const StabilityWay&
         for (const double rate : rates) {
             Trial trial = c.trial(parameter, rate);
             if (quick) trial.seconds = std::min(trial.seconds, 1.0);
-            try {
-                write(c, program, way, rate, parameter, run(trial, way, rate));
-            } catch (const std::exception& e) {  // it blew up, and says so
-                std::fprintf(stderr, "%s, %s, %s, %g at 1/%g: %s\n", c.name.c_str(), program.c_str(), way.name.c_str(),
-                             parameter, rate, e.what());
-                write(c, program, way, rate, parameter, {HUGE_VAL, "fail", 0});
-            }
+            write_row(c, program, way, rate, parameter, run_apart(trial, way, rate));
         }
 }
 
@@ -98,7 +126,8 @@ void map_random(const std::string& program, const StabilityWay& way, bool quick)
         std::vector<Count> sum;
         for (long kin = 0; kin < 4; ++kin) {
             const std::vector<Count> counts = run_random_scenes(way, rates[k], long(k) * 4 + kin, each, all);
-            if (sum.empty()) sum = counts;
+            if (sum.empty())
+                sum = counts;
             else
                 for (std::size_t i = 0; i < sum.size(); ++i)
                     for (std::size_t n = 0; n < 4; ++n) {

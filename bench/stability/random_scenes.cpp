@@ -56,7 +56,8 @@ Scene random_scene(Kin kin, Random& random) {
             body.velocity = body.velocity - (2.0 * (i + 1) * random.between(0.8, 1.2)) * away;
             scene.bodies.push_back(body);
         } else {  // layers 2 m apart
-            const Vector place{1.2 * random.both(), 1.2 * random.both(), 1.2 + (kin == Kin::pit ? 0.0 : 0.5) + 2.0 * (i / 4)};
+            const Vector place{1.2 * random.both(), 1.2 * random.both(),
+                               1.2 + (kin == Kin::pit ? 0.0 : 0.5) + 2.0 * (i / 4)};
             const Vector corner{i % 2 ? 1.0 : -1.0, i / 2 % 2 ? 1.0 : -1.0, 0.0};
             const Vector apart{0.3 * place.x + 1.25 * corner.x, 0.3 * place.y + 1.25 * corner.y, place.z};
             scene.bodies.push_back(any_body(random, apart, 4.0));
@@ -88,7 +89,7 @@ Scene mirrored(Scene scene) {  // x to -x; the pit is its own image
 }
 
 struct Momentum {
-    Vector linear, angular;             // the latter about the origin
+    Vector linear, angular;                  // the latter about the origin
     double linear_sum = 0, angular_sum = 0;  // of the bodies' magnitudes: what errors are relative to
 };
 

@@ -33,25 +33,33 @@ Trial spinning(const Vector& size, const Vector& spin, double seconds, long look
 
 void add_spins(std::vector<StabilityCase>& cases) {
     const char* kept_line = "energy and angular momentum stay within 1 %";
-    cases.push_back({"spin", "rad/s", std::string("box of 1.0 x 0.6 x 0.2 m about its middle axis, 5 s; ") + kept_line,
-                     {1.0, 10.0, 1e2, 1e3, 1e4, 1e5}, stability_rates(),
+    cases.push_back({"spin",
+                     "rad/s",
+                     std::string("box of 1.0 x 0.6 x 0.2 m about its middle axis, 5 s; ") + kept_line,
+                     {1.0, 10.0, 1e2, 1e3, 1e4, 1e5},
+                     stability_rates(),
                      [](double spin, double) {
                          return spinning({1.0, 0.6, 0.2}, {0.002 * spin, spin, 0.002 * spin}, 5.0, 1);
                      },
                      true});
 
     // A needle of edges 1 and w has moments in the ratio (1 + w^2) / (2 w^2).
-    cases.push_back({"inertia ratio", "largest over smallest moment",
+    cases.push_back({"inertia ratio",
+                     "largest over smallest moment",
                      std::string("needle of 1 m, 10 rad/s about a slanting axis, 5 s; ") + kept_line,
-                     {1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6}, stability_rates(),
+                     {1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6},
+                     stability_rates(),
                      [](double ratio, double) {
                          const double w = std::sqrt(1.0 / (2.0 * ratio - 1.0));
                          return spinning({1.0, w, w}, {6.0, 8.0, 0.0}, 5.0, 1);
                      },
                      true});
 
-    cases.push_back({"a million steps of tumbling", "rad/s", std::string("box of 1.0 x 0.6 x 0.2 m; ") + kept_line,
-                     {1.0, 10.0, 100.0}, {60.0, 240.0, 1920.0},
+    cases.push_back({"a million steps of tumbling",
+                     "rad/s",
+                     std::string("box of 1.0 x 0.6 x 0.2 m; ") + kept_line,
+                     {1.0, 10.0, 100.0},
+                     {60.0, 240.0, 1920.0},
                      [](double spin, double rate) {
                          return spinning({1.0, 0.6, 0.2}, {0.002 * spin, spin, 0.002 * spin}, 1e6 / rate, 1000);
                      },

@@ -101,17 +101,36 @@ Trial needle(double width, double) {
 }  // namespace
 
 void add_strikes(std::vector<StabilityCase>& cases) {
-    cases.push_back({"thin wall", "m/s", "spheres and cubes of 0.1 m at a wall of 1 cm; none of 20 gets to the other side",
-                     {10.0, 1e2, 1e3, 1e4}, stability_rates(), thin_wall});
-    cases.push_back({"restitution", "e", "ball from 1 m, 3 s; first rebound e^2 m within 5 cm, energy never 1 % above the start",
-                     {0.0, 0.25, 0.5, 0.75, 0.9, 1.0}, stability_rates(), rebound});
-    cases.push_back({"friction", "mu", "box on a slope of tan 0.6, 3 s; its way as Coulomb's within 1 % or 1 cm, and 1/30 s",
-                     {0.0, 0.1, 0.3, 0.59, 0.61, 1.0, 10.0}, stability_rates(), slope});
-    cases.push_back({"deep overlap", "share", "two boxes of 1 m, 5 s; never faster than 10 m/s, apart to 1 cm at the end",
-                     {0.01, 0.1, 0.5, 0.9, 1.0}, stability_rates(), overlapping});
-    cases.push_back({"needle falling", "width, m",
+    cases.push_back({"thin wall",
+                     "m/s",
+                     "spheres and cubes of 0.1 m at a wall of 1 cm; none of 20 gets to the other side",
+                     {10.0, 1e2, 1e3, 1e4},
+                     stability_rates(),
+                     thin_wall});
+    cases.push_back({"restitution",
+                     "e",
+                     "ball from 1 m, 3 s; first rebound e^2 m within 5 cm, energy never 1 % above the start",
+                     {0.0, 0.25, 0.5, 0.75, 0.9, 1.0},
+                     stability_rates(),
+                     rebound});
+    cases.push_back({"friction",
+                     "mu",
+                     "box on a slope of tan 0.6, 3 s; its way as Coulomb's within 1 % or 1 cm, and 1/30 s",
+                     {0.0, 0.1, 0.3, 0.59, 0.61, 1.0, 10.0},
+                     stability_rates(),
+                     slope});
+    cases.push_back({"deep overlap",
+                     "share",
+                     "two boxes of 1 m, 5 s; never faster than 10 m/s, apart to 1 cm at the end",
+                     {0.01, 0.1, 0.5, 0.9, 1.0},
+                     stability_rates(),
+                     overlapping});
+    cases.push_back({"needle falling",
+                     "width, m",
                      "needle of 1 m on a floor, 5 s; never below it, energy never 1 % above the start",
-                     {0.1, 0.01, 1e-3}, stability_rates(), needle});
+                     {0.1, 0.01, 1e-3},
+                     stability_rates(),
+                     needle});
 }
 
 }  // namespace tumble::bench

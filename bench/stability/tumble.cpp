@@ -9,12 +9,11 @@ int main(int argc, char** argv) {
                                        return bench::make_tumble(scene, rate, {integrator, impacts});
                                    }};
     };
-    return bench::run_stability(
-        argc, argv, "Tumble",
-        {way("symplectic-euler", true, IntegratorKind::symplectic_euler, ImpactMode::stepped),
-         way("exact + exact impacts", true, IntegratorKind::exact, ImpactMode::exact),
-         way("explicit-euler", false, IntegratorKind::explicit_euler, ImpactMode::stepped),
-         way("splitting", false, IntegratorKind::splitting, ImpactMode::stepped),
-         way("rk4", false, IntegratorKind::runge_kutta_4, ImpactMode::stepped),
-         way("exact", false, IntegratorKind::exact, ImpactMode::stepped)});
+    return bench::run_stability(argc, argv, "Tumble",
+                                {way("symplectic-euler", true, IntegratorKind::symplectic_euler, ImpactMode::stepped),
+                                 way("exact + exact impacts", true, IntegratorKind::exact, ImpactMode::exact),
+                                 way("explicit-euler", false, IntegratorKind::explicit_euler, ImpactMode::stepped),
+                                 way("splitting", false, IntegratorKind::splitting, ImpactMode::stepped),
+                                 way("rk4", false, IntegratorKind::runge_kutta_4, ImpactMode::stepped),
+                                 way("exact", false, IntegratorKind::exact, ImpactMode::stepped)});
 }
