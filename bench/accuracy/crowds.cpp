@@ -1,5 +1,6 @@
 // Many bodies: energy that should stay as it was.
 #include "accuracy/accuracy_case.h"
+#include "harness/shapes.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -56,20 +57,10 @@ private:
     std::uint64_t state_ = 42;
 };
 
-Body plane(const Vector& normal, double offset) {
-    Body body;
-    body.kind = Kind::plane;
-    body.normal = normal;
-    body.offset = offset;
-    return body;
-}
-
 }  // namespace
 
 void add_crowds(std::vector<AccuracyCase>& cases) {
-    Body sphere;
-    sphere.radius = 0.1;
-    sphere.mass = 10.0;
+    Body sphere = bench::sphere(0.1, 10.0, {});
 
     // SimBenchmark "bouncing": 49 spheres let go with their centres at 5 m.
     AccuracyCase bouncing;

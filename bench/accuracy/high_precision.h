@@ -2,7 +2,7 @@
 // with Bulirsch and Stoer's extrapolation (Hairer, Norsett, Wanner, "Solving Ordinary Differential Equations I", II.9).
 #pragma once
 
-#include "accuracy/scene.h"
+#include "harness/scene.h"
 
 #include <array>
 #include <vector>

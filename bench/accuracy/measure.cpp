@@ -1,6 +1,6 @@
 #include "accuracy/measure.h"
 
-#include <ctime>
+#include "harness/clock.h"
 
 #include <algorithm>
 
@@ -9,12 +9,6 @@ namespace {
 
 constexpr double long_enough = 0.15;  // CPU s: the clock's own cost and resolution no longer show
 constexpr int fewest_runs = 3, most_runs = 2000;
-
-double cpu_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 // The median over fresh worlds of the time of all steps together.
 double time_of_stepping(const AccuracyCase& c, const Variant& variant, double rate, long steps) {

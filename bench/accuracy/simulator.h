@@ -1,7 +1,7 @@
-// What a program under test has to offer: a world that steps, and the ways (variants) in which it can be asked to.
+// The ways (variants) in which a program can be asked to step, for the accuracy benchmark.
 #pragma once
 
-#include "accuracy/scene.h"
+#include "harness/simulator.h"
 
 #include <functional>
 #include <memory>
@@ -9,13 +9,6 @@
 #include <vector>
 
 namespace tumble::bench {
-
-class Simulator {
-public:
-    virtual ~Simulator() = default;
-    virtual void step() = 0;
-    virtual Motion motion(std::size_t body) const = 0;  // by the scene's numbering
-};
 
 /// What a case asks of a program: free flights; impacts; a crowd's energy, looked at in the middle of impacts too;
 /// impacts that fall between steps; rows of touching bodies struck at once, whose outcome depends on the law: the blow

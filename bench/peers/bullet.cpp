@@ -1,5 +1,5 @@
-// Bullet 3.24 in double precision: btDiscreteDynamicsWorld, sequential impulses.
-#include "accuracy/program.h"
+// Bullet 3.24, btDiscreteDynamicsWorld, sequential impulses: in double precision, and (contacts alone) in single.
+#include "peers/peer.h"
 
 #include <btBulletDynamicsCommon.h>
 
@@ -8,11 +8,17 @@ namespace {
 using namespace tumble::bench;
 
 struct Settings {
-    int gyroscopic;      // BT_ENABLE_GYROSCOPIC_FORCE_...
-    bool swept = false;  // a sphere swept along with fast bodies
+    int gyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+    bool swept = false;   // a sphere swept along with fast bodies
+    bool elastic = true;  // set up for bounces; else for rest
+    int iterations = 50;  // default 10
+    bool sleep = false;
 };
 
-btVector3 vec(const Vector& v) { return {v.x, v.y, v.z}; }
+btVector3 vec(const Vector& v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
+btTransform pose(const Orientation& q, const Vector& position) {
+    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)), vec(position));
+}
 Vector vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 class BulletSimulator : public Simulator {
@@ -22,11 +28,12 @@ public:
           h_(1.0 / rate),
           dispatcher_(&configuration_),
           world_(&dispatcher_, &broad_phase_, &solver_, &configuration_) {
-        world_.setGravity(btVector3(0.0, 0.0, -scene.gravity));
+        world_.setGravity(vec({0.0, 0.0, -scene.gravity}));
         btContactSolverInfo& info = world_.getSolverInfo();
-        info.m_restitutionVelocityThreshold = 0.0;  // default 0.2 m/s: slower blows do not bounce
-        info.m_numIterations = 50;
-        info.m_erp2 = 0.0;  // overlaps are not pushed out: that adds energy, up to 40-fold in the pit
+        info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower blows do not bounce
+        info.m_numIterations = settings.iterations;
+        if (settings.elastic)
+            info.m_erp2 = 0.0f;  // no pushing out of overlaps: that adds energy, up to 40-fold in the pit
         for (const Body& body : scene.bodies) add(body, settings);
     }
     ~BulletSimulator() override {
@@ -42,7 +49,7 @@ public:
                 bodies_[i]->applyTorque(vec(w.torque));
             }
         }
-        world_.stepSimulation(h_, 0, h_);  // no substeps: just this step
+        world_.stepSimulation(btScalar(h_), 0, btScalar(h_));  // no substeps: just this step
     }
 
     Motion motion(std::size_t i) const override {
@@ -58,27 +65,42 @@ public:
 private:
     void add(const Body& body, const Settings& settings) {
         std::unique_ptr<btCollisionShape> shape;
-        if (body.kind == Kind::plane) shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), body.offset);
-        if (body.kind == Kind::box) shape = std::make_unique<btBoxShape>(0.5 * vec(body.size));
-        if (body.kind == Kind::sphere) shape = std::make_unique<btSphereShape>(body.radius);
+        if (body.kind == Kind::plane)
+            shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
+        if (body.kind == Kind::box) shape = std::make_unique<btBoxShape>(vec(0.5 * body.size));
+        if (body.kind == Kind::sphere) shape = std::make_unique<btSphereShape>(btScalar(body.radius));
+        if (body.kind == Kind::hexahedron) {
+            auto hull = std::make_unique<btConvexHullShape>();
+            for (const Vector& corner : body.corners) hull->addPoint(vec(corner));
+            hull->setMargin(btScalar(0.001));  // it grows by as much; default 4 cm
+            shape = std::move(hull);
+        }
+        if (body.kind == Kind::compound) {
+            auto whole = std::make_unique<btCompoundShape>();
+            for (const BoxPart& part : body.parts) {
+                parts_.push_back(std::make_unique<btBoxShape>(vec(0.5 * part.size)));
+                whole->addChildShape(pose(part.orientation, part.position), parts_.back().get());
+            }
+            shape = std::move(whole);
+        }
         const bool moves = body.moves();
-        const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0.0, 0.0, 0.0);
-        btRigidBody::btRigidBodyConstructionInfo info(moves ? body.mass : 0.0, nullptr, shape.get(), inertia);
-        const Orientation& q = body.orientation;
-        info.m_startWorldTransform = btTransform(btQuaternion(q.x, q.y, q.z, q.w), vec(body.position));
-        info.m_friction = 0.0;
-        info.m_restitution = moves ? body.restitution : 1.0;  // a pair takes the product
+        const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0, 0, 0);
+        btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape.get(), inertia);
+        info.m_startWorldTransform = pose(body.orientation, body.position);
+        info.m_friction = btScalar(std::sqrt(body.friction));           // a pair takes the product
+        info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair takes the product
         auto rigid = std::make_unique<btRigidBody>(info);
         rigid->setLinearVelocity(vec(body.velocity));
         rigid->setAngularVelocity(vec(body.angular_velocity));
-        rigid->setDamping(0.0, 0.0);
-        rigid->setContactProcessingThreshold(0.0);  // else a contact found before it touches takes the bounce away
-        rigid->setActivationState(DISABLE_DEACTIVATION);
+        rigid->setDamping(0, 0);
+        // Else a contact found before it touches takes the bounce away.
+        if (settings.elastic) rigid->setContactProcessingThreshold(0);
+        if (!settings.sleep) rigid->setActivationState(DISABLE_DEACTIVATION);
         rigid->setFlags(settings.gyroscopic);
         if (settings.swept && moves) {
             const double radius = body.kind == Kind::sphere ? body.radius : 0.5 * body.size.x;
-            rigid->setCcdMotionThreshold(0.5 * radius);
-            rigid->setCcdSweptSphereRadius(0.9 * radius);
+            rigid->setCcdMotionThreshold(btScalar(0.5 * radius));
+            rigid->setCcdSweptSphereRadius(btScalar(0.9 * radius));
         }
         world_.addRigidBody(rigid.get());
         shapes_.push_back(std::move(shape));
@@ -92,7 +114,7 @@ private:
     btDbvtBroadphase broad_phase_;
     btSequentialImpulseConstraintSolver solver_;
     btDiscreteDynamicsWorld world_;
-    std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+    std::vector<std::unique_ptr<btCollisionShape>> parts_, shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
@@ -108,16 +130,48 @@ Variant variant(const std::string& name, const Settings& settings, std::vector<D
             }};
 }
 
+std::unique_ptr<Simulator> make(const Scene& scene, double rate, const Settings& settings) {
+    return std::make_unique<BulletSimulator>(scene, rate, settings);
+}
+
+Way way(const std::string& name, std::vector<Task> tasks, int iterations, bool sleep) {
+    Settings settings;
+    settings.elastic = false;
+    settings.iterations = iterations;
+    settings.sleep = sleep;
+    return {name, std::move(tasks), [=](const Scene& scene, double rate) { return make(scene, rate, settings); }};
+}
+
+// Set up for bounces where there are any, swept spheres on.
+std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
+    Settings settings;
+    settings.elastic = false;
+    settings.swept = true;
+    for (const Body& body : scene.bodies)
+        if (body.moves() && body.restitution > 0.0) settings.elastic = true;
+    return make(scene, rate, settings);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    const std::vector<Task> all{Task::pile, Task::spheres, Task::tower}, sleeping{Task::pile, Task::sleeping};
+#ifdef BT_USE_DOUBLE_PRECISION
     // Which gyroscopic term is taken matters in flight alone.
     const int body = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    return run_accuracy(argc, argv, "Bullet",
-                        {variant("gyro implicit body", {body}, {Demand::flight}),
-                         variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
-                         variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
-                         variant("sequential impulses", {body},
-                                 {Demand::impact, Demand::crowd, Demand::row_propagating, Demand::row_simultaneous}),
-                         variant("swept sphere", {body, true}, {Demand::thin_wall})});
+    Peer peer{"Bullet", {}, {}, {}};
+    peer.accuracy = {variant("gyro implicit body", {body}, {Demand::flight}),
+                     variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
+                     variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
+                     variant("sequential impulses", {body},
+                             {Demand::impact, Demand::crowd, Demand::row_propagating, Demand::row_simultaneous}),
+                     variant("swept sphere", {body, true}, {Demand::thin_wall})};
+    peer.contact = {way("f64, default", {Task::pile}, 10, false), way("f64, sleep", sleeping, 10, true),
+                    way("f64, 50 iterations", {Task::spheres, Task::tower}, 50, false)};
+    peer.stability = {{"f64, 50 iterations", true, make_steady}};
+#else
+    Peer peer{"Bullet", {}, {}, {}};
+    peer.contact = {way("f32, default", all, 10, false), way("f32, sleep", sleeping, 10, true)};
+#endif
+    return run_peer(argc, argv, peer);
 }

@@ -1,6 +1,6 @@
 // MuJoCo 2.2: Euler and RK4. Contacts are springs: e = 1 is an undamped one, as stiff as the step bears, e < 1 a damped
 // one with the logarithmic decrement of e.
-#include "accuracy/program.h"
+#include "peers/peer.h"
 
 #include <mujoco/mujoco.h>
 
@@ -21,11 +21,18 @@ std::string text(const Vector& v) {
     return out.str();
 }
 
+struct Settings {
+    std::string integrator = "Euler", solver = "Newton";
+    bool stiff = true;  // the shortest time constant it bears, two steps; else its default of 20 ms
+};
+
 // (-stiffness, -damping) of a contact, per unit of effective mass. The period is 12 steps (a stiffer spring gains
 // energy); e = exp(-zeta pi / sqrt(1 - zeta^2)).
-std::string solref(const Scene& scene, double h) {
+std::string solref(const Scene& scene, double h, bool stiff) {
     double e = 0.0;
-    for (const Body& body : scene.bodies) e = std::max(e, body.restitution);
+    for (const Body& body : scene.bodies)
+        if (body.moves()) e = std::max(e, body.restitution);
+    if (e == 0.0) return std::to_string(stiff ? 2.0 * h : std::max(0.02, 2.0 * h)) + " 1";
     const double omega = 2.0 * std::numbers::pi / (12.0 * h), decrement = -std::log(e);
     const double zeta = decrement / std::sqrt(std::numbers::pi * std::numbers::pi + decrement * decrement);
     std::ostringstream out;
@@ -34,26 +41,57 @@ std::string solref(const Scene& scene, double h) {
     return out.str();
 }
 
-std::string model_of(const Scene& scene, double h, const std::string& integrator) {
+std::string solimp(const Scene& scene, bool stiff) {
+    for (const Body& body : scene.bodies)
+        if (body.moves() && body.restitution > 0.0) return " solimp='0.9999 0.9999 0.001'";
+    return stiff ? " solimp='0.99 0.999 0.001'" : "";  // nearer to 1, CG does not converge
+}
+
+std::string model_of(const Scene& scene, double h, const Settings& settings) {
+    bool rough = false;
+    for (const Body& body : scene.bodies) rough |= body.friction > 0.0;
+    std::size_t shapes = 0;
+    for (const Body& body : scene.bodies) shapes += std::max<std::size_t>(1, 2 * body.parts.size());
+    const std::size_t contacts = std::max<std::size_t>(100, 8 * shapes), rows = (rough ? 3 : 1) * contacts;
     std::ostringstream xml;
     xml.precision(17);
-    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='" << integrator
-        << "'/><size nconmax='100' njmax='200'/><default><geom condim='1' solref='" << solref(scene, h)
-        << "' solimp='0.9999 0.9999 0.001'/></default><worldbody>";
-    for (const Body& body : scene.bodies) {
+    xml << "<mujoco><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='"
+        << settings.integrator << "' solver='" << settings.solver << "' cone='elliptic'/><size nconmax='" << contacts
+        << "' njmax='" << rows << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
+        << solref(scene, h, settings.stiff) << "'" << solimp(scene, settings.stiff) << "/></default><asset>";
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].kind != Kind::hexahedron) continue;
+        xml << "<mesh name='" << i << "' vertex='";
+        for (const Vector& corner : scene.bodies[i].corners) xml << text(corner) << ' ';
+        xml << "'/>";
+    }
+    xml << "</asset><worldbody>";
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
         const Orientation& q = body.orientation;
+        std::ostringstream material;  // a pair takes that of the higher priority, or the larger friction
+        material << " friction='" << told_friction(scene, body) << "' priority='" << (body.moves() ? 0 : 1) << "'";
         std::string geom;
-        if (body.kind == Kind::sphere) geom = "type='sphere' size='" + std::to_string(body.radius) + "'";
+        if (body.kind == Kind::sphere) geom = "type='sphere' size='" + text({body.radius, 0.0, 0.0}) + "'";
         if (body.kind == Kind::box) geom = "type='box' size='" + text(0.5 * body.size) + "'";
+        if (body.kind == Kind::hexahedron) geom = "type='mesh' mesh='" + std::to_string(i) + "'";
+        geom += material.str();
         if (body.kind == Kind::plane) {
             xml << "<geom type='plane' size='0 0 1' pos='" << text(body.offset * body.normal) << "' zaxis='"
-                << text(body.normal) << "'/>";
+                << text(body.normal) << "'" << material.str() << "/>";
         } else if (body.fixed) {
-            xml << "<geom " << geom << " pos='" << text(body.position) << "'/>";
+            xml << "<geom " << geom << " pos='" << text(body.position) << "' quat='" << q.w << ' ' << q.x << ' ' << q.y
+                << ' ' << q.z << "'/>";
         } else {
             xml << "<body pos='" << text(body.position) << "' quat='" << q.w << ' ' << q.x << ' ' << q.y << ' ' << q.z
                 << "'><freejoint/><inertial pos='0 0 0' mass='" << body.mass << "' diaginertia='"
-                << text(body.principal_inertia()) << "'/><geom " << geom << "/></body>";
+                << text(body.principal_inertia()) << "'/>";
+            if (body.kind != Kind::compound) xml << "<geom " << geom << "/>";
+            for (const BoxPart& part : body.parts)
+                xml << "<geom type='box' size='" << text(0.5 * part.size) << "' pos='" << text(part.position)
+                    << "' quat='" << part.orientation.w << ' ' << part.orientation.x << ' ' << part.orientation.y << ' '
+                    << part.orientation.z << "'" << material.str() << "/>";
+            xml << "</body>";
         }
     }
     xml << "</worldbody></mujoco>";
@@ -62,8 +100,8 @@ std::string model_of(const Scene& scene, double h, const std::string& integrator
 
 class MujocoSimulator : public Simulator {
 public:
-    MujocoSimulator(const Scene& scene, double rate, const std::string& integrator) : scene_(scene) {
-        const std::string xml = model_of(scene, 1.0 / rate, integrator);
+    MujocoSimulator(const Scene& scene, double rate, const Settings& settings) : scene_(scene) {
+        const std::string xml = model_of(scene, 1.0 / rate, settings);
         auto files = std::make_unique<mjVFS>();
         mj_defaultVFS(files.get());
         mj_makeEmptyFileVFS(files.get(), "scene.xml", int(xml.size()));
@@ -132,10 +170,35 @@ Variant variant(const std::string& integrator) {
                 return demand != Demand::crowd && demand != Demand::thin_wall;
             },
             [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
-                return std::make_unique<MujocoSimulator>(scene, rate, integrator);
+                return std::make_unique<MujocoSimulator>(scene, rate, Settings{integrator});
             }};
 }
 
+Way way(const std::string& name, std::vector<Task> tasks, const Settings& settings) {
+    return {name, std::move(tasks),
+            [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                return std::make_unique<MujocoSimulator>(scene, rate, settings);
+            },
+            300};
+}
+
+// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its
+// start.
+void complain(const char* text) { throw std::runtime_error(text); }
+
 }  // namespace
 
-int main(int argc, char** argv) { return run_accuracy(argc, argv, "MuJoCo", {variant("Euler"), variant("RK4")}); }
+int main(int argc, char** argv) {
+    mju_user_error = mju_user_warning = complain;
+    Peer peer{"MuJoCo", {variant("Euler"), variant("RK4")}, {}, {}};
+    peer.contact = {way("CG, stiff", {Task::spheres}, {"Euler", "CG", true}),
+                    way("Newton", {Task::tower}, {"Euler", "Newton", false}),
+                    way("Newton, stiff", {Task::tower}, {"Euler", "Newton", true})};
+    const auto steady = [](const std::string& integrator) {
+        return [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            return std::make_unique<MujocoSimulator>(scene, rate, Settings{integrator, "Newton", true});
+        };
+    };
+    peer.stability = {{"Newton, stiff", true, steady("Euler"), 200}, {"RK4", false, steady("RK4"), 200}};
+    return run_peer(argc, argv, peer);
+}

@@ -1,27 +1,61 @@
 // ODE 0.16 in double precision, gyroscopic terms on (its default).
-#include "accuracy/program.h"
+#include "peers/peer.h"
 
 #include <ode/ode.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <stdexcept>
 
 namespace {
 
 using namespace tumble::bench;
 
+struct Settings {
+    bool elastic = true;  // set up for bounces; else for rest
+    bool full = false;    // dWorldStep in place of the quick step
+    bool sleep = false;
+};
+
+// A hexahedron as ODE wants it, and keeps pointers to.
+struct Hull {
+    explicit Hull(const Corners& corners) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            points[3 * i] = corners[i].x;
+            points[3 * i + 1] = corners[i].y;
+            points[3 * i + 2] = corners[i].z;
+        }
+        for (std::size_t i = 0; i < 6; ++i) {
+            polygons[5 * i] = 4;
+            for (std::size_t k = 0; k < 4; ++k) polygons[5 * i + 1 + k] = unsigned(sides[i][k]);
+            const auto corner = [&](int k) { return corners[std::size_t(sides[i][k])]; };
+            Vector n = cross(corner(1) - corner(0), corner(3) - corner(0));
+            n = 1.0 / norm(n) * n;
+            planes[4 * i] = n.x;
+            planes[4 * i + 1] = n.y;
+            planes[4 * i + 2] = n.z;
+            planes[4 * i + 3] = dot(n, corner(0));
+        }
+    }
+    dReal points[24], planes[24];
+    unsigned polygons[30];
+};
+
 class OdeSimulator : public Simulator {
 public:
-    OdeSimulator(const Scene& scene, double rate)
+    OdeSimulator(const Scene& scene, double rate, const Settings& settings)
         : scene_(scene),
+          full_(settings.full),
           h_(1.0 / rate),
           world_(dWorldCreate()),
           space_(dHashSpaceCreate(nullptr)),
           contacts_(dJointGroupCreate(0)) {
         dWorldSetGravity(world_, 0.0, 0.0, -scene.gravity);
-        // Pushing overlaps out adds energy: SimBenchmark's elastic cases have it off too.
-        dWorldSetERP(world_, 0.0);
-        dWorldSetCFM(world_, 0.0);
-        dWorldSetAutoDisableFlag(world_, 0);
+        if (settings.elastic) {  // pushing overlaps out adds energy: SimBenchmark's elastic cases have it off too
+            dWorldSetERP(world_, 0.0);
+            dWorldSetCFM(world_, 0.0);
+        }
+        dWorldSetAutoDisableFlag(world_, settings.sleep);
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i);
     }
     ~OdeSimulator() override {
@@ -40,7 +74,7 @@ public:
             }
         }
         dSpaceCollide(space_, this, &OdeSimulator::touch);
-        dWorldQuickStep(world_, h_);
+        full_ ? dWorldStep(world_, h_) : dWorldQuickStep(world_, h_);
         dJointGroupEmpty(contacts_);
     }
 
@@ -58,7 +92,12 @@ private:
             geom = dCreatePlane(space_, body.normal.x, body.normal.y, body.normal.z, body.offset);
         if (body.kind == Kind::box) geom = dCreateBox(space_, body.size.x, body.size.y, body.size.z);
         if (body.kind == Kind::sphere) geom = dCreateSphere(space_, body.radius);
-        dGeomSetData(geom, &scene_.bodies[i]);
+        if (body.kind == Kind::hexahedron) {
+            hulls_.push_back(std::make_unique<Hull>(body.corners));
+            const Hull& hull = *hulls_.back();
+            geom = dCreateConvex(space_, hull.planes, 6, hull.points, 8, hull.polygons);
+        }
+        if (geom) dGeomSetData(geom, &scene_.bodies[i]);
         const dQuaternion q{body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z};
         bodies_.push_back(body.moves() ? dBodyCreate(world_) : nullptr);
         if (!body.moves()) {
@@ -72,7 +111,16 @@ private:
         const Vector inertia = body.principal_inertia();
         dMassSetParameters(&mass, body.mass, 0.0, 0.0, 0.0, inertia.x, inertia.y, inertia.z, 0.0, 0.0, 0.0);
         dBodySetMass(rigid, &mass);
-        dGeomSetBody(geom, rigid);
+        if (geom) dGeomSetBody(geom, rigid);
+        for (const BoxPart& part : body.parts) {
+            const dGeomID piece = dCreateBox(space_, part.size.x, part.size.y, part.size.z);
+            const Orientation& turned = part.orientation;
+            const dQuaternion offset{turned.w, turned.x, turned.y, turned.z};
+            dGeomSetData(piece, &scene_.bodies[i]);
+            dGeomSetBody(piece, rigid);
+            dGeomSetOffsetPosition(piece, part.position.x, part.position.y, part.position.z);
+            dGeomSetOffsetQuaternion(piece, offset);
+        }
         dBodySetPosition(rigid, body.position.x, body.position.y, body.position.z);
         dBodySetQuaternion(rigid, q);
         dBodySetLinearVel(rigid, body.velocity.x, body.velocity.y, body.velocity.z);
@@ -84,12 +132,16 @@ private:
         constexpr int most = 8;
         dContact contacts[most];
         const int n = dCollide(a, b, most, &contacts[0].geom, sizeof(dContact));
-        const double restitution = std::max(static_cast<const Body*>(dGeomGetData(a))->restitution,
-                                            static_cast<const Body*>(dGeomGetData(b))->restitution);
+        const auto &first = *static_cast<const Body*>(dGeomGetData(a)),
+                   &second = *static_cast<const Body*>(dGeomGetData(b));
+        if (&first == &second || (!first.moves() && !second.moves())) return;
+        const double restitution =
+            std::max(first.moves() ? first.restitution : 0.0, second.moves() ? second.restitution : 0.0);
         auto* world = static_cast<OdeSimulator*>(self);
         for (int i = 0; i < n; ++i) {
             contacts[i].surface = dSurfaceParameters{};
-            contacts[i].surface.mode = dContactBounce;
+            contacts[i].surface.mode = dContactBounce | dContactApprox1;
+            contacts[i].surface.mu = std::sqrt(first.friction * second.friction);
             contacts[i].surface.bounce = restitution;  // from any speed on: bounce_vel is 0
             dJointAttach(dJointCreateContact(world->world_, world->contacts_, &contacts[i]), dGeomGetBody(a),
                          dGeomGetBody(b));
@@ -97,24 +149,55 @@ private:
     }
 
     Scene scene_;
+    bool full_;
     double h_;
     dWorldID world_;
     dSpaceID space_;
     dJointGroupID contacts_;
     std::vector<dBodyID> bodies_;
+    std::vector<std::unique_ptr<Hull>> hulls_;
 };
+
+Way way(const std::string& name, std::vector<Task> tasks, const Settings& settings, std::size_t most_bodies) {
+    return {name, std::move(tasks),
+            [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                return std::make_unique<OdeSimulator>(scene, rate, settings);
+            },
+            most_bodies};
+}
+
+std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
+    Settings settings;
+    settings.elastic = false;
+    for (const Body& body : scene.bodies)
+        if (body.moves() && body.restitution > 0.0) settings.elastic = true;
+    return std::make_unique<OdeSimulator>(scene, rate, settings);
+}
+
+// In place of ending the program, and of talking at each step that its solver gives up.
+void fail(int, const char* text, va_list) { throw std::runtime_error(text); }
+void be_silent(int, const char*, va_list) {}
 
 }  // namespace
 
 int main(int argc, char** argv) {
     dInitODE2(0);
+    dSetErrorHandler(fail);
+    dSetDebugHandler(fail);
+    dSetMessageHandler(be_silent);
+    Peer peer{"ODE", {}, {}, {}};
     // The full step (dWorldStep) is left out: in flight it is the quick step, in crowds its dense matrix takes minutes,
     // and on rows its LCP solver gives up ("internal error, s <= 0").
-    const Variant quickstep{"quickstep", [](Demand) { return true; },
-                            [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
-                                return std::make_unique<OdeSimulator>(scene, rate);
-                            }};
-    const int code = run_accuracy(argc, argv, "ODE", {quickstep});
+    peer.accuracy = {{"quickstep", [](Demand) { return true; },
+                      [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                          return std::make_unique<OdeSimulator>(scene, rate, Settings{});
+                      }}};
+    const Settings rest{false, false, false}, sleep{false, false, true}, full{false, true, false};
+    peer.contact = {way("quickstep", {Task::pile, Task::spheres, Task::tower}, rest, 100000),
+                    way("sleep", {Task::pile, Task::sleeping}, sleep, 100000),
+                    way("full step", {Task::tower}, full, 30)};  // its dense matrix takes minutes for more
+    peer.stability = {{"quickstep", true, make_steady}};
+    const int code = run_peer(argc, argv, peer);
     dCloseODE();
     return code;
 }

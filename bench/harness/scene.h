@@ -1,8 +1,10 @@
-// The scenes of the accuracy benchmark as plain numbers, for Tumble and its peers alike. SI units, world frame, z up.
+// The scenes of the benchmarks as plain numbers, for Tumble and its peers alike. SI units, world frame, z up.
 // Nothing here knows a simulation library, and there is no Eigen: DART brings its own with another alignment.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,20 +27,37 @@ struct Orientation {
     double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
 };
 Orientation turn(const Vector& axis, double radians);
+Orientation operator*(const Orientation& a, const Orientation& b);  // first b, then a
 Vector rotate(const Orientation& q, const Vector& v);
 Vector rotate_back(const Orientation& q, const Vector& v);
 
-enum class Kind { plane, box, sphere };
+/// hexahedron: a box with its corners moved, all faces flat; here the stones of arches. compound: several boxes.
+enum class Kind { plane, box, sphere, hexahedron, compound };
+
+/// Corner i of a box or hexahedron lies at the + end of x, y, z where bit 0, 1, 2 of i is set.
+using Corners = std::array<Vector, 8>;
+/// The corners of its six sides, -x +x -y +y -z +z, each counterclockwise from outside; and of its twelve edges.
+inline constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+inline constexpr int edges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                     {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+struct BoxPart {
+    Vector size, position;  // m; body frame
+    Orientation orientation;
+};
 
 struct Body {
     Kind kind = Kind::sphere;
     Vector size;                   // box: edge lengths, m
+    Corners corners{};             // hexahedron, m, from its centre of mass, along its principal axes
+    std::vector<BoxPart> parts;    // compound, about its centre of mass, along its principal axes
     double radius = 0.0;           // sphere, m
     Vector normal{0.0, 0.0, 1.0};  // plane: unit; solid are the points p with normal . p < offset
     double offset = 0.0;           // m
     bool fixed = false;            // planes always are
     double mass = 1.0;             // kg, spread evenly over the volume
-    double restitution = 1.0;      // no friction anywhere
+    double restitution = 1.0;      // a pair takes the larger of the moving ones'
+    double friction = 0.0;         // of its material; a pair takes sqrt(a b)
     Vector position;               // m, of the centre of mass
     Orientation orientation;
     Vector velocity;          // m/s
@@ -46,6 +65,8 @@ struct Body {
 
     bool moves() const { return !fixed && kind != Kind::plane; }
     Vector principal_inertia() const;  // kg m^2, about the body's own axes
+    Corners outline() const;           // the corners of a box or hexahedron, body frame
+    double reach() const;              // m, of the farthest point from the centre; infinite for planes
 };
 
 /// F = 1/2 density drag A |w - v| (w - v) at the centre of mass, A a quarter of the surface (Cauchy's mean projection).
@@ -78,6 +99,10 @@ struct Wrench {
 /// Air and push on a body, for the peers, which take forces from outside.
 Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion);
 double mean_projected_area(const Body& body);
+
+/// What engines are told that take the smaller (or, of fixed bodies first, their own) friction of a pair: fixed bodies
+/// that of the pair with the first moving body, moving ones their own.
+double told_friction(const Scene& scene, const Body& body);
 
 /// Kinetic and potential energy, J.
 double energy(const Scene& scene, const std::vector<Motion>& motions);

@@ -1,0 +1,49 @@
+// A case of the contact benchmark: a scene at one step, how often it is looked at, and what is told of it.
+#pragma once
+
+#include "harness/simulator.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble::bench {
+
+struct Quantity {
+    std::string name;
+    double value = 0.0;
+    std::string unit;
+};
+
+/// Looks at the bodies at the start, now and then, and at the end.
+class Witness {
+public:
+    virtual ~Witness() = default;
+    virtual void see(double time, const std::vector<Motion>& motions) = 0;
+    virtual std::vector<Quantity> tell() const = 0;
+};
+
+/// pile: speed, by all ways of a program (threads, sleep); sleeping: only ways that sleep; the others: its best alone.
+enum class Task { pile, sleeping, spheres, tower };
+
+struct ContactCase {
+    std::string name;
+    Task task = Task::tower;
+    Scene scene;
+    double rate = 60.0;     // steps a second
+    double seconds = 10.0;  // simulated
+    double quick_seconds = 0.5;
+    double look_every = 0.1;  // s
+    std::function<std::unique_ptr<Witness>(const Scene&)> witness;
+};
+
+std::vector<ContactCase> contact_cases();
+
+// What contact_cases() is put together from; a file each.
+void add_piles(std::vector<ContactCase>& cases);    // D1 ... D2r, sleepers, energy in a pit
+void add_spheres(std::vector<ContactCase>& cases);  // C, SimBenchmark 666
+void add_towers(std::vector<ContactCase>& cases);   // stacks, mass ratios, pyramid, arch, card house
+void add_slides(std::vector<ContactCase>& cases);   // inclines, SimBenchmark rolling, 600 s of rest
+
+}  // namespace tumble::bench

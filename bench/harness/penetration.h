@@ -1,0 +1,26 @@
+// How deep bodies overlap, by separating axes of the benchmark's own: the same judge for every program.
+#pragma once
+
+#include "harness/scene.h"
+
+#include <vector>
+
+namespace tumble::bench {
+
+struct Penetration {
+    long pairs = 0;        // nearer than `near`
+    double mean = 0.0;     // m, of max(0, depth) over those pairs
+    double largest = 0.0;  // m
+    double squares = 0.0;  // m^2, sum of squared depths
+};
+
+/// Over all pairs of which at least one body moves. Bodies that are not finite are left out.
+Penetration penetration(const Scene& scene, const std::vector<Motion>& motions, double near = 0.01);
+
+/// The least overlap over all separating axes, m; below -near only its sign counts. Spheres meet planes, boxes and each
+/// other; hexahedra meet planes, boxes and each other.
+double depth(const Body& a, const Motion& at, const Body& b, const Motion& bt, double near = 0.01);
+
+bool finite(const Motion& motion);
+
+}  // namespace tumble::bench

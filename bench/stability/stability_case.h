@@ -1,0 +1,42 @@
+// A case of the stability map: a family of scenes over (step, parameter), and a pass line stated beforehand.
+#pragma once
+
+#include "harness/simulator.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tumble::bench {
+
+/// One cell of a map: what is run, and what is watched.
+struct Trial {
+    Scene scene;
+    double seconds = 5.0;
+    long look_every = 1;  // steps
+    /// How bad it is now, 1 being the pass line; the worst of all looks counts. The run ends where it is crossed.
+    std::function<double(double time, const std::vector<Motion>& motions)> watch;
+};
+
+struct StabilityCase {
+    std::string name;
+    std::string parameter;  // with its unit
+    std::string pass_line;  // in words, for the table
+    std::vector<double> parameters;
+    std::vector<double> rates;  // steps a second
+    std::function<Trial(double parameter, double rate)> trial;
+    bool flight = false;  // nothing touches: every integrator has its own map
+};
+
+std::vector<StabilityCase> stability_cases();
+
+// What stability_cases() is put together from; a file each.
+void add_loads(std::vector<StabilityCase>& cases);    // stacks, mass ratios, scales, far from the origin, 600 s of rest
+void add_spins(std::vector<StabilityCase>& cases);    // spins, inertia ratios, a million steps of tumbling
+void add_strikes(std::vector<StabilityCase>& cases);  // thin walls, restitution, friction, deep overlap, needles
+
+/// 1/30 ... 1/1920 s.
+std::vector<double> stability_rates();
+
+}  // namespace tumble::bench

@@ -1,0 +1,113 @@
+#include "tumble/tumble_simulator.h"
+
+#include "sim/world.h"
+
+namespace tumble::bench {
+namespace {
+
+Vec3 vec(const Vector& v) { return {v.x, v.y, v.z}; }
+Vector vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::shared_ptr<const MeshAsset> mesh_of(const Body& body) {
+    auto asset = std::make_shared<MeshAsset>();
+    for (const Vector& corner : body.corners) asset->surface.vertices.push_back(vec(corner));
+    for (const auto& s : sides) {
+        const auto corner = [&](int i) { return std::uint32_t(s[i]); };
+        asset->surface.triangles.push_back({corner(0), corner(1), corner(2)});
+        asset->surface.triangles.push_back({corner(0), corner(2), corner(3)});
+    }
+    return asset;
+}
+
+CompoundShape compound_of(const Body& body) {
+    auto parts = std::make_shared<std::vector<CompoundPart>>();
+    for (const BoxPart& part : body.parts) {
+        const Orientation& q = part.orientation;
+        CompoundPart p;
+        p.shape = BoxShape{vec(part.size)};
+        p.position = vec(part.position);
+        p.rotation = Quat(q.w, q.x, q.y, q.z);
+        parts->push_back(p);
+    }
+    return {parts};
+}
+
+BodyDescription described(const Body& body, std::size_t index) {
+    BodyDescription d;
+    d.name = std::to_string(index);
+    if (!body.moves()) d.type = BodyType::fixed;
+    switch (body.kind) {
+        case Kind::plane:
+            d.shape = PlaneShape{vec(body.normal), body.offset};
+            break;
+        case Kind::box:
+            d.shape = BoxShape{vec(body.size)};
+            break;
+        case Kind::sphere:
+            d.shape = SphereShape{body.radius};
+            break;
+        case Kind::hexahedron:
+            d.shape = MeshShape{mesh_of(body)};
+            break;
+        case Kind::compound:
+            d.shape = compound_of(body);
+            break;
+    }
+    if (body.moves()) d.mass = body.mass;
+    d.restitution = body.restitution;
+    d.friction = body.friction;
+    d.position = vec(body.position);
+    d.rotation = Quat(body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z);
+    d.velocity = vec(body.velocity);
+    d.angular_velocity = vec(body.angular_velocity);
+    return d;
+}
+
+SceneDescription described(const Scene& scene, double rate, const TumbleSettings& settings) {
+    SceneDescription d;
+    d.output.fps = rate;  // a frame a step, so that step-free ways get no more help from frames than from steps
+    d.simulation.steps_per_frame = 1;
+    d.simulation.gravity = Vec3(0.0, 0.0, -scene.gravity);
+    d.simulation.integrator = settings.integrator;
+    d.simulation.impacts = settings.impacts;
+    d.simulation.impact_law = settings.law;
+    d.simulation.sleep = settings.sleep;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) d.bodies.push_back(described(scene.bodies[i], i));
+    if (scene.air) d.wind = WindDescription{vec(scene.air->velocity), scene.air->density, scene.air->drag};
+    if (scene.push)
+        d.forces.push_back(
+            {0, vec(scene.push->point), vec(scene.push->force), true, 0.0, std::numeric_limits<double>::infinity()});
+    return d;
+}
+
+class TumbleSimulator : public Simulator {
+public:
+    TumbleSimulator(const Scene& scene, double rate, const TumbleSettings& settings)
+        : world_(described(scene, rate, settings), settings.threads) {}
+
+    void step() override {
+        world_.advance_frame();
+        fresh_ = false;
+    }
+
+    Motion motion(std::size_t body) const override {
+        if (!fresh_) snapshot_ = world_.snapshot();
+        fresh_ = true;
+        const BodyState& s = snapshot_.bodies[body];
+        const Quat& q = s.orientation;
+        return {vector(s.center_of_mass), {q.w(), q.x(), q.y(), q.z()}, vector(s.velocity), vector(s.angular_velocity)};
+    }
+
+private:
+    World world_;
+    mutable Snapshot snapshot_;
+    mutable bool fresh_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_tumble(const Scene& scene, double rate, const TumbleSettings& settings) {
+    return std::make_unique<TumbleSimulator>(scene, rate, settings);
+}
+
+}  // namespace tumble::bench
