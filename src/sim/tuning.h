@@ -82,7 +82,7 @@ inline constexpr double direct_push_across = 0.03;
 inline constexpr std::size_t direct_small_bodies = 3;
 inline constexpr std::size_t direct_small_manifolds = 8;
 /// All islands of a scene with so few manifolds in contact are.
-inline constexpr std::size_t direct_few_manifolds = 128;
+inline constexpr std::size_t direct_few_manifolds = 32;
 /// Larger ones when a body carries so many times its own mass, and up to so many bodies.
 inline constexpr double direct_load_ratio = 16.0;
 inline constexpr std::size_t direct_most_bodies = 512;
