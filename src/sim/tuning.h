@@ -36,12 +36,11 @@ inline constexpr double restitution_threshold = 2.0;
 inline constexpr double soft_substep = 1.0 / 480.0;
 inline constexpr int soft_least_substeps = 4;
 inline constexpr int soft_most_substeps = 64;
-/// Where a body carries more than so many times its own mass, substeps are halved, or halved twice: tall piles of soft
-/// contacts would buckle.
-inline constexpr double soft_load_ratio = 32.0;
-inline constexpr double soft_large_load_ratio = 128.0;
-/// Steps for which a load ratio is taken to hold, in islands that are solved softly.
-inline constexpr int soft_load_ratio_age = 8;
+/// Piles of more levels than this get substeps half as long, or a quarter: high piles of soft contacts would buckle.
+inline constexpr int soft_high_pile = 32;
+inline constexpr int soft_very_high_pile = 64;
+/// Steps for which the load of an island that is solved softly is taken to hold.
+inline constexpr int soft_load_age = 8;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
 /// keeps a pyramid trembling (0.25: 0.1 m/s), softer sinks in (0.125: twice the overlap).
 inline constexpr double soft_frequency = 0.18;

@@ -35,21 +35,21 @@ void temper(Manifold& m, const ContactProblem& problem) {
 ContactSolver::ContactSolver(std::size_t bodies, int threads, Choice choice)
     : choice_(choice), memory_(bodies), load_ratio_(bodies), soft_(bodies, threads) {}
 
-// As it was up to `holds` steps ago; 1 where no body can carry much.
-double ContactSolver::load_ratio(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
+// As it was up to `holds` steps ago; not looked at where no body can carry much.
+PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
-    if (memory.looked-- > 0) return memory.load_ratio;
+    if (memory.looked-- > 0) return memory.load;
     memory.looked = holds;
-    memory.load_ratio = 1.0;
+    memory.load = {};
     double mass = 0.0, least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t i : bodies) {
         mass += problem.bodies[i].mass;
         least = std::min(least, problem.bodies[i].mass);
     }
     if (mass >= tuning::direct_load_ratio * least)
-        memory.load_ratio = load_ratio_.find(problem.bodies, problem.manifolds, bodies, islands.manifolds(island));
-    return memory.load_ratio;
+        memory.load = loads_.find(problem.bodies, problem.manifolds, bodies, islands.manifolds(island));
+    return memory.load;
 }
 
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
@@ -77,7 +77,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             continue;
         }
         if (bodies.size() <= tuning::direct_most_bodies) {
-            const double ratio = load_ratio(problem, islands, k, 0);
+            const double ratio = load(problem, islands, k, 0).ratio;
             if (few || ratio >= tuning::direct_load_ratio) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 const std::size_t work = memory.solver->factor_work(problem, bodies, manifolds);
@@ -109,8 +109,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 }
 
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
-    const double ratio = load_ratio(problem, islands, island, tuning::soft_load_ratio_age);
-    return ratio > tuning::soft_large_load_ratio ? 4 : ratio > tuning::soft_load_ratio ? 2 : 1;
+    const int levels = load(problem, islands, island, tuning::soft_load_age).levels;
+    return levels > tuning::soft_very_high_pile ? 4 : levels > tuning::soft_high_pile ? 2 : 1;
 }
 
 // Soft islands into parts of as fine substeps: as many as threads where no island is a large share, else one.

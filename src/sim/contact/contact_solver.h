@@ -7,7 +7,7 @@
 
 #include "sim/contact/contact_islands.h"
 #include "sim/contact/direct_solver.h"
-#include "sim/contact/load_ratio.h"
+#include "sim/contact/pile_load.h"
 #include "sim/contact/soft_solver.h"
 
 #include <memory>
@@ -29,7 +29,7 @@ private:
         std::unique_ptr<DirectSolver> solver;
         int wait = 0, failures = 0;   // steps until the next trial; failures in a row
         int factorisations = 2;       // of the last solve: what the next may take
-        double load_ratio = 1.0;      // as of the last look
+        PileLoad load;                // as of the last look
         int looked = 0;               // steps for which that holds
     };
     struct Candidate {
@@ -38,13 +38,13 @@ private:
         std::size_t work;
     };
     void choose(const ContactProblem& problem, const ContactIslands& islands);
-    double load_ratio(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds);
+    PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
 
     Choice choice_;
     std::vector<Memory> memory_;          // by body
-    LoadRatio load_ratio_;
+    PileLoads loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;
     std::vector<std::size_t> direct_, softly_;   // islands

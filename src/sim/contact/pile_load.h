@@ -1,5 +1,5 @@
-// How much an island's bodies carry against what they weigh: where that is much, sweeps converge slowly, whether it is a
-// stack of many or one heavy body on a light one.
+// How an island bears its load: how much its bodies carry against what they weigh, and how high it is piled. Where either is
+// much, sweeps converge slowly, whether it is a stack of many or one heavy body on a light one.
 #pragma once
 
 #include "sim/body.h"
@@ -11,14 +11,19 @@
 
 namespace tumble {
 
-class LoadRatio {
-public:
-    explicit LoadRatio(std::size_t bodies) : nodes_(bodies) {}
-
+struct PileLoad {
     /// The largest ratio, over the island's bodies, of the mass a body carries (its own included) to its own mass. From
     /// the bodies that touch something fixed outwards, each hands down what it carries in equal shares to its neighbours
     /// one level nearer.
-    double find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> island_bodies,
+    double ratio = 1.0;
+    int levels = 1;   // bodies between the farthest one and what is fixed, itself included
+};
+
+class PileLoads {
+public:
+    explicit PileLoads(std::size_t bodies) : nodes_(bodies) {}
+
+    PileLoad find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> island_bodies,
                 std::span<const std::uint32_t> island_manifolds);
 
 private:

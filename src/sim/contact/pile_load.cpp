@@ -1,11 +1,11 @@
-#include "sim/contact/load_ratio.h"
+#include "sim/contact/pile_load.h"
 
 #include <algorithm>
 
 namespace tumble {
 
-double LoadRatio::find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
-                       std::span<const std::uint32_t> island_bodies, std::span<const std::uint32_t> island_manifolds) {
+PileLoad PileLoads::find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
+                         std::span<const std::uint32_t> island_bodies, std::span<const std::uint32_t> island_manifolds) {
     for (const std::uint32_t i : island_bodies) nodes_[i] = {-1, 0, 0, bodies[i].mass};
     const auto both = [&](const Manifold& m) { return bodies[m.a].dynamic() && bodies[m.b].dynamic(); };
     order_.clear();
@@ -45,17 +45,18 @@ double LoadRatio::find(const std::vector<Body>& bodies, const std::vector<Manifo
             order_.push_back(j);
         });
     }
-    double largest = 1.0;
+    PileLoad pile;
     for (std::size_t k = order_.size(); k-- > 0;) {
         const Node& node = nodes_[order_[k]];
-        largest = std::max(largest, node.load / bodies[order_[k]].mass);
+        pile.ratio = std::max(pile.ratio, node.load / bodies[order_[k]].mass);
+        pile.levels = std::max(pile.levels, node.level + 1);
         int lower = 0;
         each_neighbour(order_[k], [&](Node& other, std::uint32_t) { lower += other.level < node.level; });
         each_neighbour(order_[k], [&](Node& other, std::uint32_t) {
             if (other.level < node.level) other.load += node.load / lower;
         });
     }
-    return largest;
+    return pile;
 }
 
 }  // namespace tumble
