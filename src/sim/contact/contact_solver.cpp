@@ -33,7 +33,7 @@ void temper(Manifold& m, const ContactProblem& problem) {
 }  // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, int threads, Choice choice)
-    : choice_(choice), memory_(bodies), load_ratio_(bodies), soft_(bodies, threads) {}
+    : choice_(choice), memory_(bodies), loads_(bodies), soft_(bodies, threads) {}
 
 // As it was up to `holds` steps ago; not looked at where no body can carry much.
 PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
