@@ -223,14 +223,15 @@ void World::State::apply_forces() {
     for (const std::uint32_t i : awake_bodies) {
         Body& body = bodies[i];
         if (body.flying) continue;
-        body.derive();
+        if (flights) body.derive();   // brought here from a flight, perhaps
+        else body.derive_velocities();   // collisions may have changed the momenta
         old_velocity[i] = body.velocity;
         old_angular_velocity[i] = body.angular_velocity;
         const Wrench wrench = forces.at(i, body, now);
         before_forces[i] = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
         after_forces[i] = {body.momentum, body.angular_momentum};
-        body.derive();
+        body.derive_velocities();
     }
 }
 
@@ -258,9 +259,12 @@ const std::vector<StepMotion>& World::State::step_motions() {
 // Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
 // find their impacts themselves.
 const std::vector<StepLimit>& World::State::held_limits() {
-    pairs = broad_phase.update(bodies, h);
-    std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
-    return motion_limit.limits(pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
+        pairs = broad_phase.update(bodies, h);
+        std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
+        return pairs;
+    };
+    return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
 // What a kinematic body has run into goes along with it for the rest of the step.
@@ -277,8 +281,8 @@ void World::State::move() {
         place_kinematic_bodies();
         return;
     }
-    const auto& limits = motion_limit.limits(broad_phase.update(bodies, h), touch_depth(*manifolds, bodies), bodies, moving_bodies,
-                                             step_motions(), h);
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h); };
+    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
     for (const std::uint32_t i : awake_bodies) {
         Body& body = bodies[i];
         const double share = limits[i].share;

@@ -40,8 +40,16 @@ Softness softness(double frequency, double d) {
 // What is needed of a manifold to give its impulses back.
 struct Source {
     std::uint32_t manifold = UINT32_MAX;
-    int count = 0;
+    std::uint8_t count = 0;
     std::uint8_t point[Manifold::capacity] = {};
+};
+
+// What packing needs of a body, close together in memory.
+struct Place {
+    Vec3 position;
+    double radius, friction, restitution;
+    std::uint32_t slot;
+    bool dynamic;
 };
 
 void put(float* row, int stride, const Vec3& v) {
@@ -72,7 +80,10 @@ private:
     static constexpr int colors = 64;   // bits of a mask; what finds none free is solved one by one
 
     void pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
-    std::uint32_t slot_of(const Body& body, std::uint32_t index, const ContactProblem& problem, const std::vector<std::uint32_t>& slot);
+    Place place_of(const Body& body, std::uint32_t slot) const {
+        return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
+    }
+    Place find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const;
     void color(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot);
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
     template <class Pass>
@@ -90,6 +101,7 @@ private:
     Softness moving_{}, fixed_{};
     AlignedFloats state_, mass_, before_, forces_, rows_;   // before_, forces_: 8 floats a slot
     std::size_t slots_ = 0;
+    std::vector<Place> places_;                       // by slot
     std::vector<std::uint32_t> movers_;               // kinematic bodies, by slot from the first after the dynamic ones
     std::vector<std::vector<std::uint32_t>> by_color_;
     std::vector<std::uint64_t> mask_;                 // by slot: colours taken
@@ -118,10 +130,12 @@ void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& p
     std::fill_n(forces_.data(), slots_ * 8, 0.0f);
     std::fill_n(before_.data(), slots_ * 8, 0.0f);
     const double share = 1.0 / substeps_;
+    places_.resize(dynamic + 1);
     for (std::size_t k = 0; k < dynamic; ++k) {
         const std::uint32_t i = part.bodies[k];
         const Body& body = problem.bodies[i];
         slot[i] = std::uint32_t(k + 1);
+        places_[k + 1] = place_of(body, slot[i]);
         float* s = state(k + 1);
         put(s, 1, problem.velocity_before[i]);
         put(s + 3, 1, problem.angular_velocity_before[i]);
@@ -146,12 +160,12 @@ void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& p
     }
 }
 
-std::uint32_t SoftSolver::Batch::slot_of(const Body& body, std::uint32_t index, const ContactProblem&,
-                                         const std::vector<std::uint32_t>& slot) {
-    if (body.dynamic()) return slot[index];
-    if (body.type != BodyType::kinematic) return soft::unmoved;
-    const auto place = std::lower_bound(movers_.begin(), movers_.end(), index) - movers_.begin();
-    return soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place));
+Place SoftSolver::Batch::find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const {
+    const Body& b = problem.bodies[body];
+    if (b.dynamic()) return places_[slot[body]];
+    if (b.type != BodyType::kinematic) return place_of(b, soft::unmoved);
+    const auto place = std::lower_bound(movers_.begin(), movers_.end(), body) - movers_.begin();
+    return place_of(b, soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
 // Greedily in the manifolds' order: the least colour neither body has. What a body gets depends on its island alone.
@@ -175,51 +189,50 @@ void SoftSolver::Batch::color(const ContactProblem& problem, const Part& part, c
 
 void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
                                   const std::vector<std::uint32_t>& slot) {
-    const Manifold& m = problem.manifolds[manifold];
-    const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+    Manifold& m = problem.manifolds[manifold];
+    const Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
     const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
     const int stride = kernel_.lanes;
-    lane_bodies_[2 * lanes * g + l] = slot_of(a, m.a, problem, slot);
-    lane_bodies_[2 * lanes * g + lanes + l] = slot_of(b, m.b, problem, slot);
-    const ContactPatch patch = make_patch(m, a, b, problem.patches);
-    if (patch.count == 0) {   // left to bounce
-        release(problem.manifolds[manifold]);
-        return;
-    }
-    Source& source = sources_[lane];
-    source.manifold = manifold;
-    source.count = patch.count;
-    lane_points_[g] = std::max(lane_points_[g], std::uint8_t(patch.count));
-
+    lane_bodies_[2 * lanes * g + l] = a.slot;
+    lane_bodies_[2 * lanes * g + lanes + l] = b.slot;
     const double share = 1.0 / substeps_;
-    const auto put_row = [&](int r, double value) { row(g, r)[l] = float(value); };
-    put(row(g, soft::normal) + l, stride, patch.normal);
-    put(row(g, soft::tangent_1) + l, stride, patch.tangent_1);
-    put(row(g, soft::friction_arm_a) + l, stride, patch.friction_arm_a);
-    put(row(g, soft::friction_arm_b) + l, stride, patch.friction_arm_b);
-    const Softness& soft = a.dynamic() && b.dynamic() ? moving_ : fixed_;
-    put_row(soft::friction_coefficient, patch.friction);
-    put_row(soft::impact_impulse, share * patch.impact);
+    const double size = std::min(a.radius, b.radius);
+    const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
+    Source& source = sources_[lane];
+    double impact = 0.0;
+    int count = 0;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
+        source.point[count] = std::uint8_t(i);
+        float* row = point_row(g, count++, 0) + l;
+        put(row + soft::arm_a * stride, stride, p.position - a.position);
+        put(row + soft::arm_b * stride, stride, p.position - b.position);
+        row[soft::normal_mass * stride] = 1.0f;
+        row[soft::separation * stride] = float(p.separation);
+        row[soft::bounce * stride] = float(p.bounce);
+        row[soft::impulse * stride] = float(share * p.impulse);
+        impact += p.impact;
+    }
+    if (count == 0) return release(m);   // left to bounce
+    source.manifold = manifold;
+    source.count = std::uint8_t(count);
+    lane_points_[g] = std::max(lane_points_[g], source.count);
+
+    float* head = row(g, 0) + l;
+    const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
+    put(head + soft::normal * stride, stride, m.normal);
+    put(head + soft::tangent_1 * stride, stride, m.tangent);
+    const Softness& soft = a.dynamic && b.dynamic ? moving_ : fixed_;
+    put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    put_row(soft::impact_impulse, share * impact);
     put_row(soft::bias_rate, soft.bias_rate);
     put_row(soft::mass_scale, soft.mass_scale);
     put_row(soft::impulse_scale, soft.impulse_scale);
-    put_row(soft::slop, tuning::soft_slop * patch.size);
-    put_row(soft::push_limit, tuning::push_limit * patch.size);
+    put_row(soft::size, size);
     put_row(soft::friction_1, share * m.friction[0]);
     put_row(soft::friction_2, share * m.friction[1]);
     put_row(soft::twist, share * m.twist);
-    for (int i = 0; i < patch.count; ++i) {
-        const ContactPatch::Point& p = patch.points[std::size_t(i)];
-        source.point[i] = std::uint8_t(p.source);
-        const auto put_point = [&](int r, double value) { point_row(g, i, r)[l] = float(value); };
-        put(point_row(g, i, soft::arm_a) + l, stride, p.arm_a);
-        put(point_row(g, i, soft::arm_b) + l, stride, p.arm_b);
-        put_point(soft::normal_mass, 1.0);
-        put_point(soft::separation, p.separation);
-        put_point(soft::bounce, p.bounce);
-        put_point(soft::lever, p.lever);
-        put_point(soft::impulse, share * p.impulse);
-    }
 }
 
 void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
@@ -314,6 +327,7 @@ void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& b
         share_of(1, slots_, [&](std::size_t f, std::size_t l) { move_poses(f, l); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
     }
+    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.sum(groups, f, l); });
 }
 
 void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) {
@@ -325,33 +339,18 @@ void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) 
         if (source.manifold == UINT32_MAX) continue;
         const std::size_t g = lane / lanes, l = lane % lanes;
         Manifold& m = problem.manifolds[source.manifold];
-        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        const float* head = row(g, 0) + l;
+        const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
         release(m);
-        const Vec3 tangent_1{row(g, soft::tangent_1)[l], row(g, soft::tangent_1)[lanes + l], row(g, soft::tangent_1)[2 * lanes + l]};
-        const Vec3 tangent_2 = m.normal.cross(tangent_1);
-        Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   // N s on B, and its moment about A's centre
-        Vec3 center = Vec3::Zero();
-        double weights = 0.0;
-        const double near = tuning::friction_near * std::min(a.radius, b.radius);
-        for (int i = 0; i < source.count; ++i) {
-            ContactPoint& p = m.points[source.point[i]];
-            p.impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
-            const Vec3 arm = p.position - a.position;
-            const Vec3 j = double(point_row(g, i, soft::impulse_sum)[l]) * m.normal;
-            force += j;
-            moment += arm.cross(j);
-            const double weight = p.separation < near ? 1.0 : tuning::friction_far_weight;
-            center += weight * arm;
-            weights += weight;
-        }
-        const Vec3 friction = double(row(g, soft::friction_1_sum)[l]) * tangent_1 + double(row(g, soft::friction_2_sum)[l]) * tangent_2;
-        force += friction;
-        moment += (center / weights).cross(friction) + double(row(g, soft::twist_sum)[l]) * m.normal;
-        m.friction[0] = substeps_ * double(row(g, soft::friction_1)[l]);
-        m.friction[1] = substeps_ * double(row(g, soft::friction_2)[l]);
-        m.twist = substeps_ * double(row(g, soft::twist)[l]);
-        m.tangent = a.rotation.transpose() * tangent_1;
+        for (int i = 0; i < source.count; ++i)
+            m.points[source.point[i]].impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
+        m.friction[0] = substeps_ * double(head[soft::friction_1 * lanes]);
+        m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
+        m.twist = substeps_ * double(head[soft::twist * lanes]);
+        m.tangent = three(soft::tangent_1);
+        const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         if (a.dynamic()) {
             reached[lane_bodies_[2 * lanes * g + l]] = 1;
             a.momentum -= force;
@@ -366,7 +365,7 @@ void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) 
     for (std::size_t k = 0; k < part.bodies.size(); ++k) {
         if (!reached[k + 1]) continue;
         Body& body = problem.bodies[part.bodies[k]];
-        body.derive();
+        body.derive_velocities();
         const float* moved = state(k + 1) + 8;
         const double rate = 1.0 / problem.patches.h;
         body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;

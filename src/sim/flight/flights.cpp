@@ -492,7 +492,8 @@ const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uin
         }
     }
     sort_unique(pairs);
-    return motion_limit_.limits(pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
+    return motion_limit_.limits(find_pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
                                 clock_.between(now, {now.step + 1, 0.0}));
 }
 
