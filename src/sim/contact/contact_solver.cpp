@@ -72,7 +72,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        if (bodies.size() <= tuning::direct_small_bodies && manifolds.size() <= tuning::direct_small_manifolds) {
+        if (bodies.size() == 1 && manifolds.size() <= tuning::direct_small_manifolds) {
             direct_.push_back(k);
             continue;
         }

@@ -75,6 +75,9 @@ struct Groups {
 struct Bodies {
     float* state = nullptr;                    // body_floats each, aligned to 64 bytes
     const float* mass = nullptr;               // mass_floats each
+    // 8 each, like the velocities: what a substep's forces add, and the velocities it began with, forces included.
+    const float* forces = nullptr;
+    float* start = nullptr;
 };
 
 struct Kernel {
@@ -83,6 +86,10 @@ struct Kernel {
     void (*prepare)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
     /// Gives the bodies the impulses kept from the last step.
     void (*warm_start)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
+    /// Velocities take their share of the forces, slots first to last. `again`: and what contact did in the substep before,
+    /// which is the same as starting from its impulses, in the time of a body in place of that of its contacts.
+    void (*accelerate)(std::size_t first, std::size_t last, const Bodies&, bool again);
+    void (*move)(std::size_t first, std::size_t last, const Bodies&, float substep);
     /// One sweep with overlaps pushed out softly; then, after the bodies have moved, one that takes the push back out of
     /// the velocities and adds up the impulses.
     void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);

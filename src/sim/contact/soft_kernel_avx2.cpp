@@ -12,6 +12,6 @@ namespace {
 #include "sim/contact/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel avx2_kernel{TUMBLE_LANES, prepare, warm_start, push, relax, sum};
+const Kernel avx2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
 
 }  // namespace tumble::soft

@@ -15,7 +15,7 @@ namespace {
 #include "sim/contact/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, push, relax, sum};
+const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
 
 }  // namespace tumble::soft
 #pragma GCC diagnostic pop

@@ -240,6 +240,27 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
     }
 }
 
+void accelerate(std::size_t first, std::size_t last, const Bodies& bodies, bool again) {
+    for (std::size_t s = first; s < last; ++s) {
+        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
+        const Four* force = reinterpret_cast<const Four*>(bodies.forces + 8 * s);
+        Four* start = reinterpret_cast<Four*>(bodies.start + 8 * s);
+        for (int k = 0; k < 2; ++k) {
+            const Four contact = again ? v[k] - start[k] : Four{};
+            start[k] = v[k] + force[k];
+            v[k] = start[k] + contact;
+        }
+    }
+}
+
+void move(std::size_t first, std::size_t last, const Bodies& bodies, float substep) {
+    for (std::size_t s = first; s < last; ++s) {
+        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
+        v[2] += substep * v[0];
+        v[3] += substep * v[1];
+    }
+}
+
 // Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now.
 inline void solve_friction(const Group& g, Motion& a, Motion& b) {
     Lanes load_all = g[impact_impulse], load_levers = Lanes{};

@@ -88,9 +88,10 @@ private:
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
     template <class Pass>
     void by_color(std::size_t thread, std::size_t team, SpinBarrier& barrier, Pass&& pass);
-    void move_velocities(std::size_t first, std::size_t last, bool warm);
-    void move_poses(std::size_t first, std::size_t last);
 
+    void clear(std::size_t group, int points) {
+        std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * std::size_t(kernel_.lanes), 0.0f);
+    }
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
     float* point_row(std::size_t group, int point, int r) { return row(group, soft::head_rows + point * soft::point_rows + r); }
@@ -256,7 +257,6 @@ void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, st
         }
     }
     rows_.resize(groups * soft::group_rows * lanes);
-    std::fill_n(rows_.data(), groups * soft::group_rows * lanes, 0.0f);
     lane_bodies_.assign(2 * lanes * groups, soft::unmoved);
     lane_points_.assign(groups, 0);
     sources_.assign(groups * lanes, Source{});
@@ -266,14 +266,21 @@ void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, st
         auto& list = by_color_[std::size_t(c)];
         if (list.empty()) continue;
         if (c == colors) {
-            for (const std::uint32_t k : list) pack_lane(problem, k, lanes * first_group_[used++], slot);
+            for (const std::uint32_t k : list) {
+                const std::size_t group = first_group_[used++];
+                clear(group, Manifold::capacity);
+                pack_lane(problem, k, lanes * group, slot);
+            }
             continue;
         }
         // Manifolds with as many points side by side: no lane waits for another's fourth.
         std::size_t lane = lanes * first_group_[used++];
         for (int points = Manifold::capacity; points > 0; --points)
-            for (const std::uint32_t k : list)
-                if (problem.manifolds[k].count == points) pack_lane(problem, k, lane++, slot);
+            for (const std::uint32_t k : list) {
+                if (problem.manifolds[k].count != points) continue;
+                if (lane % lanes == 0) clear(lane / lanes, points);
+                pack_lane(problem, k, lane++, slot);
+            }
     }
 }
 
@@ -286,32 +293,9 @@ void SoftSolver::Batch::by_color(std::size_t thread, std::size_t team, SpinBarri
     }
 }
 
-// Velocities take their share of the forces. From the second substep on also what contact did in the one before: the same
-// as starting from its impulses, in the time of a body in place of that of its contacts.
-void SoftSolver::Batch::move_velocities(std::size_t first, std::size_t last, bool warm) {
-    for (std::size_t s = first; s < last; ++s) {
-        float* v = state(s);
-        float* before = before_.data() + 8 * s;
-        const float* force = forces_.data() + 8 * s;
-        for (int k = 0; k < 6; ++k) {
-            const float contact = warm ? v[k] - before[k] : 0.0f;
-            before[k] = v[k] + force[k];
-            v[k] = before[k] + contact;
-        }
-    }
-}
-
-void SoftSolver::Batch::move_poses(std::size_t first, std::size_t last) {
-    const float d = float(d_);
-    for (std::size_t s = first; s < last; ++s) {
-        float* v = state(s);
-        for (int k = 0; k < 6; ++k) v[8 + k] += d * v[k];
-    }
-}
-
 void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& barrier) {
     const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
-    const soft::Bodies bodies{state_.data(), mass_.data()};
+    const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
     const float rate = float(1.0 / d_);
     const std::size_t dynamic_end = slots_ - movers_.size();
     const auto share_of = [&](std::size_t begin, std::size_t end, auto&& pass) {
@@ -321,10 +305,10 @@ void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& b
     };
     share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.prepare(groups, f, l, bodies); });
     for (int step = 0; step < substeps_; ++step) {
-        share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { move_velocities(f, l, step > 0); });
+        share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { kernel_.accelerate(f, l, bodies, step > 0); });
         if (step == 0) by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, rate); });
-        share_of(1, slots_, [&](std::size_t f, std::size_t l) { move_poses(f, l); });
+        share_of(1, slots_, [&](std::size_t f, std::size_t l) { kernel_.move(f, l, bodies, float(d_)); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
     }
     share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.sum(groups, f, l); });
