@@ -37,9 +37,8 @@ Softness softness(double frequency, double d) {
     return {w / a, c / (1.0 + c), 1.0 / (1.0 + c)};
 }
 
-// What is needed of a manifold to give its impulses back.
+// Which points of a lane's manifold are its points.
 struct Source {
-    std::uint32_t manifold = UINT32_MAX;
     std::uint8_t count = 0;
     std::uint8_t point[Manifold::capacity] = {};
 };
@@ -71,12 +70,13 @@ class SoftSolver::Batch {
 public:
     explicit Batch(const soft::Kernel& kernel) : kernel_(kernel) {}
 
-    void pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
-    /// Of this thread among `team`; all threads of the team call it.
-    void run(std::size_t thread, std::size_t team, SpinBarrier& barrier);
-    void unpack(const ContactProblem& problem, const Part& part);
+    /// Bodies and colours; then, called by all threads of a team, all the rest.
+    void prepare(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
+    void run(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
+             std::size_t team, SpinBarrier& barrier);
 
 private:
+    static constexpr std::uint32_t none = UINT32_MAX;
     static constexpr int colors = 64;   // bits of a mask; what finds none free is solved one by one
 
     void pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
@@ -86,12 +86,12 @@ private:
     Place find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const;
     void color(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot);
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
+    void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
+    void unpack(const ContactProblem& problem, std::size_t group);
+    void hand_back(const ContactProblem& problem, const Part& part, std::size_t first, std::size_t last);
     template <class Pass>
     void by_color(std::size_t thread, std::size_t team, SpinBarrier& barrier, Pass&& pass);
 
-    void clear(std::size_t group, int points) {
-        std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * std::size_t(kernel_.lanes), 0.0f);
-    }
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
     float* point_row(std::size_t group, int point, int r) { return row(group, soft::head_rows + point * soft::point_rows + r); }
@@ -109,8 +109,9 @@ private:
     std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint8_t> lane_points_;
+    std::vector<std::uint32_t> lane_manifolds_;       // by lane; none in lanes left over
     std::vector<Source> sources_;                     // by lane
-    std::vector<std::uint32_t> ordered_;
+    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has
 };
 
 void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
@@ -216,7 +217,6 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
         impact += p.impact;
     }
     if (count == 0) return release(m);   // left to bounce
-    source.manifold = manifold;
     source.count = std::uint8_t(count);
     lane_points_[g] = std::max(lane_points_[g], source.count);
 
@@ -236,7 +236,7 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
     put_row(soft::twist, share * m.twist);
 }
 
-void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
+void SoftSolver::Batch::prepare(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
     moving_ = softness(tuning::soft_frequency / d_, d_);
@@ -246,41 +246,42 @@ void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, st
 
     const std::size_t lanes = std::size_t(kernel_.lanes);
     first_group_.assign(1, 0);
-    std::size_t groups = 0;
-    for (int c = 0; c <= colors; ++c) {
-        const std::size_t count = by_color_[std::size_t(c)].size();
-        if (count == 0) continue;
-        // Those beyond the last colour may share bodies: each is a colour of its own.
-        for (std::size_t k = 0; k < (c == colors ? count : 1); ++k) {
-            groups += c == colors ? 1 : (count + lanes - 1) / lanes;
-            first_group_.push_back(groups);
-        }
-    }
-    rows_.resize(groups * soft::group_rows * lanes);
-    lane_bodies_.assign(2 * lanes * groups, soft::unmoved);
-    lane_points_.assign(groups, 0);
-    sources_.assign(groups * lanes, Source{});
-
-    std::size_t used = 0;
-    for (int c = 0; c <= colors; ++c) {
-        auto& list = by_color_[std::size_t(c)];
+    lane_manifolds_.clear();
+    const auto end_color = [&] {
+        lane_manifolds_.resize((lane_manifolds_.size() + lanes - 1) / lanes * lanes, none);
+        first_group_.push_back(lane_manifolds_.size() / lanes);
+    };
+    for (int c = 0; c < colors; ++c) {
+        const auto& list = by_color_[std::size_t(c)];
         if (list.empty()) continue;
-        if (c == colors) {
-            for (const std::uint32_t k : list) {
-                const std::size_t group = first_group_[used++];
-                clear(group, Manifold::capacity);
-                pack_lane(problem, k, lanes * group, slot);
-            }
-            continue;
-        }
         // Manifolds with as many points side by side: no lane waits for another's fourth.
-        std::size_t lane = lanes * first_group_[used++];
         for (int points = Manifold::capacity; points > 0; --points)
-            for (const std::uint32_t k : list) {
-                if (problem.manifolds[k].count != points) continue;
-                if (lane % lanes == 0) clear(lane / lanes, points);
-                pack_lane(problem, k, lane++, slot);
-            }
+            for (const std::uint32_t k : list)
+                if (problem.manifolds[k].count == points) lane_manifolds_.push_back(k);
+        end_color();
+    }
+    // Those beyond the last colour may share bodies: each is a colour of its own.
+    for (const std::uint32_t k : by_color_[colors]) {
+        lane_manifolds_.push_back(k);
+        end_color();
+    }
+    const std::size_t groups = first_group_.back();
+    rows_.resize(groups * soft::group_rows * lanes);
+    lane_bodies_.resize(2 * lanes * groups);
+    lane_points_.resize(groups);
+    sources_.resize(groups * lanes);
+    reached_.assign(slots_, 0);
+}
+
+void SoftSolver::Batch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    const int points = problem.manifolds[lane_manifolds_[lanes * group]].count;   // the most comes first
+    std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, soft::unmoved);
+    lane_points_[group] = 0;
+    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane) {
+        sources_[lane] = {};
+        if (lane_manifolds_[lane] != none) pack_lane(problem, lane_manifolds_[lane], lane, slot);
     }
 }
 
@@ -293,7 +294,8 @@ void SoftSolver::Batch::by_color(std::size_t thread, std::size_t team, SpinBarri
     }
 }
 
-void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+void SoftSolver::Batch::run(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot,
+                            std::size_t thread, std::size_t team, SpinBarrier& barrier) {
     const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
     const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
     const float rate = float(1.0 / d_);
@@ -303,7 +305,10 @@ void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& b
         pass(begin + count * thread / team, begin + count * (thread + 1) / team);
         if (team > 1) barrier.wait();
     };
-    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.prepare(groups, f, l, bodies); });
+    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) {
+        for (std::size_t g = f; g < l; ++g) pack(problem, g, slot);
+        kernel_.prepare(groups, f, l, bodies);
+    });
     for (int step = 0; step < substeps_; ++step) {
         share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { kernel_.accelerate(f, l, bodies, step > 0); });
         if (step == 0) by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
@@ -311,18 +316,20 @@ void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& b
         share_of(1, slots_, [&](std::size_t f, std::size_t l) { kernel_.move(f, l, bodies, float(d_)); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
     }
-    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.sum(groups, f, l); });
+    by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) {
+        kernel_.sum(groups, f, l);
+        for (std::size_t g = f; g < l; ++g) unpack(problem, g);
+    });
+    share_of(0, part.bodies.size(), [&](std::size_t f, std::size_t l) { hand_back(problem, part, f, l); });
 }
 
-void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) {
+// Impulses to the manifolds, and to the momenta of their bodies.
+void SoftSolver::Batch::unpack(const ContactProblem& problem, std::size_t g) {
     const std::size_t lanes = std::size_t(kernel_.lanes);
-    std::vector<std::uint8_t>& reached = lane_points_;   // no longer needed as such
-    reached.assign(slots_, 0);
-    for (std::size_t lane = 0; lane < sources_.size(); ++lane) {
-        const Source& source = sources_[lane];
-        if (source.manifold == UINT32_MAX) continue;
-        const std::size_t g = lane / lanes, l = lane % lanes;
-        Manifold& m = problem.manifolds[source.manifold];
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const Source& source = sources_[lanes * g + l];
+        if (source.count == 0) continue;
+        Manifold& m = problem.manifolds[lane_manifolds_[lanes * g + l]];
         const float* head = row(g, 0) + l;
         const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
         release(m);
@@ -334,50 +341,52 @@ void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) 
         m.tangent = three(soft::tangent_1);
         const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l], slot_b = lane_bodies_[2 * lanes * g + lanes + l];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        if (a.dynamic()) {
-            reached[lane_bodies_[2 * lanes * g + l]] = 1;
+        if (!(slot_a & soft::unmoved)) {
+            reached_[slot_a] = 1;
             a.momentum -= force;
             a.angular_momentum -= moment;
         }
-        if (b.dynamic()) {
-            reached[lane_bodies_[2 * lanes * g + lanes + l]] = 1;
+        if (!(slot_b & soft::unmoved)) {
+            reached_[slot_b] = 1;
             b.momentum += force;
             b.angular_momentum += moment + (a.position - b.position).cross(force);
         }
     }
-    for (std::size_t k = 0; k < part.bodies.size(); ++k) {
-        if (!reached[k + 1]) continue;
+}
+
+void SoftSolver::Batch::hand_back(const ContactProblem& problem, const Part& part, std::size_t first, std::size_t last) {
+    const double rate = 1.0 / problem.patches.h;
+    for (std::size_t k = first; k < last; ++k) {
+        if (!reached_[k + 1]) continue;
         Body& body = problem.bodies[part.bodies[k]];
         body.derive_velocities();
         const float* moved = state(k + 1) + 8;
-        const double rate = 1.0 / problem.patches.h;
         body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
         body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
     }
 }
 
-SoftSolver::SoftSolver(std::size_t bodies, int, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
+SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
 SoftSolver::~SoftSolver() = default;
 
 void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool) {
     while (batches_.size() < parts.size()) batches_.push_back(std::make_unique<Batch>(kernel_));
     if (parts.size() == 1) {   // one island, or too little work to share: the threads share its colours
         Batch& batch = *batches_[0];
-        batch.pack(problem, parts[0], slot_);
+        batch.prepare(problem, parts[0], slot_);
         const bool worth_it = parts[0].manifolds.size() >= tuning::soft_team_manifolds;
         const std::size_t team = worth_it ? std::size_t(pool.size()) : 1;
         SpinBarrier barrier(team);
-        if (team == 1) batch.run(0, 1, barrier);
-        else pool.together([&](std::size_t thread) { batch.run(thread, team, barrier); });
-        batch.unpack(problem, parts[0]);
+        if (team == 1) batch.run(problem, parts[0], slot_, 0, 1, barrier);
+        else pool.together([&](std::size_t thread) { batch.run(problem, parts[0], slot_, thread, team, barrier); });
         return;
     }
     pool.for_each(parts.size(), 2, [&](std::size_t k, std::size_t) {
         SpinBarrier alone(1);
-        batches_[k]->pack(problem, parts[k], slot_);
-        batches_[k]->run(0, 1, alone);
-        batches_[k]->unpack(problem, parts[k]);
+        batches_[k]->prepare(problem, parts[k], slot_);
+        batches_[k]->run(problem, parts[k], slot_, 0, 1, alone);
     });
 }
 
