@@ -178,7 +178,7 @@ void SoftSolver::Batch::color(const ContactProblem& problem, const Part& part, c
     for (const std::uint32_t k : part.manifolds) {
         const Manifold& m = problem.manifolds[k];
         const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
-        std::uint64_t none = 0, &of_a = moves_a ? mask_[slot[m.a]] : none, &of_b = moves_b ? mask_[slot[m.b]] : none;
+        std::uint64_t fixed = 0, &of_a = moves_a ? mask_[slot[m.a]] : fixed, &of_b = moves_b ? mask_[slot[m.b]] : fixed;
         const std::uint64_t taken = of_a | of_b;
         const int c = std::countr_one(taken);
         if (c < colors) {
