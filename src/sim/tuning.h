@@ -46,7 +46,7 @@ inline constexpr int soft_load_age = 8;
 inline constexpr double soft_frequency = 0.18;
 inline constexpr double soft_damping = 2.0;
 /// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
-inline constexpr double soft_slop = 1e-4;
+inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
 inline constexpr double friction_near = 2e-3;
 inline constexpr double friction_far_weight = 0.01;
