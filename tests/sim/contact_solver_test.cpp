@@ -118,7 +118,7 @@ TEST(ContactSolver, ASlidingPlateKeepsItsDirection) {
                 solver.run(1.0);
                 const Body& body = solver.bodies[1];
                 EXPECT_LE((body.velocity - (4.0 - 0.3 * g) * way).norm(), 1e-4) << name(choice) << " " << steps << " " << angle;
-                EXPECT_LE(body.angular_velocity.norm(), 1e-4) << name(choice) << " " << steps << " " << angle;
+                EXPECT_LE(body.angular_velocity.norm(), 5e-4) << name(choice) << " " << steps << " " << angle;
                 EXPECT_NEAR(solver.friction(0, 1), 0.3 * 2.0 * g, 1e-3 * 2.0 * g);
                 // Symplectic Euler's way: the sum of the velocities after each step.
                 const double n = std::round(1.0 / solver.h()), along = 4.0 - 0.3 * g * 0.5 * (1.0 + 1.0 / n);
