@@ -57,12 +57,18 @@ struct Body {
 
     /// Eqs. 2 to 4: velocities and the world inertia from the state. Only for dynamic bodies.
     void derive();
+    /// The same where the momenta have changed and the pose has not.
+    void derive_velocities();
 };
 
 /// v = P / M, I^-1(t) = R I^-1 R^T, omega = I^-1(t) L.
 inline void Body::derive() {
-    velocity = momentum * inverse_mass;
     inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
+    derive_velocities();
+}
+
+inline void Body::derive_velocities() {
+    velocity = momentum * inverse_mass;
     angular_velocity = inverse_inertia * angular_momentum;
 }
 

@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    static constexpr int patience = 2000;   // some 20 microseconds
+    static constexpr int patience = 100;   // some microseconds: the others are running, or the core is needed for them
     const std::size_t threads_;
     alignas(64) std::atomic<std::size_t> arrived_{0};
     alignas(64) std::atomic<std::size_t> round_{0};

@@ -63,7 +63,7 @@ struct World::State {
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
-          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), threads), sleep(scene.bodies.size()),
+          islands(scene.bodies.size()), contact_solver(scene.bodies.size()), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
           after_forces(scene.bodies.size()) {
@@ -220,18 +220,20 @@ void World::State::resolve_collisions() {
 
 void World::State::apply_forces() {
     const double now = time(steps);
-    for (const std::uint32_t i : awake_bodies) {
+    pool.for_each(awake_bodies.size(), tuning::parallel_bodies, [&](std::size_t k, std::size_t) {
+        const std::uint32_t i = awake_bodies[k];
         Body& body = bodies[i];
-        if (body.flying) continue;
-        body.derive();
+        if (body.flying) return;
+        if (flights) body.derive();   // brought here from a flight, perhaps
+        else body.derive_velocities();   // collisions may have changed the momenta
         old_velocity[i] = body.velocity;
         old_angular_velocity[i] = body.angular_velocity;
         const Wrench wrench = forces.at(i, body, now);
         before_forces[i] = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
         after_forces[i] = {body.momentum, body.angular_momentum};
-        body.derive();
-    }
+        body.derive_velocities();
+    });
 }
 
 void World::State::solve_resting_contacts() {
@@ -258,9 +260,12 @@ const std::vector<StepMotion>& World::State::step_motions() {
 // Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
 // find their impacts themselves.
 const std::vector<StepLimit>& World::State::held_limits() {
-    pairs = broad_phase.update(bodies, h);
-    std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
-    return motion_limit.limits(pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
+        pairs = broad_phase.update(bodies, h);
+        std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
+        return pairs;
+    };
+    return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
 // What a kinematic body has run into goes along with it for the rest of the step.
@@ -277,9 +282,10 @@ void World::State::move() {
         place_kinematic_bodies();
         return;
     }
-    const auto& limits = motion_limit.limits(broad_phase.update(bodies, h), touch_depth(*manifolds, bodies), bodies, moving_bodies,
-                                             step_motions(), h);
-    for (const std::uint32_t i : awake_bodies) {
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h); };
+    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
+    pool.for_each(awake_bodies.size(), tuning::parallel_bodies, [&](std::size_t k, std::size_t) {
+        const std::uint32_t i = awake_bodies[k];
         Body& body = bodies[i];
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
@@ -297,7 +303,7 @@ void World::State::move() {
             body.derive();
         }
         if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], (1.0 - share) * h);
-    }
+    });
     ++steps;
     place_kinematic_bodies();
 }

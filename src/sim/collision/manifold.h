@@ -30,8 +30,8 @@ struct Manifold {
     std::array<ContactPoint, capacity> points;
 
     // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a twist about the normal.
-    // Carried from step to step; the tangent goes along with A so that what friction holds keeps its direction.
-    Vec3 tangent = Vec3::Zero();          // unit, A's frame; zero before the first solve
+    // Carried from step to step.
+    Vec3 tangent = Vec3::Zero();          // unit, world; zero before the first solve
     double friction[2] = {0.0, 0.0};      // N s on B
     double twist = 0.0;                   // N m s on B
     bool solved_directly = false;         // by the direct contact solver, in the last step

@@ -8,14 +8,13 @@
 namespace tumble {
 namespace {
 
-// The direction that friction was kept in, as A has turned since; any one across the normal before the first step.
-Vec3 tangent_of(const Manifold& m, const Body& a) {
-    Vec3 t = a.rotation * m.tangent;
-    t -= m.normal.dot(t) * m.normal;
+// The direction that friction was kept in; any one across the normal before the first step.
+Vec3 tangent_of(const Manifold& m) {
+    Vec3 t = m.tangent - m.normal.dot(m.tangent) * m.normal;
     const double square = t.squaredNorm();
     if (square > 0.25) return t / std::sqrt(square);
     // The axis the normal looks along least.
-    t = std::abs(m.normal.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+    t = m.normal.x() * m.normal.x() < 0.36 ? Vec3::UnitX() : Vec3::UnitY();
     return (t - m.normal.dot(t) * m.normal).normalized();
 }
 
@@ -29,21 +28,21 @@ void release(Manifold& manifold) {
 double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
 double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
 
+bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings) {
+    if (p.bounce > 0.0 || p.separation <= tuning::touch * std::min(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
+    return normal.dot(a.point_velocity(p.position - a.position) - b.point_velocity(p.position - b.position)) > settings.bounce_threshold;
+}
+
 ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const PatchSettings& settings) {
     ContactPatch patch;
     patch.size = std::min(a.radius, b.radius);
-    const double touch = tuning::touch * patch.size, bounce_e = pair_restitution(a, b);
     const double near = tuning::friction_near * patch.size;
     Vec3 center = Vec3::Zero();   // from A's
     double weights = 0.0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const Vec3 arm_a = from.position - a.position, arm_b = from.position - b.position;
-        if (bounce_e > 0.0 && from.bounce == 0.0 && from.separation > touch) {
-            // It will bounce: stopping it at the surface would take the speed it must come back with.
-            const double v = m.normal.dot(b.point_velocity(arm_b) - a.point_velocity(arm_a));
-            if (-v > settings.bounce_threshold) continue;
-        }
+        if (will_bounce(from, m.normal, a, b, settings)) continue;
         ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
         to.arm_a = arm_a;
         to.arm_b = arm_b;
@@ -58,7 +57,7 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const P
     }
     if (patch.count == 0) return patch;
     patch.normal = m.normal;
-    patch.tangent_1 = tangent_of(m, a);
+    patch.tangent_1 = tangent_of(m);
     patch.tangent_2 = patch.normal.cross(patch.tangent_1);
     patch.friction = pair_friction(a, b);
     patch.friction_arm_a = center / weights;

@@ -34,6 +34,10 @@ struct PatchSettings {
     double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide
 };
 
+/// Whether a point is left alone in this step because it will bounce: stopping it at the surface would take the speed it
+/// must come back with.
+bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings);
+
 /// Returns a patch without points when there is nothing to hold.
 ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const PatchSettings& settings);
 

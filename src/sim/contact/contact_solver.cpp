@@ -32,8 +32,8 @@ void temper(Manifold& m, const ContactProblem& problem) {
 
 }  // namespace
 
-ContactSolver::ContactSolver(std::size_t bodies, int threads, Choice choice)
-    : choice_(choice), memory_(bodies), loads_(bodies), soft_(bodies, threads) {}
+ContactSolver::ContactSolver(std::size_t bodies, Choice choice)
+    : choice_(choice), memory_(bodies), loads_(bodies), soft_(bodies) {}
 
 // As it was up to `holds` steps ago; not looked at where no body can carry much.
 PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
@@ -72,7 +72,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        if (bodies.size() <= tuning::direct_small_bodies && manifolds.size() <= tuning::direct_small_manifolds) {
+        if (bodies.size() == 1 && manifolds.size() <= tuning::direct_small_manifolds) {
             direct_.push_back(k);
             continue;
         }

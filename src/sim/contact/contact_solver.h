@@ -20,7 +20,7 @@ public:
     /// for_everything: one solver for all islands, for comparing them.
     enum class Choice { by_island, soft, direct };
 
-    ContactSolver(std::size_t bodies, int threads, Choice choice = Choice::by_island);
+    explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island);
 
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 

@@ -452,7 +452,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         m.friction[0] = patch.friction[0].impulse;
         m.friction[1] = patch.friction[1].impulse;
         m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
-        m.tangent = a.rotation.transpose() * geometry.tangent_1;
+        m.tangent = geometry.tangent_1;
         const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
         Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A
         for (int i = 0; i < patch.count; ++i) {
@@ -477,7 +477,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         if (!reached[k]) continue;
         Body& body = problem.bodies[bodies[k]];
-        body.derive();
+        body.derive_velocities();
         if (!pushed) continue;
         body.push_velocity = three(push_, 6 * k);
         body.push_angular_velocity = three(push_, 6 * k + 3) / length_;

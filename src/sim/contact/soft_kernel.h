@@ -11,16 +11,16 @@ namespace tumble::soft {
 /// Rows of a group, each as wide as the kernel's lanes. World frame, SI units; impulses in N s of one substep.
 enum Head : int {
     normal = 0,            // 3: away from A
-    tangent_1 = 3,         // 3
+    tangent_1 = 3,         // 3: of the last step, or nothing; then across the normal
     tangent_2 = 6,         // 3: normal x tangent_1
-    friction_arm_a = 9,    // 3: from A's centre to where friction acts; then replaced by what follows from it
-    friction_arm_b = 12,   // 3
-    turn_1_a = 9,          // 3: arm x tangent_1
+    turn_1_a = 9,          // 3: arm x tangent_1, from A's centre to where friction acts
     turn_1_b = 12,         // 3
     turn_2_a = 15,
     turn_2_b = 18,
     spin_1_a = 21,         // 3: I^-1 (arm x tangent_1)
+    force = 21,            // 3: in the end, the sum of all impulses on B
     spin_1_b = 24,
+    moment = 24,           // 3: and of their moments about A's centre
     spin_2_a = 27,
     spin_2_b = 30,
     spin_n_a = 33,         // 3: I^-1 n, of the twist
@@ -35,25 +35,24 @@ enum Head : int {
     bias_rate = 48,        // 1/s: overlap to velocity
     mass_scale = 49,       // of the soft constraint
     impulse_scale = 50,
-    slop = 51,             // m
-    push_limit = 52,       // m/s
-    friction_1 = 53,
-    friction_2 = 54,
-    twist = 55,
-    friction_1_sum = 56,   // over the substeps
-    friction_2_sum = 57,
-    twist_sum = 58,
-    head_rows = 59
+    size = 51,             // m, the smaller body's radius
+    friction_1 = 52,
+    friction_2 = 53,
+    twist = 54,
+    friction_1_sum = 55,   // over the substeps
+    friction_2_sum = 56,
+    twist_sum = 57,
+    head_rows = 58
 };
 enum Point : int {
     arm_a = 0,             // 3; then replaced by arm x normal
     arm_b = 3,
     spin_a = 6,            // 3: I^-1 (arm x normal)
     spin_b = 9,
-    normal_mass = 12,      // 1 in lanes that have this point, 0 in others; then the effective mass
+    normal_mass = 12,      // 1 in lanes that have this point, 0 in others; then the effective mass, kg
     separation = 13,       // m, when the step began
     bounce = 14,           // m/s, least v_rel after a collision; 0 without one
-    lever = 15,            // m, from where friction acts
+    lever = 15,            // m, from where friction acts; nothing on entry
     impulse = 16,
     impulse_sum = 17,
     point_rows = 18
@@ -76,18 +75,27 @@ struct Groups {
 struct Bodies {
     float* state = nullptr;                    // body_floats each, aligned to 64 bytes
     const float* mass = nullptr;               // mass_floats each
+    // 8 each, like the velocities: what a substep's forces add, and the velocities it began with, forces included.
+    const float* forces = nullptr;
+    float* start = nullptr;
 };
 
 struct Kernel {
     int lanes;
-    /// Fills what follows from arms, directions and masses.
+    /// Fills what follows from arms, directions and masses (as contact_patch.h does it in double precision).
     void (*prepare)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
     /// Gives the bodies the impulses kept from the last step.
     void (*warm_start)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
+    /// Velocities take their share of the forces, slots first to last. `again`: and what contact did in the substep before,
+    /// which is the same as starting from its impulses, in the time of a body in place of that of its contacts.
+    void (*accelerate)(std::size_t first, std::size_t last, const Bodies&, bool again);
+    void (*move)(std::size_t first, std::size_t last, const Bodies&, float substep);
     /// One sweep with overlaps pushed out softly; then, after the bodies have moved, one that takes the push back out of
     /// the velocities and adds up the impulses.
     void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
     void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
+    /// Sums the step's impulses up into `force` and `moment`.
+    void (*sum)(const Groups&, std::size_t first, std::size_t last);
 };
 
 extern const Kernel sse2_kernel, avx2_kernel, avx512_kernel;

@@ -1,5 +1,6 @@
 // The soft contact solver's inner loops, 8 lanes (avx2).
 #include "sim/contact/soft_kernel.h"
+#include "sim/tuning.h"
 
 #pragma GCC target("avx2")
 #include <immintrin.h>
@@ -11,6 +12,6 @@ namespace {
 #include "sim/contact/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel avx2_kernel{TUMBLE_LANES, prepare, warm_start, push, relax};
+const Kernel avx2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
 
 }  // namespace tumble::soft

@@ -1,5 +1,6 @@
 // The soft contact solver's inner loops, 16 lanes (avx512).
 #include "sim/contact/soft_kernel.h"
+#include "sim/tuning.h"
 
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 #pragma GCC diagnostic push
@@ -14,7 +15,7 @@ namespace {
 #include "sim/contact/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, push, relax};
+const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
 
 }  // namespace tumble::soft
 #pragma GCC diagnostic pop

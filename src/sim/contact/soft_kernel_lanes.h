@@ -1,6 +1,9 @@
 // The kernel's code for TUMBLE_LANES lanes: included by one source file for each instruction set, inside an unnamed
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
+constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
+constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit);
+
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
 typedef float Four __attribute__((vector_size(16)));
 
@@ -152,6 +155,19 @@ inline void apply_friction(const Group& g, Motion& a, Motion& b, Lanes j_1, Lane
     b.angular = b.angular + (j_1 * g.vector(spin_1_b) + j_2 * g.vector(spin_2_b) + j_twist * g.vector(spin_n_b));
 }
 
+// Across the normal: the last step's direction, or, where there is none, the axis that the normal looks along least.
+inline Vector tangent(const Vector& n, const Vector& last) {
+    const Vector kept = last - dot(n, last) * n;
+    const Lanes square = dot(kept, kept);
+    const auto along_x = n.x * n.x < 0.36f;
+    const Vector axis{along_x ? all(1.0f) : Lanes{}, along_x ? Lanes{} : all(1.0f), Lanes{}};
+    const Vector other = axis - dot(n, axis) * n;
+    const auto keeps = square > 0.25f;
+    const Vector t{keeps ? kept.x : other.x, keeps ? kept.y : other.y, keeps ? kept.z : other.z};
+    const Lanes length = root(dot(t, t));
+    return (1.0f / length) * t;
+}
+
 void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
@@ -159,15 +175,24 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         const Quads mass_b = gather(bodies.mass, mass_floats, g.b, 0), more_b = gather(bodies.mass, mass_floats, g.b, 1);
         const Tensor inertia_a{mass_a.r[1], mass_a.r[2], mass_a.r[3], more_a.r[0], more_a.r[1], more_a.r[2]};
         const Tensor inertia_b{mass_b.r[1], mass_b.r[2], mass_b.r[3], more_b.r[0], more_b.r[1], more_b.r[2]};
-        const Vector n = g.vector(normal), t1 = g.vector(tangent_1), t2 = cross(n, t1);
-        const Vector arm_of_a = g.vector(friction_arm_a), arm_of_b = g.vector(friction_arm_b);
+        const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1);
         // Lanes without a manifold have no normal: their compliances are made 1, their impulses stay 0.
         const Lanes empty = n.x == 0.0f && n.y == 0.0f && n.z == 0.0f ? all(1.0f) : Lanes{};
         const Lanes both = mass_a.r[0] + mass_b.r[0] + empty;
         g[inverse_mass_a] = mass_a.r[0];
         g[inverse_mass_b] = mass_b.r[0];
+        g.set(tangent_1, t1);
         g.set(tangent_2, t2);
 
+        // Friction acts at the centroid of the points that touch or nearly do.
+        Vector center{};
+        Lanes weights = empty;
+        for (int i = 0; i < g.points; ++i) {
+            const Lanes weight = g.at(i, normal_mass) * (g.at(i, separation) < friction_near * g[size] ? all(1.0f) : all(friction_far_weight));
+            center = center + weight * g.vector(i, arm_a);
+            weights += weight;
+        }
+        const Vector arm_of_a = (1.0f / weights) * center, arm_of_b = arm_of_a + (g.vector(0, arm_b) - g.vector(0, arm_a));
         const Vector a1 = cross(arm_of_a, t1), b1 = cross(arm_of_b, t1), a2 = cross(arm_of_a, t2), b2 = cross(arm_of_b, t2);
         const Vector ia1 = inertia_a * a1, ib1 = inertia_b * b1, ia2 = inertia_a * a2, ib2 = inertia_b * b2;
         const Vector ian = inertia_a * n, ibn = inertia_b * n;
@@ -191,6 +216,8 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         g.set(spin_n_a, ian);
         g.set(spin_n_b, ibn);
         for (int i = 0; i < g.points; ++i) {
+            const Vector away = g.vector(i, arm_a) - arm_of_a;
+            g.at(i, lever) = root(dot(away, away));
             const Vector an = cross(g.vector(i, arm_a), n), bn = cross(g.vector(i, arm_b), n);
             const Vector ian_i = inertia_a * an, ibn_i = inertia_b * bn;
             g.set(i, arm_a, an);
@@ -210,6 +237,27 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
         apply_friction(g, a, b, g[friction_1], g[friction_2], g[twist]);
         save(bodies, g.a, a);
         save(bodies, g.b, b);
+    }
+}
+
+void accelerate(std::size_t first, std::size_t last, const Bodies& bodies, bool again) {
+    for (std::size_t s = first; s < last; ++s) {
+        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
+        const Four* force = reinterpret_cast<const Four*>(bodies.forces + 8 * s);
+        Four* start = reinterpret_cast<Four*>(bodies.start + 8 * s);
+        for (int k = 0; k < 2; ++k) {
+            const Four contact = again ? v[k] - start[k] : Four{};
+            start[k] = v[k] + force[k];
+            v[k] = start[k] + contact;
+        }
+    }
+}
+
+void move(std::size_t first, std::size_t last, const Bodies& bodies, float substep) {
+    for (std::size_t s = first; s < last; ++s) {
+        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
+        v[2] += substep * v[0];
+        v[3] += substep * v[1];
     }
 }
 
@@ -257,7 +305,7 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
             const auto bounces = least > 0.0f;
             Lanes next;
             if constexpr (pushing) {
-                const Lanes push = larger(g[bias_rate] * smaller(gap + g[slop], Lanes{}), -g[push_limit]);
+                const Lanes push = larger(g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), -push_limit * g[size]);
                 const auto rigid = gap > 0.0f || bounces;
                 const Lanes bias = bounces ? -least : gap > 0.0f ? closing : push;
                 const Lanes mass = rigid ? all(1.0f) : g[mass_scale], keep = rigid ? Lanes{} : g[impulse_scale];
@@ -288,4 +336,19 @@ void push(const Groups& groups, std::size_t first, std::size_t last, const Bodie
 }
 void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, float substeps_per_second) {
     sweep<false>(groups, first, last, bodies, substeps_per_second);
+}
+
+void sum(const Groups& groups, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+        const Group g(groups, k);
+        const Lanes j1 = g[friction_1_sum], j2 = g[friction_2_sum];
+        Lanes along_normal{};
+        Vector turning = g[twist_sum] * g.vector(normal) + j1 * g.vector(turn_1_a) + j2 * g.vector(turn_2_a);
+        for (int i = 0; i < g.points; ++i) {
+            along_normal += g.at(i, impulse_sum);
+            turning = turning + g.at(i, impulse_sum) * g.vector(i, arm_a);
+        }
+        g.set(force, along_normal * g.vector(normal) + j1 * g.vector(tangent_1) + j2 * g.vector(tangent_2));
+        g.set(moment, turning);
+    }
 }

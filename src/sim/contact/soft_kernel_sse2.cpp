@@ -1,5 +1,6 @@
 // The soft contact solver's inner loops, 4 lanes (sse2).
 #include "sim/contact/soft_kernel.h"
+#include "sim/tuning.h"
 
 #pragma GCC target("sse2")
 #include <immintrin.h>
@@ -11,6 +12,6 @@ namespace {
 #include "sim/contact/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start, push, relax};
+const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
 
 }  // namespace tumble::soft

@@ -37,11 +37,18 @@ Softness softness(double frequency, double d) {
     return {w / a, c / (1.0 + c), 1.0 / (1.0 + c)};
 }
 
-// What is needed of a manifold to give its impulses back.
+// Which points of a lane's manifold are its points.
 struct Source {
-    std::uint32_t manifold = UINT32_MAX;
-    int count = 0;
+    std::uint8_t count = 0;
     std::uint8_t point[Manifold::capacity] = {};
+};
+
+// What packing needs of a body, close together in memory.
+struct Place {
+    Vec3 position;
+    double radius, friction, restitution;
+    std::uint32_t slot;
+    bool dynamic;
 };
 
 void put(float* row, int stride, const Vec3& v) {
@@ -63,22 +70,27 @@ class SoftSolver::Batch {
 public:
     explicit Batch(const soft::Kernel& kernel) : kernel_(kernel) {}
 
-    void pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
-    /// Of this thread among `team`; all threads of the team call it.
-    void run(std::size_t thread, std::size_t team, SpinBarrier& barrier);
-    void unpack(const ContactProblem& problem, const Part& part);
+    /// Bodies and colours; then, called by all threads of a team, all the rest.
+    void prepare(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
+    void run(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
+             std::size_t team, SpinBarrier& barrier);
 
 private:
+    static constexpr std::uint32_t none = UINT32_MAX;
     static constexpr int colors = 64;   // bits of a mask; what finds none free is solved one by one
 
     void pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot);
-    std::uint32_t slot_of(const Body& body, std::uint32_t index, const ContactProblem& problem, const std::vector<std::uint32_t>& slot);
+    Place place_of(const Body& body, std::uint32_t slot) const {
+        return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
+    }
+    Place find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const;
     void color(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot);
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
+    void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
+    void unpack(const ContactProblem& problem, std::size_t group);
+    void hand_back(const ContactProblem& problem, const Part& part, std::size_t first, std::size_t last);
     template <class Pass>
     void by_color(std::size_t thread, std::size_t team, SpinBarrier& barrier, Pass&& pass);
-    void move_velocities(std::size_t first, std::size_t last, bool warm);
-    void move_poses(std::size_t first, std::size_t last);
 
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
@@ -90,14 +102,16 @@ private:
     Softness moving_{}, fixed_{};
     AlignedFloats state_, mass_, before_, forces_, rows_;   // before_, forces_: 8 floats a slot
     std::size_t slots_ = 0;
+    std::vector<Place> places_;                       // by slot
     std::vector<std::uint32_t> movers_;               // kinematic bodies, by slot from the first after the dynamic ones
     std::vector<std::vector<std::uint32_t>> by_color_;
     std::vector<std::uint64_t> mask_;                 // by slot: colours taken
     std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint8_t> lane_points_;
+    std::vector<std::uint32_t> lane_manifolds_;       // by lane; none in lanes left over
     std::vector<Source> sources_;                     // by lane
-    std::vector<std::uint32_t> ordered_;
+    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has
 };
 
 void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
@@ -118,10 +132,12 @@ void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& p
     std::fill_n(forces_.data(), slots_ * 8, 0.0f);
     std::fill_n(before_.data(), slots_ * 8, 0.0f);
     const double share = 1.0 / substeps_;
+    places_.resize(dynamic + 1);
     for (std::size_t k = 0; k < dynamic; ++k) {
         const std::uint32_t i = part.bodies[k];
         const Body& body = problem.bodies[i];
         slot[i] = std::uint32_t(k + 1);
+        places_[k + 1] = place_of(body, slot[i]);
         float* s = state(k + 1);
         put(s, 1, problem.velocity_before[i]);
         put(s + 3, 1, problem.angular_velocity_before[i]);
@@ -146,12 +162,12 @@ void SoftSolver::Batch::pack_bodies(const ContactProblem& problem, const Part& p
     }
 }
 
-std::uint32_t SoftSolver::Batch::slot_of(const Body& body, std::uint32_t index, const ContactProblem&,
-                                         const std::vector<std::uint32_t>& slot) {
-    if (body.dynamic()) return slot[index];
-    if (body.type != BodyType::kinematic) return soft::unmoved;
-    const auto place = std::lower_bound(movers_.begin(), movers_.end(), index) - movers_.begin();
-    return soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place));
+Place SoftSolver::Batch::find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const {
+    const Body& b = problem.bodies[body];
+    if (b.dynamic()) return places_[slot[body]];
+    if (b.type != BodyType::kinematic) return place_of(b, soft::unmoved);
+    const auto place = std::lower_bound(movers_.begin(), movers_.end(), body) - movers_.begin();
+    return place_of(b, soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
 // Greedily in the manifolds' order: the least colour neither body has. What a body gets depends on its island alone.
@@ -162,7 +178,7 @@ void SoftSolver::Batch::color(const ContactProblem& problem, const Part& part, c
     for (const std::uint32_t k : part.manifolds) {
         const Manifold& m = problem.manifolds[k];
         const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
-        std::uint64_t none = 0, &of_a = moves_a ? mask_[slot[m.a]] : none, &of_b = moves_b ? mask_[slot[m.b]] : none;
+        std::uint64_t fixed = 0, &of_a = moves_a ? mask_[slot[m.a]] : fixed, &of_b = moves_b ? mask_[slot[m.b]] : fixed;
         const std::uint64_t taken = of_a | of_b;
         const int c = std::countr_one(taken);
         if (c < colors) {
@@ -175,54 +191,52 @@ void SoftSolver::Batch::color(const ContactProblem& problem, const Part& part, c
 
 void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
                                   const std::vector<std::uint32_t>& slot) {
-    const Manifold& m = problem.manifolds[manifold];
-    const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+    Manifold& m = problem.manifolds[manifold];
+    const Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
     const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
     const int stride = kernel_.lanes;
-    lane_bodies_[2 * lanes * g + l] = slot_of(a, m.a, problem, slot);
-    lane_bodies_[2 * lanes * g + lanes + l] = slot_of(b, m.b, problem, slot);
-    const ContactPatch patch = make_patch(m, a, b, problem.patches);
-    if (patch.count == 0) {   // left to bounce
-        release(problem.manifolds[manifold]);
-        return;
-    }
-    Source& source = sources_[lane];
-    source.manifold = manifold;
-    source.count = patch.count;
-    lane_points_[g] = std::max(lane_points_[g], std::uint8_t(patch.count));
-
+    lane_bodies_[2 * lanes * g + l] = a.slot;
+    lane_bodies_[2 * lanes * g + lanes + l] = b.slot;
     const double share = 1.0 / substeps_;
-    const auto put_row = [&](int r, double value) { row(g, r)[l] = float(value); };
-    put(row(g, soft::normal) + l, stride, patch.normal);
-    put(row(g, soft::tangent_1) + l, stride, patch.tangent_1);
-    put(row(g, soft::friction_arm_a) + l, stride, patch.friction_arm_a);
-    put(row(g, soft::friction_arm_b) + l, stride, patch.friction_arm_b);
-    const Softness& soft = a.dynamic() && b.dynamic() ? moving_ : fixed_;
-    put_row(soft::friction_coefficient, patch.friction);
-    put_row(soft::impact_impulse, share * patch.impact);
+    const double size = std::min(a.radius, b.radius);
+    const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
+    Source& source = sources_[lane];
+    double impact = 0.0;
+    int count = 0;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
+        source.point[count] = std::uint8_t(i);
+        float* row = point_row(g, count++, 0) + l;
+        put(row + soft::arm_a * stride, stride, p.position - a.position);
+        put(row + soft::arm_b * stride, stride, p.position - b.position);
+        row[soft::normal_mass * stride] = 1.0f;
+        row[soft::separation * stride] = float(p.separation);
+        row[soft::bounce * stride] = float(p.bounce);
+        row[soft::impulse * stride] = float(share * p.impulse);
+        impact += p.impact;
+    }
+    if (count == 0) return release(m);   // left to bounce
+    source.count = std::uint8_t(count);
+    lane_points_[g] = std::max(lane_points_[g], source.count);
+
+    float* head = row(g, 0) + l;
+    const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
+    put(head + soft::normal * stride, stride, m.normal);
+    put(head + soft::tangent_1 * stride, stride, m.tangent);
+    const Softness& soft = a.dynamic && b.dynamic ? moving_ : fixed_;
+    put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    put_row(soft::impact_impulse, share * impact);
     put_row(soft::bias_rate, soft.bias_rate);
     put_row(soft::mass_scale, soft.mass_scale);
     put_row(soft::impulse_scale, soft.impulse_scale);
-    put_row(soft::slop, tuning::soft_slop * patch.size);
-    put_row(soft::push_limit, tuning::push_limit * patch.size);
+    put_row(soft::size, size);
     put_row(soft::friction_1, share * m.friction[0]);
     put_row(soft::friction_2, share * m.friction[1]);
     put_row(soft::twist, share * m.twist);
-    for (int i = 0; i < patch.count; ++i) {
-        const ContactPatch::Point& p = patch.points[std::size_t(i)];
-        source.point[i] = std::uint8_t(p.source);
-        const auto put_point = [&](int r, double value) { point_row(g, i, r)[l] = float(value); };
-        put(point_row(g, i, soft::arm_a) + l, stride, p.arm_a);
-        put(point_row(g, i, soft::arm_b) + l, stride, p.arm_b);
-        put_point(soft::normal_mass, 1.0);
-        put_point(soft::separation, p.separation);
-        put_point(soft::bounce, p.bounce);
-        put_point(soft::lever, p.lever);
-        put_point(soft::impulse, share * p.impulse);
-    }
 }
 
-void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
+void SoftSolver::Batch::prepare(const ContactProblem& problem, const Part& part, std::vector<std::uint32_t>& slot) {
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
     moving_ = softness(tuning::soft_frequency / d_, d_);
@@ -232,35 +246,42 @@ void SoftSolver::Batch::pack(const ContactProblem& problem, const Part& part, st
 
     const std::size_t lanes = std::size_t(kernel_.lanes);
     first_group_.assign(1, 0);
-    std::size_t groups = 0;
-    for (int c = 0; c <= colors; ++c) {
-        const std::size_t count = by_color_[std::size_t(c)].size();
-        if (count == 0) continue;
-        // Those beyond the last colour may share bodies: each is a colour of its own.
-        for (std::size_t k = 0; k < (c == colors ? count : 1); ++k) {
-            groups += c == colors ? 1 : (count + lanes - 1) / lanes;
-            first_group_.push_back(groups);
-        }
-    }
-    rows_.resize(groups * soft::group_rows * lanes);
-    std::fill_n(rows_.data(), groups * soft::group_rows * lanes, 0.0f);
-    lane_bodies_.assign(2 * lanes * groups, soft::unmoved);
-    lane_points_.assign(groups, 0);
-    sources_.assign(groups * lanes, Source{});
-
-    std::size_t used = 0;
-    for (int c = 0; c <= colors; ++c) {
-        auto& list = by_color_[std::size_t(c)];
+    lane_manifolds_.clear();
+    const auto end_color = [&] {
+        lane_manifolds_.resize((lane_manifolds_.size() + lanes - 1) / lanes * lanes, none);
+        first_group_.push_back(lane_manifolds_.size() / lanes);
+    };
+    for (int c = 0; c < colors; ++c) {
+        const auto& list = by_color_[std::size_t(c)];
         if (list.empty()) continue;
-        if (c == colors) {
-            for (const std::uint32_t k : list) pack_lane(problem, k, lanes * first_group_[used++], slot);
-            continue;
-        }
         // Manifolds with as many points side by side: no lane waits for another's fourth.
-        std::size_t lane = lanes * first_group_[used++];
         for (int points = Manifold::capacity; points > 0; --points)
             for (const std::uint32_t k : list)
-                if (problem.manifolds[k].count == points) pack_lane(problem, k, lane++, slot);
+                if (problem.manifolds[k].count == points) lane_manifolds_.push_back(k);
+        end_color();
+    }
+    // Those beyond the last colour may share bodies: each is a colour of its own.
+    for (const std::uint32_t k : by_color_[colors]) {
+        lane_manifolds_.push_back(k);
+        end_color();
+    }
+    const std::size_t groups = first_group_.back();
+    rows_.resize(groups * soft::group_rows * lanes);
+    lane_bodies_.resize(2 * lanes * groups);
+    lane_points_.resize(groups);
+    sources_.resize(groups * lanes);
+    reached_.assign(slots_, 0);
+}
+
+void SoftSolver::Batch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    const int points = problem.manifolds[lane_manifolds_[lanes * group]].count;   // the most comes first
+    std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, soft::unmoved);
+    lane_points_[group] = 0;
+    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane) {
+        sources_[lane] = {};
+        if (lane_manifolds_[lane] != none) pack_lane(problem, lane_manifolds_[lane], lane, slot);
     }
 }
 
@@ -273,32 +294,10 @@ void SoftSolver::Batch::by_color(std::size_t thread, std::size_t team, SpinBarri
     }
 }
 
-// Velocities take their share of the forces. From the second substep on also what contact did in the one before: the same
-// as starting from its impulses, in the time of a body in place of that of its contacts.
-void SoftSolver::Batch::move_velocities(std::size_t first, std::size_t last, bool warm) {
-    for (std::size_t s = first; s < last; ++s) {
-        float* v = state(s);
-        float* before = before_.data() + 8 * s;
-        const float* force = forces_.data() + 8 * s;
-        for (int k = 0; k < 6; ++k) {
-            const float contact = warm ? v[k] - before[k] : 0.0f;
-            before[k] = v[k] + force[k];
-            v[k] = before[k] + contact;
-        }
-    }
-}
-
-void SoftSolver::Batch::move_poses(std::size_t first, std::size_t last) {
-    const float d = float(d_);
-    for (std::size_t s = first; s < last; ++s) {
-        float* v = state(s);
-        for (int k = 0; k < 6; ++k) v[8 + k] += d * v[k];
-    }
-}
-
-void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+void SoftSolver::Batch::run(const ContactProblem& problem, const Part& part, const std::vector<std::uint32_t>& slot,
+                            std::size_t thread, std::size_t team, SpinBarrier& barrier) {
     const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
-    const soft::Bodies bodies{state_.data(), mass_.data()};
+    const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
     const float rate = float(1.0 / d_);
     const std::size_t dynamic_end = slots_ - movers_.size();
     const auto share_of = [&](std::size_t begin, std::size_t end, auto&& pass) {
@@ -306,95 +305,88 @@ void SoftSolver::Batch::run(std::size_t thread, std::size_t team, SpinBarrier& b
         pass(begin + count * thread / team, begin + count * (thread + 1) / team);
         if (team > 1) barrier.wait();
     };
-    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) { kernel_.prepare(groups, f, l, bodies); });
+    share_of(0, first_group_.back(), [&](std::size_t f, std::size_t l) {
+        for (std::size_t g = f; g < l; ++g) pack(problem, g, slot);
+        kernel_.prepare(groups, f, l, bodies);
+    });
     for (int step = 0; step < substeps_; ++step) {
-        share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { move_velocities(f, l, step > 0); });
+        share_of(1, dynamic_end, [&](std::size_t f, std::size_t l) { kernel_.accelerate(f, l, bodies, step > 0); });
         if (step == 0) by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, rate); });
-        share_of(1, slots_, [&](std::size_t f, std::size_t l) { move_poses(f, l); });
+        share_of(1, slots_, [&](std::size_t f, std::size_t l) { kernel_.move(f, l, bodies, float(d_)); });
         by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
     }
+    by_color(thread, team, barrier, [&](std::size_t f, std::size_t l) {
+        kernel_.sum(groups, f, l);
+        for (std::size_t g = f; g < l; ++g) unpack(problem, g);
+    });
+    share_of(0, part.bodies.size(), [&](std::size_t f, std::size_t l) { hand_back(problem, part, f, l); });
 }
 
-void SoftSolver::Batch::unpack(const ContactProblem& problem, const Part& part) {
+// Impulses to the manifolds, and to the momenta of their bodies.
+void SoftSolver::Batch::unpack(const ContactProblem& problem, std::size_t g) {
     const std::size_t lanes = std::size_t(kernel_.lanes);
-    std::vector<std::uint8_t>& reached = lane_points_;   // no longer needed as such
-    reached.assign(slots_, 0);
-    for (std::size_t lane = 0; lane < sources_.size(); ++lane) {
-        const Source& source = sources_[lane];
-        if (source.manifold == UINT32_MAX) continue;
-        const std::size_t g = lane / lanes, l = lane % lanes;
-        Manifold& m = problem.manifolds[source.manifold];
-        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const Source& source = sources_[lanes * g + l];
+        if (source.count == 0) continue;
+        Manifold& m = problem.manifolds[lane_manifolds_[lanes * g + l]];
+        const float* head = row(g, 0) + l;
+        const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
         release(m);
-        const Vec3 tangent_1{row(g, soft::tangent_1)[l], row(g, soft::tangent_1)[lanes + l], row(g, soft::tangent_1)[2 * lanes + l]};
-        const Vec3 tangent_2 = m.normal.cross(tangent_1);
-        Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   // N s on B, and its moment about A's centre
-        Vec3 center = Vec3::Zero();
-        double weights = 0.0;
-        const double near = tuning::friction_near * std::min(a.radius, b.radius);
-        for (int i = 0; i < source.count; ++i) {
-            ContactPoint& p = m.points[source.point[i]];
-            p.impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
-            const Vec3 arm = p.position - a.position;
-            const Vec3 j = double(point_row(g, i, soft::impulse_sum)[l]) * m.normal;
-            force += j;
-            moment += arm.cross(j);
-            const double weight = p.separation < near ? 1.0 : tuning::friction_far_weight;
-            center += weight * arm;
-            weights += weight;
-        }
-        const Vec3 friction = double(row(g, soft::friction_1_sum)[l]) * tangent_1 + double(row(g, soft::friction_2_sum)[l]) * tangent_2;
-        force += friction;
-        moment += (center / weights).cross(friction) + double(row(g, soft::twist_sum)[l]) * m.normal;
-        m.friction[0] = substeps_ * double(row(g, soft::friction_1)[l]);
-        m.friction[1] = substeps_ * double(row(g, soft::friction_2)[l]);
-        m.twist = substeps_ * double(row(g, soft::twist)[l]);
-        m.tangent = a.rotation.transpose() * tangent_1;
+        for (int i = 0; i < source.count; ++i)
+            m.points[source.point[i]].impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
+        m.friction[0] = substeps_ * double(head[soft::friction_1 * lanes]);
+        m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
+        m.twist = substeps_ * double(head[soft::twist * lanes]);
+        m.tangent = three(soft::tangent_1);
+        const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
-        if (a.dynamic()) {
-            reached[lane_bodies_[2 * lanes * g + l]] = 1;
+        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l], slot_b = lane_bodies_[2 * lanes * g + lanes + l];
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        if (!(slot_a & soft::unmoved)) {
+            reached_[slot_a] = 1;
             a.momentum -= force;
             a.angular_momentum -= moment;
         }
-        if (b.dynamic()) {
-            reached[lane_bodies_[2 * lanes * g + lanes + l]] = 1;
+        if (!(slot_b & soft::unmoved)) {
+            reached_[slot_b] = 1;
             b.momentum += force;
             b.angular_momentum += moment + (a.position - b.position).cross(force);
         }
     }
-    for (std::size_t k = 0; k < part.bodies.size(); ++k) {
-        if (!reached[k + 1]) continue;
+}
+
+void SoftSolver::Batch::hand_back(const ContactProblem& problem, const Part& part, std::size_t first, std::size_t last) {
+    const double rate = 1.0 / problem.patches.h;
+    for (std::size_t k = first; k < last; ++k) {
+        if (!reached_[k + 1]) continue;
         Body& body = problem.bodies[part.bodies[k]];
-        body.derive();
+        body.derive_velocities();
         const float* moved = state(k + 1) + 8;
-        const double rate = 1.0 / problem.patches.h;
         body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
         body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
     }
 }
 
-SoftSolver::SoftSolver(std::size_t bodies, int, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
+SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
 SoftSolver::~SoftSolver() = default;
 
 void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool) {
     while (batches_.size() < parts.size()) batches_.push_back(std::make_unique<Batch>(kernel_));
     if (parts.size() == 1) {   // one island, or too little work to share: the threads share its colours
         Batch& batch = *batches_[0];
-        batch.pack(problem, parts[0], slot_);
+        batch.prepare(problem, parts[0], slot_);
         const bool worth_it = parts[0].manifolds.size() >= tuning::soft_team_manifolds;
         const std::size_t team = worth_it ? std::size_t(pool.size()) : 1;
         SpinBarrier barrier(team);
-        if (team == 1) batch.run(0, 1, barrier);
-        else pool.together([&](std::size_t thread) { batch.run(thread, team, barrier); });
-        batch.unpack(problem, parts[0]);
+        if (team == 1) batch.run(problem, parts[0], slot_, 0, 1, barrier);
+        else pool.together([&](std::size_t thread) { batch.run(problem, parts[0], slot_, thread, team, barrier); });
         return;
     }
     pool.for_each(parts.size(), 2, [&](std::size_t k, std::size_t) {
         SpinBarrier alone(1);
-        batches_[k]->pack(problem, parts[k], slot_);
-        batches_[k]->run(0, 1, alone);
-        batches_[k]->unpack(problem, parts[k]);
+        batches_[k]->prepare(problem, parts[k], slot_);
+        batches_[k]->run(problem, parts[k], slot_, 0, 1, alone);
     });
 }
 

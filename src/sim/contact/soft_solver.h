@@ -37,7 +37,7 @@ struct ContactProblem {
 
 class SoftSolver {
 public:
-    SoftSolver(std::size_t bodies, int threads, const soft::Kernel& kernel = soft::best_kernel());
+    explicit SoftSolver(std::size_t bodies, const soft::Kernel& kernel = soft::best_kernel());
     ~SoftSolver();
 
     /// `parts`: manifolds (ascending) and dynamic bodies of one island or several each; parts share no dynamic body.

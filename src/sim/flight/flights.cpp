@@ -37,7 +37,7 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       neighbourhood_(bodies),
       queue_(bodies.size()),
       islands_(bodies.size()),
-      contact_solver_(bodies.size(), 1),
+      contact_solver_(bodies.size()),
       velocity_before_(bodies.size(), Vec3::Zero()),
       angular_velocity_before_(bodies.size(), Vec3::Zero()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -492,7 +492,8 @@ const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uin
         }
     }
     sort_unique(pairs);
-    return motion_limit_.limits(pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
+    return motion_limit_.limits(find_pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
                                 clock_.between(now, {now.step + 1, 0.0}));
 }
 

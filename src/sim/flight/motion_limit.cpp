@@ -72,7 +72,7 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
     };
 }
 
-const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::Pair>& pairs, const TouchDepth& touch_depth,
+const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                                   const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
                                                   const std::vector<StepMotion>& motions, double h) {
     if (limits_.empty()) {
@@ -87,7 +87,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const std::vector<BroadPhase::
     shortened_.clear();
     if (all_slow(bodies, moving, motions, h)) return limits_;
     fast_.clear();
-    for (const BroadPhase::Pair& pair : pairs) {
+    for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
         // Pushed out of the right side is what is in by less than both inner radii together.

@@ -32,11 +32,14 @@ using TouchDepth = std::function<std::optional<double>(std::uint32_t a, std::uin
 /// From manifolds ascending by body, which must outlive it.
 TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
 
+/// The pairs that may meet in the step: looked for only where something is fast.
+using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
+
 class MotionLimit {
 public:
     /// By body; `motions` too, bodies that do not move have zero. `moving`: those that may. What touches already is the
     /// contact solver's, and may come a little deeper into each other: no more.
-    const std::vector<StepLimit>& limits(const std::vector<BroadPhase::Pair>& pairs, const TouchDepth& touch_depth,
+    const std::vector<StepLimit>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                          const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
                                          const std::vector<StepMotion>& motions, double h);
 
