@@ -46,7 +46,7 @@ inline constexpr int soft_load_age = 8;
 inline constexpr double soft_frequency = 0.18;
 inline constexpr double soft_damping = 2.0;
 /// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
-inline constexpr double soft_slop = 1e-4;
+inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
 inline constexpr double friction_near = 2e-3;
 inline constexpr double friction_far_weight = 0.01;
@@ -77,6 +77,8 @@ inline constexpr double direct_slop = 1e-6;
 inline constexpr double direct_push_compliance = 1e-2;
 inline constexpr double direct_push_across = 0.03;
 
+/// Islands in which a body turns farther than this (rad) in a step are left to the substeps.
+inline constexpr double direct_turn = 0.03;
 /// Single bodies with so few manifolds are solved directly; and all islands of a scene with so few in contact.
 inline constexpr std::size_t direct_small_manifolds = 8;
 inline constexpr std::size_t direct_few_manifolds = 32;

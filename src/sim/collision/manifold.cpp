@@ -1,6 +1,7 @@
 #include "sim/collision/manifold.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -8,6 +9,10 @@ namespace {
 // Two candidates nearly as good as each other must not swap places from step to step: a later one must be better
 // by this factor.
 constexpr double clearly = 1.02;
+
+// What spans the area may lie over what touches: the upper corners of a thin plate over its lower ones. Then the lower one
+// counts: nearer along the normal by more than twice what it is aside.
+constexpr double steep = 0.5;
 
 }  // namespace
 
@@ -28,7 +33,8 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
 
     double best = 0.0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const double d = (candidates[i].position - p0).squaredNorm();
+        const Vec3 way = candidates[i].position - p0;
+        const double d = way.squaredNorm() - std::pow(manifold.normal.dot(way), 2);
         if (d > clearly * best) {
             best = d;
             chosen[1] = i;
@@ -45,6 +51,35 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
             most[side] = std::abs(area);
             chosen[2 + std::size_t(side)] = i;
             found[side] = true;
+        }
+    }
+    // All on one side of the line, as where it runs along the edge of a long face: then what is farthest outside the
+    // triangle's other two sides.
+    if (found[0] != found[1]) {
+        const int there = found[0] ? 0 : 1;
+        const double sign = found[0] ? 1.0 : -1.0;
+        const std::size_t third = chosen[2 + std::size_t(there)];
+        const Vec3 p1 = candidates[chosen[1]].position, p2 = candidates[third].position;
+        double outside = 1e-6 * size * size;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const Vec3& p = candidates[i].position;
+            const double area = std::max(-sign * manifold.normal.dot((p2 - p1).cross(p - p1)), -sign * manifold.normal.dot((p0 - p2).cross(p - p2)));
+            if (area > clearly * outside) {
+                outside = area;
+                chosen[2 + std::size_t(1 - there)] = i;
+                found[1 - there] = true;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (i >= 2 && !found[i - 2]) continue;
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
+            const ContactPoint &upper = candidates[chosen[i]], &lower = candidates[k];
+            const double nearer = upper.separation - lower.separation;
+            if (nearer < 1e-6 * size) continue;
+            const Vec3 way = lower.position - upper.position;
+            if ((way - manifold.normal.dot(way) * manifold.normal).norm() < steep * nearer) chosen[i] = k;
         }
     }
     manifold.count = 0;

@@ -29,6 +29,11 @@ bool meets(const Manifold& m, const Body& a, const Body& b, double h, double spe
     return false;
 }
 
+// Fixed, or kinematic and on no way in the coming step.
+bool stands(const Body& body) {
+    return !body.dynamic() && body.velocity.isZero(0.0) && body.angular_velocity.isZero(0.0);
+}
+
 }  // namespace
 
 bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
@@ -71,7 +76,7 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
         if (!still) continue;
         for (const std::uint32_t k : islands.manifolds(island)) {
             const Manifold& m = manifolds[k];
-            if (bodies[m.a].moves() && bodies[m.b].moves()) continue;
+            if (!stands(bodies[m.a]) && !stands(bodies[m.b])) continue;
             for (int i = 0; i < m.count; ++i) leans = leans || m.points[std::size_t(i)].impulse > 0.0;
         }
         if (!leans) continue;

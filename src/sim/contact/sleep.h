@@ -1,6 +1,6 @@
 // Islands that have come to rest leave the loop until something touches them. A body at rest is one whose surface has
 // stayed within a hair of where it was for half a second; an island sleeps when all its bodies are at rest and it leans
-// on something fixed. Bodies in free flight never sleep, however slow.
+// on something that stands, fixed or kinematic. Bodies in free flight never sleep, however slow.
 #pragma once
 
 #include "sim/contact/contact_islands.h"

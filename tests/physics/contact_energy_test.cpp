@@ -1,0 +1,120 @@
+// Contact takes energy out and never puts any in: heaps of boxes, balls and hulls, looked at after every step.
+#include "sim/random_shapes.h"
+#include "support/meshes.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+
+double energy(const World& world) {
+    const Measurement m = world.measure();
+    return m.kinetic + m.potential;
+}
+
+enum class Kind { boxes, spheres, hulls, mixed };
+
+SceneDescription heap(Kind kind, int count, double friction, double restitution, int steps, std::uint64_t seed) {
+    SceneDescription scene = ground_scene(restitution, friction, steps);
+    scene.simulation.sleep = false;
+    for (int side = 0; side < 4; ++side) {
+        const Vec3 in(side == 0 ? 1 : side == 1 ? -1 : 0, 0, side == 2 ? 1 : side == 3 ? -1 : 0);
+        add_body(scene, PlaneShape{in, -2.6}, Vec3::Zero()).type = BodyType::fixed;
+    }
+    Random random(seed);
+    const auto gem = icosahedron(0.4);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 at((i % 3 - 1) * 1.7 + random(-0.1, 0.1), 0.8 + 1.7 * (i / 9), (i / 3 % 3 - 1) * 1.7 + random(-0.1, 0.1));
+        const int shape = kind == Kind::mixed ? i % 3 : int(kind);
+        BodyDescription& body = shape == 0   ? add_box(scene, Vec3(random(0.4, 0.9), random(0.4, 0.9), random(0.4, 0.9)), at)
+                                : shape == 1 ? add_sphere(scene, random(0.2, 0.5), at)
+                                             : add_body(scene, MeshShape{gem}, at);
+        body.mass = random(0.5, 3.0);
+        body.rotation = random.turn();
+    }
+    for (BodyDescription& body : scene.bodies) {
+        body.friction = friction;
+        body.restitution = restitution;
+    }
+    return scene;
+}
+
+const char* name(Kind k) { return k == Kind::boxes ? "boxes" : k == Kind::spheres ? "spheres" : k == Kind::hulls ? "hulls" : "mixed"; }
+
+struct Look {
+    double energy, overlap, speed;
+};
+
+Look look(const World& world) {
+    const Measurement m = world.measure();
+    Look l{m.kinetic + m.potential, m.max_penetration, 0.0};
+    for (const BodyState& b : world.snapshot().bodies) l.speed = std::max(l.speed, b.velocity.norm());
+    return l;
+}
+
+/// The largest gain of energy in a step, over the heap's weight (m): and over what overlaps pushed out and bodies on their
+/// way can lift it, the deepest overlap plus h times the fastest speed (1).
+struct Gain {
+    double height = 0.0, share = 0.0;
+};
+
+Gain watch(const SceneDescription& scene, double seconds) {
+    World world(scene);
+    double weight = 0.0;
+    for (const BodyDescription& b : scene.bodies)
+        if (b.type == BodyType::dynamic) weight += *b.mass * 9.81;
+    Gain gain;
+    Look before = look(world);
+    const double start = before.energy;
+    const int steps = int(std::lround(seconds / scene.step()));
+    for (int k = 0; k < steps; ++k) {
+        world.step();
+        const Look now = look(world);
+        const double height = (now.energy - before.energy) / weight;
+        gain.height = std::max(gain.height, height);
+        gain.share = std::max(gain.share, (height - 1e-9) / (before.overlap + before.speed * scene.step() + 1e-9));
+        EXPECT_LE(now.energy, start * (1.0 + 1e-9));
+        before = now;
+    }
+    return gain;
+}
+
+}  // namespace
+
+// Few bodies, inelastic: solved directly, and energy falls at every step but for rounding.
+TEST(ContactEnergy, NeverGrowsInSmallInelasticHeaps) {
+    for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
+        for (const double friction : {0.0, 0.5})
+            for (const int steps : {1, 8})
+                EXPECT_LE(watch(heap(kind, 9, friction, 0.0, steps, 7), 1.5).height, 1e-9) << name(kind) << " " << friction << " " << steps;
+}
+
+// Soft contact and bounces may gain in a step what is left of an overlap to push out, or what gravity would have taken
+// from a bounce; over some steps all of it is lost again.
+TEST(ContactEnergy, GainsNoMoreThanPushOutAndAStepsFall) {
+    for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
+        for (const double friction : {0.0, 0.5})
+            for (const double restitution : {0.0, 0.3, 0.8})
+                EXPECT_LE(watch(heap(kind, 36, friction, restitution, 4, 7), 1.5).share, 1.0)
+                    << name(kind) << " " << friction << " " << restitution;
+}
+
+// From second to second it only falls, and in the end it has come to rest.
+TEST(ContactEnergy, HeapsComeToRest) {
+    for (const double restitution : {0.0, 0.5}) {
+        const SceneDescription scene = heap(Kind::boxes, 27, 0.5, restitution, 2, 3);
+        World world(scene);
+        double before = energy(world);
+        for (int second = 0; second < 8; ++second) {
+            run(world, scene, 1.0);
+            const double now = energy(world);
+            EXPECT_LE(now, before * (1.0 + 1e-5)) << restitution << " " << second;
+            before = now;
+        }
+        EXPECT_LE(world.measure().kinetic, 1e-6) << restitution;
+        EXPECT_LE(world.measure().max_penetration, 1e-3) << restitution;
+    }
+}

@@ -1,0 +1,101 @@
+// Bodies and manifolds made by hand, and a scene moved by one contact solver alone: for tests of contact below World, where
+// the impulses can be seen.
+#pragma once
+
+#include "sim/body_builder.h"
+#include "sim/broad_phase.h"
+#include "sim/contact/contact_solver.h"
+#include "sim/integrator.h"
+#include "sim/narrow_phase.h"
+#include "sim/tuning.h"
+#include "support/scenes.h"
+
+#include <numeric>
+#include <vector>
+
+namespace tumble::testing {
+
+/// A manifold of one point between two bodies; only who touches whom matters.
+inline Manifold touch(std::uint32_t a, std::uint32_t b) {
+    Manifold m;
+    m.a = a;
+    m.b = b;
+    m.normal = Vec3::UnitY();
+    m.count = 1;
+    return m;
+}
+
+/// Gravity and resting contact, nothing else: no restitution, no sleep, symplectic Euler.
+class SolverScene {
+public:
+    explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1)
+        : gravity_(scene.simulation.gravity), h_(scene.step()), pool_(threads), narrow_phase_(threads), islands_(scene.bodies.size()),
+          solver_(scene.bodies.size(), choice), awake_() {
+        BodyBuilder builder;
+        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, IntegratorKind::symplectic_euler));
+        for (std::uint32_t i = 0; i < bodies.size(); ++i)
+            if (bodies[i].dynamic()) awake_.push_back(i);
+    }
+
+    void step() {
+        manifolds = &narrow_phase_.find(broad_phase_.update(bodies, h_), bodies, h_, pool_);
+        islands_.find(*manifolds, bodies, awake_);
+        std::vector<Vec3> velocity(bodies.size(), Vec3::Zero()), angular_velocity(bodies.size(), Vec3::Zero());
+        for (const std::uint32_t i : awake_) {
+            Body& body = bodies[i];
+            body.derive();
+            velocity[i] = body.velocity;
+            angular_velocity[i] = body.angular_velocity;
+            body.momentum += h_ * body.mass * gravity_;
+            body.derive();
+        }
+        const double threshold = tuning::restitution_threshold * gravity_.norm() * h_;
+        solver_.solve({bodies, *manifolds, velocity, angular_velocity, {h_, threshold}}, islands_, pool_);
+        for (const std::uint32_t i : awake_) {
+            Body& body = bodies[i];
+            advance_pose(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity, h_,
+                         RotationForm::quaternion);
+            body.push_velocity.setZero();
+            body.push_angular_velocity.setZero();
+            body.derive();
+        }
+    }
+    void run(double seconds) {
+        for (int k = 0; k < int(std::lround(seconds / h_)); ++k) step();
+    }
+
+    /// N s along the normals between two bodies (a < b), in the last step.
+    double load(std::uint32_t a, std::uint32_t b) const {
+        double sum = 0.0;
+        for (const Manifold& m : *manifolds)
+            if (m.a == a && m.b == b)
+                for (int i = 0; i < m.count; ++i) sum += m.points[std::size_t(i)].impulse;
+        return sum;
+    }
+    /// N, of friction between them.
+    double friction(std::uint32_t a, std::uint32_t b) const {
+        double one = 0.0, two = 0.0;
+        for (const Manifold& m : *manifolds)
+            if (m.a == a && m.b == b) {
+                one += m.friction[0];
+                two += m.friction[1];
+            }
+        return std::hypot(one, two) / h_;
+    }
+    double h() const { return h_; }
+
+    std::vector<Body> bodies;
+    std::vector<Manifold>* manifolds = nullptr;   // of the last step
+
+private:
+    Vec3 gravity_;
+    double h_;
+    ThreadPool pool_;
+    BroadPhase broad_phase_;
+    NarrowPhase narrow_phase_;
+    ContactIslands islands_;
+    ContactSolver solver_;
+    std::vector<std::uint32_t> awake_;
+};
+
+}  // namespace tumble::testing

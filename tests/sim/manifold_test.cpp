@@ -1,0 +1,62 @@
+// Which four points of many are kept: those that bear.
+#include "sim/random_shapes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+Mat3 turn_about_y(double angle) { return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(); }
+}
+
+// A plate of any proportions on a half-space and on a box, looked at from so far that its upper corners are candidates
+// too: its four lower corners, wherever it is turned about the normal.
+TEST(Manifold, APlateStandsOnItsFourCorners) {
+    Random random(9);
+    for (const double width : {1.0, 0.3, 0.1, 0.03, 0.01})
+        for (const double thick : {0.1, 0.01, 0.001})
+            for (int trial = 0; trial < 20; ++trial) {
+                const Vec3 size(1.0, thick, width);
+                const Pose pose{{0.0, 0.5 * thick, 0.0}, turn_about_y(random(-3.0, 3.0))};
+                const Collider floors[] = {HalfSpace{Vec3::UnitY(), 0.0}, box_of({3.0, 1.0, 3.0})};
+                for (const bool box : {false, true}) {
+                    const Pose floor{box ? Vec3(0.0, -0.5, 0.0) : Vec3(Vec3::Zero()), Mat3::Identity()};
+                    const auto manifolds = collide_all(floors[box], floor, box_of(size), pose, 3.0 * thick);
+                    ASSERT_EQ(manifolds.size(), 1u);
+                    ASSERT_EQ(manifolds[0].count, 4) << width << " " << thick << " " << box;
+                    for (int corner = 0; corner < 4; ++corner) {
+                        const Vec3 at = pose.to_world(0.5 * Vec3(corner & 1 ? 1.0 : -1.0, -thick, corner & 2 ? width : -width));
+                        double nearest = 1e9;
+                        for (int i = 0; i < 4; ++i) {
+                            nearest = std::min(nearest, (manifolds[0].points[std::size_t(i)].position - at).norm());
+                            EXPECT_NEAR(manifolds[0].points[std::size_t(i)].separation, 0.0, 1e-12);
+                        }
+                        EXPECT_LE(nearest, 1e-9) << width << " " << thick << " " << box << " " << corner;
+                    }
+                }
+            }
+}
+
+// Of many points on a circle four that hold its middle well.
+TEST(Manifold, ADiscStandsAroundItsMiddle) {
+    for (int corners = 5; corners <= 40; ++corners) {
+        std::vector<ContactPoint> points;
+        for (int i = 0; i < corners; ++i) {
+            const double angle = 6.283185307179586 * i / corners;
+            ContactPoint p;
+            p.position = Vec3(std::cos(angle), 0.0, std::sin(angle));
+            points.push_back(p);
+        }
+        Manifold m;
+        m.normal = Vec3::UnitY();
+        keep_best_points(points, m);
+        ASSERT_EQ(m.count, 4);
+        for (int k = 0; k < 64; ++k) {   // in every direction something stands out by more than cos 72 degrees: a corner of a pentagon
+            const Vec3 way(std::cos(0.1 * k), 0.0, std::sin(0.1 * k));
+            double most = 0.0;
+            for (int i = 0; i < 4; ++i) most = std::max(most, way.dot(m.points[std::size_t(i)].position));
+            EXPECT_GE(most, 0.3) << corners << " " << k;
+        }
+    }
+}

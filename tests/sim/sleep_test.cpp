@@ -1,0 +1,151 @@
+// Who falls asleep, and when; who wakes, and with whom.
+#include "sim/contact/sleep.h"
+#include "sim/contact_scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+
+constexpr double h = 1.0 / 64.0;   // exact in binary: half a second is 32 steps
+
+/// A floor (0), two boxes one on the other (1, 2), and one apart from them on the floor (3); nothing moves unless told.
+struct Yard {
+    std::vector<Body> bodies;
+    std::vector<Manifold> manifolds = {touch(0, 1), touch(0, 3), touch(1, 2)};
+    std::vector<std::uint32_t> awake = {1, 2, 3};
+    ContactIslands islands{4};
+    SleepMonitor sleep{4};
+
+    Yard() {
+        SceneDescription scene = ground_scene(0.0, 0.5);
+        for (const double y : {0.5, 1.5}) add_box(scene, {1.0, 1.0, 1.0}, {0.0, y, 0.0});
+        add_box(scene, {1.0, 1.0, 1.0}, {5.0, 0.5, 0.0});
+        BodyBuilder builder;
+        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, IntegratorKind::symplectic_euler));
+        for (Manifold& m : manifolds) m.points[0].impulse = 1.0;
+    }
+    void observe(int steps = 1) {
+        for (int k = 0; k < steps; ++k) {
+            islands.find(manifolds, bodies, awake);
+            sleep.observe(islands, manifolds, bodies, h);
+        }
+    }
+    int asleep() const { return int(std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.asleep; })); }
+};
+
+}  // namespace
+
+TEST(SleepMonitor, AfterHalfASecondOfRest) {
+    Yard yard;
+    const int steps = int(tuning::sleep_time / h);
+    yard.observe(steps);   // the watch begins with the first look
+    EXPECT_EQ(yard.asleep(), 0);
+    yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);   // what is left over is taken away
+    yard.observe();
+    EXPECT_EQ(yard.asleep(), 3);
+    EXPECT_TRUE(yard.bodies[1].momentum.isZero(0.0));
+    EXPECT_TRUE(yard.bodies[1].velocity.isZero(0.0));
+}
+
+// One restless body keeps its island awake, and no other.
+TEST(SleepMonitor, IslandsSleepAsOne) {
+    Yard yard;
+    for (int k = 0; k < 100; ++k) {
+        yard.bodies[2].position.x() += 1.01 * tuning::sleep_drift * yard.bodies[2].radius;
+        yard.observe();
+    }
+    EXPECT_FALSE(yard.bodies[1].asleep);
+    EXPECT_FALSE(yard.bodies[2].asleep);
+    EXPECT_TRUE(yard.bodies[3].asleep);
+}
+
+// Turning on the spot is motion too.
+TEST(SleepMonitor, SpinsAreNoRest) {
+    Yard yard;
+    for (int k = 0; k < 100; ++k) {
+        yard.bodies[3].orientation = turn(Vec3::UnitY(), 1.1 * tuning::sleep_drift * k);
+        yard.observe();
+    }
+    EXPECT_FALSE(yard.bodies[3].asleep);
+    EXPECT_TRUE(yard.bodies[1].asleep);
+}
+
+// Trembling within the drift is rest, creeping beyond it is not.
+TEST(SleepMonitor, TremblingIsRestCreepingIsNot) {
+    Yard yard;
+    const double drift = tuning::sleep_drift * yard.bodies[3].radius;
+    for (int k = 0; k < 100; ++k) {
+        yard.bodies[3].position.x() = 5.0 + (k % 2 ? 0.45 : -0.45) * drift;
+        yard.bodies[1].position.x() = 0.1 * k * drift;   // the whole drift in ten steps
+        yard.observe();
+    }
+    EXPECT_TRUE(yard.bodies[3].asleep);
+    EXPECT_FALSE(yard.bodies[1].asleep);
+}
+
+TEST(SleepMonitor, OnlyWhatLeansOnSomethingFixed) {
+    Yard yard;
+    yard.manifolds[0].points[0].impulse = 0.0;   // the pair touches the floor without weight
+    yard.bodies[0].type = BodyType::fixed;
+    yard.observe(100);
+    EXPECT_FALSE(yard.bodies[1].asleep);
+    EXPECT_TRUE(yard.bodies[3].asleep);
+}
+
+TEST(SleepMonitor, WakesTheGroupThatIsTouchedAndNoOther) {
+    Yard yard;
+    yard.observe(100);
+    ASSERT_EQ(yard.asleep(), 3);
+    const auto before = yard.sleep.changes();
+    // A ball above the upper box, a centimetre off: too slow to arrive in this step, then fast enough.
+    SceneDescription scene;
+    add_sphere(scene, 0.5, {0.0, 2.51, 0.0});
+    yard.bodies.push_back(BodyBuilder().build(scene.bodies[0], IntegratorKind::symplectic_euler));
+    Manifold m = touch(2, 4);
+    m.points[0].separation = 0.01;
+    m.points[0].position = Vec3(0.0, 2.0, 0.0);
+    const auto fall = [&](double speed) {
+        yard.bodies[4].momentum = Vec3(0.0, -speed, 0.0);
+        yard.bodies[4].derive();
+        return yard.sleep.wake_touched({m}, yard.bodies, h, 0.0);
+    };
+    EXPECT_FALSE(fall(0.99 * 0.01 / h));
+    EXPECT_EQ(yard.asleep(), 3);
+    EXPECT_TRUE(fall(1.01 * 0.01 / h));
+    EXPECT_EQ(yard.sleep.changes(), before + 1);
+    EXPECT_FALSE(yard.bodies[1].asleep);   // with the one below it
+    EXPECT_FALSE(yard.bodies[2].asleep);
+    EXPECT_TRUE(yard.bodies[3].asleep);
+}
+
+// Touched by what stands still, fixed or kinematic, nobody wakes; by a kinematic body that moves, at once.
+TEST(SleepMonitor, AMovingSupportWakesAStandingOneDoesNot) {
+    Yard yard;
+    yard.bodies[0].type = BodyType::kinematic;
+    yard.bodies[0].radius = 1.0;
+    yard.observe(100);
+    ASSERT_EQ(yard.asleep(), 3);
+    EXPECT_FALSE(yard.sleep.wake_touched(yard.manifolds, yard.bodies, h, 0.1));
+    yard.bodies[0].velocity = Vec3(0.0, -1e-9, 0.0);
+    EXPECT_TRUE(yard.sleep.wake_touched(yard.manifolds, yard.bodies, h, 0.1));
+    EXPECT_EQ(yard.asleep(), 0);
+}
+
+// One wakes the next: a row of sleeping groups, each touching the one before.
+TEST(SleepMonitor, WakingGoesOn) {
+    Yard yard;
+    yard.observe(100);
+    std::vector<Manifold> manifolds = {touch(2, 3), touch(1, 2)};   // the third touches the pair only now
+    yard.sleep.wake(3, yard.bodies);
+    EXPECT_EQ(yard.asleep(), 2);
+    EXPECT_TRUE(yard.sleep.wake_touched(manifolds, yard.bodies, h, 0.0));
+    EXPECT_EQ(yard.asleep(), 0);
+    // Who has woken begins a new half second.
+    yard.observe(int(tuning::sleep_time / h));
+    EXPECT_EQ(yard.asleep(), 0);
+    yard.observe();
+    EXPECT_EQ(yard.asleep(), 3);
+}

@@ -1,0 +1,318 @@
+// The soft solver's inner loops: the same bits whatever the width, and one contact against closed forms.
+#include "sim/contact/soft_kernel.h"
+#include "sim/random_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+using namespace tumble;
+using namespace tumble::soft;
+using tumble::testing::Random;
+using tumble::testing::trials;
+
+namespace {
+
+/// Memory aligned to 64 bytes.
+struct alignas(64) Line {
+    float f[16] = {};
+};
+
+struct LanePoint {
+    Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
+    double separation = 0.0, bounce = 0.0, lever = 0.0, impulse = 0.0;
+};
+struct Lane {
+    std::uint32_t a = unmoved, b = unmoved;
+    Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX(), friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
+    double friction = 0.0, impact = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, slop = 0.0, push_limit = 1e30;
+    double start_friction[3] = {};
+    std::vector<LanePoint> points;
+};
+
+/// Bodies and one colour of manifolds: no two share a body that moves.
+class OneColor {
+public:
+    OneColor(const Kernel& kernel, std::size_t bodies, const std::vector<Lane>& lanes)
+        : kernel_(kernel), lanes_(std::size_t(kernel.lanes)), groups_((lanes.size() + lanes_ - 1) / lanes_),
+          state_(bodies + 1), mass_((bodies + 2) / 2), rows_((groups_ * group_rows * lanes_ + 15) / 16),
+          bodies_(2 * lanes_ * groups_, unmoved), points_(groups_, 0) {
+        for (std::size_t k = 0; k < lanes.size(); ++k) pack(k, lanes[k]);
+    }
+    float* state(std::size_t slot) { return state_[slot].f; }
+    float* mass(std::size_t slot) { return mass_[slot / 2].f + 8 * (slot % 2); }
+    float& head(std::size_t lane, int row) { return reinterpret_cast<float*>(rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_]; }
+    float& at(std::size_t lane, int point, int row) { return head(lane, head_rows + point * point_rows + row); }
+
+    void prepare() { call(kernel_.prepare); }
+    void warm_start() { call(kernel_.warm_start); }
+    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), rate); }
+    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), rate); }
+
+private:
+    Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), points_.data()}; }
+    Bodies bodies() { return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(mass_.data())}; }
+    void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) { pass(groups(), 0, groups_, bodies()); }
+
+    void pack(std::size_t k, const Lane& lane) {
+        const std::size_t group = k / lanes_, l = k % lanes_;
+        bodies_[2 * lanes_ * group + l] = lane.a;
+        bodies_[2 * lanes_ * group + lanes_ + l] = lane.b;
+        points_[group] = std::max(points_[group], std::uint8_t(lane.points.size()));
+        const auto vector = [&](int row, const Vec3& v) {
+            for (int i = 0; i < 3; ++i) head(k, row + i) = float(v[i]);
+        };
+        vector(normal, lane.normal);
+        vector(tangent_1, lane.tangent);
+        vector(friction_arm_a, lane.friction_arm_a);
+        vector(friction_arm_b, lane.friction_arm_b);
+        head(k, friction_coefficient) = float(lane.friction);
+        head(k, impact_impulse) = float(lane.impact);
+        head(k, bias_rate) = float(lane.bias_rate);
+        head(k, mass_scale) = float(lane.mass_scale);
+        head(k, impulse_scale) = float(lane.impulse_scale);
+        head(k, slop) = float(lane.slop);
+        head(k, push_limit) = float(lane.push_limit);
+        head(k, friction_1) = float(lane.start_friction[0]);
+        head(k, friction_2) = float(lane.start_friction[1]);
+        head(k, twist) = float(lane.start_friction[2]);
+        for (std::size_t i = 0; i < lane.points.size(); ++i) {
+            const LanePoint& p = lane.points[i];
+            const int base = head_rows + int(i) * point_rows;
+            vector(base + arm_a, p.arm_a);
+            vector(base + arm_b, p.arm_b);
+            at(k, int(i), normal_mass) = 1.0f;
+            at(k, int(i), separation) = float(p.separation);
+            at(k, int(i), bounce) = float(p.bounce);
+            at(k, int(i), lever) = float(p.lever);
+            at(k, int(i), impulse) = float(p.impulse);
+        }
+    }
+
+    const Kernel& kernel_;
+    std::size_t lanes_, groups_;
+    std::vector<Line> state_, mass_, rows_;
+    std::vector<std::uint32_t> bodies_;
+    std::vector<std::uint8_t> points_;
+};
+
+std::vector<const Kernel*> kernels() {
+    std::vector<const Kernel*> all = {&sse2_kernel};
+    if (__builtin_cpu_supports("avx2")) all.push_back(&avx2_kernel);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512bw"))
+        all.push_back(&avx512_kernel);
+    return all;
+}
+
+void random_mass(Random& random, float* mass) {
+    mass[0] = float(random(0.1, 2.0));
+    const Mat3 root = (Mat3() << random(0.5, 2.0), 0, 0, random(-0.5, 0.5), random(0.5, 2.0), 0, random(-0.5, 0.5), random(-0.5, 0.5), random(0.5, 2.0)).finished();
+    const Mat3 inverse = root * root.transpose();
+    const double entries[] = {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+    for (int i = 0; i < 6; ++i) mass[1 + i] = float(entries[i]);
+}
+
+/// A ball of mass m and radius r on what does not move, its centre at r above: slot 1.
+constexpr double m = 2.0, r = 0.5, inertia = 0.4 * m * r * r;
+OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3& spin = Vec3::Zero()) {
+    lane.b = 1;
+    OneColor color(kernel, 1, {lane});
+    for (int i = 0; i < 3; ++i) {
+        color.state(1)[i] = float(velocity[i]);
+        color.state(1)[3 + i] = float(spin[i]);
+    }
+    color.mass(1)[0] = float(1.0 / m);
+    color.mass(1)[1] = color.mass(1)[4] = color.mass(1)[6] = float(1.0 / inertia);
+    color.prepare();
+    return color;
+}
+Lane ball_lane(double friction, double separation = 0.0) {
+    Lane lane;
+    lane.friction = friction;
+    lane.friction_arm_b = Vec3(0.0, -r, 0.0);
+    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0, 0.0, 0.0}};
+    return lane;
+}
+
+}  // namespace
+
+TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
+    for (int trial = 0; trial < trials(40); ++trial) {
+        std::vector<std::vector<float>> results;
+        const auto all = kernels();
+        for (const Kernel* kernel : all) {
+            Random random{std::uint64_t(trial)};
+            const int count = 1 + random.below(60);
+            std::vector<Lane> lanes;
+            for (int k = 0; k < count; ++k) {
+                Lane lane;
+                lane.a = random.below(4) == 0 ? unmoved : std::uint32_t(2 * k + 1);
+                lane.b = random.below(8) == 0 ? unmoved | std::uint32_t(2 * k + 2) : std::uint32_t(2 * k + 2);
+                if (lane.a == unmoved && (lane.b & unmoved)) lane.a = std::uint32_t(2 * k + 1);
+                lane.normal = random.direction();
+                lane.tangent = lane.normal.unitOrthogonal();
+                lane.friction_arm_a = random.vector(1.0);
+                lane.friction_arm_b = random.vector(1.0);
+                lane.friction = random(0.0, 1.0);
+                lane.impact = random.below(3) == 0 ? random(0.0, 0.1) : 0.0;
+                lane.bias_rate = random(10.0, 100.0);
+                lane.mass_scale = random(0.5, 1.0);
+                lane.impulse_scale = 1.0 - lane.mass_scale;
+                lane.slop = 1e-4;
+                lane.push_limit = random(0.01, 3.0);
+                for (double& f : lane.start_friction) f = random(-0.01, 0.01);
+                for (int i = 1 + random.below(4); i > 0; --i)
+                    lane.points.push_back({random.vector(1.0), random.vector(1.0), random(-0.05, 0.02),
+                                           random.below(5) == 0 ? random(0.0, 1.0) : 0.0, random(0.0, 1.0), random(0.0, 0.1)});
+                lanes.push_back(lane);
+            }
+            OneColor color(*kernel, std::size_t(2 * count), lanes);
+            for (std::size_t s = 1; s <= std::size_t(2 * count); ++s) {
+                for (int i = 0; i < 6; ++i) color.state(s)[i] = float(random(-1.0, 1.0));
+                random_mass(random, color.mass(s));
+            }
+            color.prepare();
+            color.warm_start();
+            for (int step = 0; step < 4; ++step) {
+                color.push(480.0f);
+                for (std::size_t s = 1; s <= std::size_t(2 * count); ++s)
+                    for (int i = 0; i < 6; ++i) color.state(s)[8 + i] += color.state(s)[i] / 480.0f;
+                color.relax(480.0f);
+            }
+            std::vector<float> result;
+            for (std::size_t s = 0; s <= std::size_t(2 * count); ++s) result.insert(result.end(), color.state(s), color.state(s) + body_floats);
+            for (std::size_t k = 0; k < lanes.size(); ++k) {
+                for (const int row : {friction_1, friction_2, twist, friction_1_sum, friction_2_sum, twist_sum}) result.push_back(color.head(k, row));
+                for (std::size_t i = 0; i < lanes[k].points.size(); ++i) {
+                    result.push_back(color.at(k, int(i), impulse));
+                    result.push_back(color.at(k, int(i), impulse_sum));
+                }
+            }
+            for (const float f : result) ASSERT_TRUE(std::isfinite(f));
+            results.push_back(result);
+        }
+        for (std::size_t k = 1; k < results.size(); ++k) {
+            ASSERT_EQ(results[k].size(), results[0].size());
+            ASSERT_EQ(std::memcmp(results[k].data(), results[0].data(), results[0].size() * sizeof(float)), 0) << all[k]->lanes << " lanes";
+        }
+    }
+}
+
+// What does not move is read and never written.
+TEST(SoftKernel, UnmovedBodiesAreLeftAlone) {
+    for (const Kernel* kernel : kernels()) {
+        Lane lane = ball_lane(0.5, -0.01);
+        lane.a = unmoved | 2;
+        lane.b = 1;
+        lane.points[0].arm_a = Vec3(0.3, 0.2, 0.1);
+        OneColor color(*kernel, 2, {lane});
+        color.state(1)[1] = -1.0f;
+        color.state(2)[0] = 0.25f;   // a belt
+        color.mass(1)[0] = color.mass(1)[1] = color.mass(1)[4] = color.mass(1)[6] = 1.0f;
+        color.prepare();
+        color.push(480.0f);
+        color.relax(480.0f);
+        EXPECT_EQ(color.state(2)[0], 0.25f);
+        EXPECT_EQ(color.state(2)[1], 0.0f);
+        EXPECT_GT(color.state(1)[0], 0.0f);   // it takes the ball along
+        for (int i = 0; i < body_floats; ++i) EXPECT_EQ(color.state(0)[i], 0.0f);
+    }
+}
+
+// j = m v: a ball's mass at its own centre; through an arm across the normal less.
+TEST(SoftKernel, AContactStopsWhatApproaches) {
+    for (const Kernel* kernel : kernels()) {
+        OneColor central = ball(*kernel, ball_lane(0.0), {0.0, -3.0, 0.0});
+        central.relax(480.0f);
+        EXPECT_NEAR(central.at(0, 0, impulse), m * 3.0, 1e-5);
+        EXPECT_NEAR(central.state(1)[1], 0.0, 1e-6);
+        Lane lane = ball_lane(0.0);
+        lane.points[0].arm_b = Vec3(0.4, -0.3, 0.0);
+        OneColor aside = ball(*kernel, lane, {0.0, -3.0, 0.0});
+        aside.relax(480.0f);
+        const double j = 3.0 / (1.0 / m + 0.4 * 0.4 / inertia);
+        EXPECT_NEAR(aside.at(0, 0, impulse), j, 1e-5);
+        EXPECT_NEAR(aside.state(1)[1], -3.0 + j / m, 1e-5);
+        EXPECT_NEAR(aside.state(1)[5], 0.4 * j / inertia, 1e-4);   // about z: x arm times y impulse
+        OneColor leaving = ball(*kernel, ball_lane(0.5), {1.0, 0.1, 0.0});
+        leaving.push(480.0f);
+        leaving.relax(480.0f);
+        EXPECT_EQ(leaving.at(0, 0, impulse), 0.0f);
+        EXPECT_EQ(leaving.state(1)[0], 1.0f);
+    }
+}
+
+// A point that is apart may close the gap within the substep, and no more.
+TEST(SoftKernel, AGapIsClosedNotCrossed) {
+    for (const Kernel* kernel : kernels()) {
+        OneColor color = ball(*kernel, ball_lane(0.0, 0.005), {0.0, -3.0, 0.0});
+        color.push(480.0f);
+        EXPECT_NEAR(color.state(1)[1], -0.005 * 480.0, 1e-4);
+        OneColor slow = ball(*kernel, ball_lane(0.0, 0.005), {0.0, -1.0, 0.0});
+        slow.push(480.0f);
+        EXPECT_EQ(slow.state(1)[1], -1.0f);
+    }
+}
+
+// Soft constraint: j' = j - M c (v + b) - k j with b = rate (s + slop), at most the push limit.
+TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
+    for (const Kernel* kernel : kernels()) {
+        Lane lane = ball_lane(0.0, -0.01);
+        lane.bias_rate = 50.0;
+        lane.mass_scale = 0.8;
+        lane.impulse_scale = 0.2;
+        lane.slop = 0.001;
+        OneColor color = ball(*kernel, lane, Vec3::Zero());
+        color.push(480.0f);
+        EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * 50.0 * 0.009, 1e-5);
+        color.push(480.0f);
+        const double first = m * 0.8 * 50.0 * 0.009, v = first / m;
+        EXPECT_NEAR(color.at(0, 0, impulse), first - m * 0.8 * (v - 50.0 * 0.009) - 0.2 * first, 1e-5);
+        color.relax(480.0f);
+        EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
+        lane.push_limit = 0.1;
+        OneColor limited = ball(*kernel, lane, Vec3::Zero());
+        limited.push(480.0f);
+        EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
+    }
+}
+
+// Sliding: mu j against the slip, in any direction; the ball is spun up by it. Sticking: the slip ends. With arm r down,
+// an impulse f changes the slip by f (1/m + r^2 / I) = 3.5 f / m.
+TEST(SoftKernel, FrictionIsADisc) {
+    for (const Kernel* kernel : kernels())
+        for (const double angle : {0.0, 0.7, 2.0, -1.1}) {
+            const Vec3 way(std::cos(angle), 0.0, std::sin(angle));
+            OneColor slides = ball(*kernel, ball_lane(0.3), 5.0 * way + Vec3(0.0, -2.0, 0.0));
+            slides.relax(480.0f);
+            const double j = m * 2.0;
+            EXPECT_NEAR(std::hypot(slides.head(0, friction_1), slides.head(0, friction_2)), 0.3 * j, 1e-5);
+            EXPECT_NEAR(slides.state(1)[0], (5.0 - 0.3 * 2.0) * way.x(), 1e-5);
+            EXPECT_NEAR(slides.state(1)[2], (5.0 - 0.3 * 2.0) * way.z(), 1e-5);
+            // The spin of the impulse -0.3 j way at (0, -r, 0).
+            const Vec3 spin = Vec3(0.0, -r, 0.0).cross(Vec3(-0.3 * j * way)) / inertia;
+            for (int i = 0; i < 3; ++i) EXPECT_NEAR(slides.state(1)[3 + i], spin[i], 1e-4);
+            OneColor sticks = ball(*kernel, ball_lane(0.3), 0.5 * way + Vec3(0.0, -2.0, 0.0));
+            sticks.relax(480.0f);
+            EXPECT_NEAR(std::hypot(sticks.head(0, friction_1), sticks.head(0, friction_2)), m * 0.5 / 3.5, 1e-5);
+            EXPECT_NEAR(sticks.state(1)[0], (0.5 - 0.5 / 3.5) * way.x(), 1e-5);
+        }
+}
+
+// Several points resist a twist by mu times their loads' levers.
+TEST(SoftKernel, TwistIsHeldByTheLevers) {
+    for (const Kernel* kernel : kernels()) {
+        Lane lane = ball_lane(0.5);
+        lane.points.clear();
+        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3::Zero(), Vec3(0.2 * side, -r, 0.0), 0.0, 0.0, 0.2, 0.4});
+        OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
+        fast.push(480.0f);
+        EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
+        EXPECT_NEAR(fast.state(1)[4], 10.0 - 0.5 * 0.2 * 0.8 / inertia, 1e-4);
+        OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
+        slow.push(480.0f);
+        EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
+    }
+}
