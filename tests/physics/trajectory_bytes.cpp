@@ -1,4 +1,4 @@
-// Prints the bytes of a trajectory that goes through every part of the simulation: boxes, spheres, hulls, a triangle
+// Prints the bytes of trajectories that go through every part of the simulation: boxes, spheres, hulls, a triangle
 // surface, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number of threads.
 #include "sim/body_builder.h"
 #include "sim/integrator/advance.h"
@@ -33,6 +33,32 @@ void print_exact_motion(const SceneDescription& scene) {
     }
 }
 
+void print_trajectory(const SceneDescription& scene, int frames, int threads) {
+    World world(scene, threads);
+    for (int frame = 0; frame < frames; ++frame) {
+        world.advance_frame();
+        for (const BodyState& b : world.snapshot().bodies) {
+            std::fwrite(b.center_of_mass.data(), sizeof(double), 3, stdout);
+            std::fwrite(b.orientation.coeffs().data(), sizeof(double), 4, stdout);
+            std::fwrite(b.velocity.data(), sizeof(double), 3, stdout);
+            std::fwrite(b.angular_velocity.data(), sizeof(double), 3, stdout);
+        }
+    }
+}
+
+// One island enough bodies and manifolds for threads to share the work on it.
+SceneDescription block() {
+    SceneDescription scene = ground_scene(0.0, 0.5, 1);
+    for (int i = 0; i < 576; ++i) {
+        const Vec3 at(1.001 * (i % 8) + 0.3 * (i / 64 % 2), 0.5 + 0.999 * (i / 64), 0.999 * (i / 8 % 8));
+        BodyDescription& box = add_box(scene, {1.0, 1.0, 1.0}, at);
+        box.mass = 1.0 + 0.01 * (i % 7);
+        box.friction = 0.5;
+        box.velocity = {i % 8 < 4 ? 0.5 : -0.5, 0.0, 0.1 * (i % 3)};
+    }
+    return scene;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -65,14 +91,7 @@ int main(int argc, char** argv) {
                         {1.0, Vec3(5.0, 0.5, 1.5), Quat::Identity()}};
     scene.forces.push_back({2, Vec3(0.2, 0.0, 0.0), Vec3(0.0, 30.0, 5.0), false, 0.3, 0.6});
     print_exact_motion(scene);
-    World world(scene, argc > 1 ? std::atoi(argv[1]) : 1);
-    for (int frame = 0; frame < 70; ++frame) {
-        world.advance_frame();
-        for (const BodyState& b : world.snapshot().bodies) {
-            std::fwrite(b.center_of_mass.data(), sizeof(double), 3, stdout);
-            std::fwrite(b.orientation.coeffs().data(), sizeof(double), 4, stdout);
-            std::fwrite(b.velocity.data(), sizeof(double), 3, stdout);
-            std::fwrite(b.angular_velocity.data(), sizeof(double), 3, stdout);
-        }
-    }
+    const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
+    print_trajectory(scene, 70, threads);
+    print_trajectory(block(), 12, threads);
 }

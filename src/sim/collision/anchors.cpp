@@ -19,8 +19,11 @@ void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Mani
     const Vec3 between = pose_b.position - pose_a.position;   // the difference first: digits far from the origin
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
         const Vec3 arm_a = pose_a.rotation * anchors.on_a[i], arm_b = between + pose_b.rotation * anchors.on_b[i];
-        m.points[i].separation = m.normal.dot(arm_b - arm_a);
-        m.points[i].position = pose_a.position + 0.5 * (arm_a + arm_b);
+        const double separation = m.normal.dot(arm_b - arm_a);
+        m.points[i].separation = separation;
+        // The corner is the other body's: it slides over the face, and lever arms follow it.
+        m.points[i].position = pose_a.position + (anchors.normal_of_b ? Vec3(arm_a + 0.5 * separation * m.normal)
+                                                                      : Vec3(arm_b - 0.5 * separation * m.normal));
     }
 }
 
