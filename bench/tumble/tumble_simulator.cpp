@@ -71,6 +71,7 @@ SceneDescription described(const Scene& scene, double rate, const TumbleSettings
     d.simulation.integrator = settings.integrator;
     d.simulation.impacts = settings.impacts;
     d.simulation.impact_law = settings.law;
+    d.simulation.contact_solver = settings.contact_solver;
     d.simulation.sleep = settings.sleep;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) d.bodies.push_back(described(scene.bodies[i], i));
     if (scene.air) d.wind = WindDescription{vec(scene.air->velocity), scene.air->density, scene.air->drag};

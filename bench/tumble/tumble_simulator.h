@@ -12,6 +12,7 @@ struct TumbleSettings {
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;
     ImpactLaw law = ImpactLaw::propagating;
+    ContactSolverChoice contact_solver = ContactSolverChoice::by_island;
     bool sleep = false;
     int threads = 1;
 };

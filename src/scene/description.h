@@ -22,6 +22,8 @@ enum class ImpactMode { stepped, exact };
 /// What a row of touching bodies does. propagating: the blow is handed on from contact to contact, as in a real cradle;
 /// simultaneous: Newton's law, v_rel+ >= -e v_rel- (notes eq. 14), for all contacts at once.
 enum class ImpactLaw { propagating, simultaneous };
+/// Which solver holds resting contact. by_island: each island gets the one that suits it; the others are for comparing them.
+enum class ContactSolverChoice { by_island, soft, direct };
 /// How the state holds a rotation (notes sections 1 and 3.1).
 enum class RotationForm { quaternion, matrix };
 
@@ -32,6 +34,7 @@ struct SimulationSettings {
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;
     ImpactLaw impact_law = ImpactLaw::propagating;
+    ContactSolverChoice contact_solver = ContactSolverChoice::by_island;
     RotationForm rotation = RotationForm::quaternion;
     bool sleep = true;              // bodies at rest leave the loop until touched
     std::uint64_t seed = 1;

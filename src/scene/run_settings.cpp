@@ -20,6 +20,11 @@ constexpr Choice<ImpactMode> impact_modes[] = {
     {"stepped", ImpactMode::stepped},
     {"exact", ImpactMode::exact},
 };
+constexpr Choice<ContactSolverChoice> contact_solvers[] = {
+    {"by-island", ContactSolverChoice::by_island},
+    {"soft", ContactSolverChoice::soft},
+    {"direct", ContactSolverChoice::direct},
+};
 constexpr Choice<ImpactLaw> impact_laws[] = {
     {"propagating", ImpactLaw::propagating},
     {"simultaneous", ImpactLaw::simultaneous},
@@ -54,8 +59,8 @@ void override_number(const std::optional<double>& given, const char* option, std
 }
 
 void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
-    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law", "rotation",
-                       "sleep", "seed"});
+    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law", "contact_solver",
+                       "rotation", "sleep", "seed"});
     read_time(table, "duration", time.duration, limits::duration);
     read_time(table, "step", time.step, limits::step);
     if (const auto value = table.find("steps_per_frame")) {
@@ -66,6 +71,7 @@ void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeR
     table.read<IntegratorKind>("integrator", settings.integrator, integrators);
     table.read<ImpactMode>("impacts", settings.impacts, impact_modes);
     table.read<ImpactLaw>("impact_law", settings.impact_law, impact_laws);
+    table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, contact_solvers);
     table.read<RotationForm>("rotation", settings.rotation, rotation_forms);
     table.read("sleep", settings.sleep);
     if (const auto value = table.find("seed")) {

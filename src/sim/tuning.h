@@ -77,6 +77,8 @@ inline constexpr double direct_slop = 1e-6;
 inline constexpr double direct_push_compliance = 1e-2;
 inline constexpr double direct_push_across = 0.03;
 
+/// Islands in which a body turns farther than this (rad) in a step are left to the substeps.
+inline constexpr double direct_turn = 0.03;
 /// Single bodies with so few manifolds are solved directly; and all islands of a scene with so few in contact.
 inline constexpr std::size_t direct_small_manifolds = 8;
 inline constexpr std::size_t direct_few_manifolds = 32;

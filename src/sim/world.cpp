@@ -63,7 +63,7 @@ struct World::State {
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
-          islands(scene.bodies.size()), contact_solver(scene.bodies.size()), sleep(scene.bodies.size()),
+          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
           after_forces(scene.bodies.size()) {

@@ -65,7 +65,7 @@ TEST(Impulse, RandomPairsObeyTheNotes) {
         m.count = 1;
         m.points[0].position = 0.5 * (a.position + b.position) + random.vector(0.5);
         std::vector<Contact> contacts;
-        make_contacts({m}, bodies, {}, contacts);
+        make_contacts({m}, bodies, contacts);
         const Contact& c = contacts[0];
         const double before = relative_velocity(c, a, b), energy = kinetic(a) + kinetic(b);
         const Vec3 momentum = a.momentum + b.momentum;

@@ -1,5 +1,6 @@
-// Contacts made of manifolds: what is derived, what is carried over from the step before; and islands against a flood fill.
+// Contacts made of manifolds; what is carried over from the step before; and islands against a flood fill.
 #include "clusters.h"
+#include "sim/collision/carry_over.h"
 
 #include <gtest/gtest.h>
 
@@ -23,12 +24,6 @@ Manifold manifold(std::uint32_t a, std::uint32_t b, std::uint32_t part, const st
     return m;
 }
 
-const Contact* find(const std::vector<Contact>& contacts, std::uint32_t a, std::uint32_t b, std::uint32_t part, std::uint64_t feature) {
-    for (const Contact& c : contacts)
-        if (c.a == a && c.b == b && c.part == part && c.feature == feature) return &c;
-    return nullptr;
-}
-
 std::vector<Body> some_bodies(Random& random, int n) {
     std::vector<Body> bodies;
     for (int i = 0; i < n; ++i) bodies.push_back(random_body(random, BodyType::dynamic, 1.0, 2.0));
@@ -48,7 +43,7 @@ TEST(MakeContacts, DerivesTheEffectiveMass) {
         bodies[0].restitution = 0.2;
         bodies[1].restitution = 0.6;
         std::vector<Contact> contacts;
-        make_contacts({random_manifold(random, bodies, 0, 1, 3)}, bodies, {}, contacts);
+        make_contacts({random_manifold(random, bodies, 0, 1, 3)}, bodies, contacts);
         ASSERT_EQ(contacts.size(), 3u);
         for (const Contact& c : contacts) {
             EXPECT_DOUBLE_EQ(c.friction, std::sqrt(0.21));
@@ -88,60 +83,79 @@ TEST(MakeContacts, DerivesTheEffectiveMass) {
     }
 }
 
-TEST(MakeContacts, CarriesImpulsesOverByFeature) {
+// In the manifolds' and their points' order, and added to what is there when asked for one by one.
+TEST(MakeContacts, KeepsTheManifoldsOrder) {
     Random random(112);
     const std::vector<Body> bodies = some_bodies(random, 4);
-    std::vector<Contact> before, now;
-    make_contacts({manifold(0, 1, 0, {5, 6, 7, 8}), manifold(0, 2, 3, {1}), manifold(0, 2, 9, {1, 2}), manifold(2, 3, 0, {4})},
-                  bodies, {}, before);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        before[i].impulse = 10.0 + double(i);
-        before[i].friction_impulse = Vec3(1.0 + double(i), 0.5, 0.0);   // its part along the normal must go
-        before[i].impact = 7.0;
-        before[i].bounce_velocity = 3.0;
-    }
-    // A point gone, the order changed, one new; a part gone and one new; a pair gone and one new.
-    make_contacts({manifold(0, 1, 0, {8, 5, 99}), manifold(0, 2, 4, {1}), manifold(0, 2, 9, {2, 1}), manifold(1, 3, 0, {4}),
-                   manifold(2, 3, 0, {4})},
-                  bodies, before, now);
-    ASSERT_EQ(now.size(), 8u);
-    for (const Contact& c : now) {
-        const Contact* old = find(before, c.a, c.b, c.part, c.feature);
-        EXPECT_EQ(c.impulse, old ? old->impulse : 0.0) << c.a << c.b << c.part << " " << c.feature;
-        EXPECT_LT((c.friction_impulse - Vec3(old ? old->friction_impulse.x() : 0.0, 0.0, 0.0)).norm(), 1e-15);
-        EXPECT_EQ(c.impact, 0.0);   // of that step alone
-        EXPECT_EQ(c.bounce_velocity, 0.0);
-    }
-    EXPECT_EQ(std::count_if(now.begin(), now.end(), [](const Contact& c) { return c.impulse > 0.0; }), 5);
+    const std::vector<Manifold> manifolds{manifold(0, 1, 0, {5, 6, 7, 8}), manifold(0, 2, 3, {1}), manifold(2, 3, 9, {4, 2})};
+    std::vector<Contact> contacts(3);   // of the step before: they go
+    make_contacts(manifolds, bodies, contacts);
+    ASSERT_EQ(contacts.size(), 7u);
+    for (const Manifold& m : manifolds) add_contacts(m, bodies, contacts);
+    ASSERT_EQ(contacts.size(), 14u);
+    std::size_t next = 0;
+    for (int round = 0; round < 2; ++round)
+        for (const Manifold& m : manifolds)
+            for (int i = 0; i < m.count; ++i) {
+                const Contact& c = contacts[next++];
+                EXPECT_EQ(std::tuple(c.a, c.b, c.part, c.feature), std::tuple(m.a, m.b, m.part, m.points[std::size_t(i)].feature));
+                EXPECT_EQ(c.impact, 0.0);   // of that step alone
+                EXPECT_EQ(c.bounce_velocity, 0.0);
+            }
 }
 
-// Random lists against the quadratic search.
-TEST(MakeContacts, MatchesLikeBruteForce) {
+// What earlier steps built up: to points of the same feature; to the others that of the nearest one left over, within reach.
+TEST(CarryOver, ByFeatureElseByPlace) {
+    Manifold before = manifold(0, 1, 0, {5, 6, 7, 8}), now = manifold(0, 1, 0, {8, 5, 99, 100});
+    for (int i = 0; i < 4; ++i) {
+        before.points[std::size_t(i)].impulse = 10.0 + i;
+        before.points[std::size_t(i)].impact = 7.0;
+        before.points[std::size_t(i)].bounce = 3.0;
+        before.points[std::size_t(i)].position = Vec3(i, 0.0, 0.0);
+    }
+    before.tangent = Vec3::UnitX();
+    before.friction[0] = 1.0;
+    before.friction[1] = 2.0;
+    before.twist = 3.0;
+    now.points[0].position = Vec3(1.0, 0.0, 0.0);   // where feature 6 was: its own feature counts all the same
+    now.points[2].position = Vec3(2.1, 0.0, 0.0);
+    now.points[3].position = Vec3(1.0, 0.0, 0.6);
+    carry_over(before, 0.5, now);
+    EXPECT_EQ(now.points[0].impulse, 13.0);
+    EXPECT_EQ(now.points[1].impulse, 10.0);
+    EXPECT_EQ(now.points[2].impulse, 12.0);
+    EXPECT_EQ(now.points[3].impulse, 0.0);   // nobody near
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(now.points[std::size_t(i)].impact, 0.0);   // of that step alone
+        EXPECT_EQ(now.points[std::size_t(i)].bounce, 0.0);
+    }
+    EXPECT_EQ(now.tangent, Vec3::UnitX());
+    EXPECT_EQ(now.friction[0], 1.0);
+    EXPECT_EQ(now.friction[1], 2.0);
+    EXPECT_EQ(now.twist, 3.0);
+}
+
+// Random features, far apart: like the quadratic search, and no old impulse twice.
+TEST(CarryOver, MatchesLikeBruteForce) {
     Random random(113);
-    const std::vector<Body> bodies = some_bodies(random, 6);
-    const auto random_list = [&] {
-        std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> keys;
-        for (int i = 0; i < 12; ++i) {
-            const auto a = std::uint32_t(random.below(5));
-            keys.emplace(a, a + 1 + std::uint32_t(random.below(int(5 - a))), std::uint32_t(random.below(3)));
-        }
-        std::vector<Manifold> list;
-        for (const auto& [a, b, part] : keys) {
+    for (int trial = 0; trial < trials(300); ++trial) {
+        const auto random_manifold = [&] {
             std::set<std::uint64_t> features;
             for (int i = 0; i < 1 + random.below(4); ++i) features.insert(std::uint64_t(random.below(6)));
-            list.push_back(manifold(a, b, part, {features.begin(), features.end()}));
+            std::vector<std::uint64_t> list(features.begin(), features.end());
+            if (random.below(2)) std::reverse(list.begin(), list.end());
+            return manifold(0, 1, 0, list);
+        };
+        Manifold before = random_manifold(), now = random_manifold();
+        for (int i = 0; i < before.count; ++i) before.points[std::size_t(i)].impulse = random(0.1, 1.0);
+        carry_over(before, 0.0, now);
+        for (int i = 0; i < now.count; ++i) {
+            double expected = 0.0;
+            for (int k = 0; k < before.count; ++k)
+                if (before.points[std::size_t(k)].feature == now.points[std::size_t(i)].feature)
+                    expected = before.points[std::size_t(k)].impulse;
+            EXPECT_EQ(now.points[std::size_t(i)].impulse, expected);
         }
-        return list;
-    };
-    std::vector<Contact> before, now;
-    for (int trial = 0; trial < 300; ++trial) {
-        make_contacts(random_list(), bodies, before, now);
-        for (const Contact& c : now) {
-            const Contact* old = find(before, c.a, c.b, c.part, c.feature);
-            ASSERT_EQ(c.impulse, old ? old->impulse : 0.0);
-        }
-        for (Contact& c : now) c.impulse = random(0.1, 1.0);
-        before.swap(now);
     }
 }
 

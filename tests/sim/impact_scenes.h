@@ -74,7 +74,7 @@ struct ImpactScene {
         std::stable_sort(manifolds.begin(), manifolds.end(), [](const Manifold& l, const Manifold& r) {
             return std::pair(l.a, l.b) < std::pair(r.a, r.b);
         });
-        make_contacts(manifolds, bodies, {}, contacts);
+        make_contacts(manifolds, bodies, contacts);
         const ImpactSettings settings{.law = law, .friction = friction > 0.0, .complete = complete};
         int passes = 0;
         for (const Island& island : find_islands(contacts, bodies))

@@ -213,10 +213,19 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             edge_j = j;
             flip = turned;
         }
+    Vec3 n = Vec3::Zero();
+    if (edge_i >= 0) {
+        n = Vec3::Unit(edge_i).cross(rel.r.col(edge_j)).normalized();
+        if (flip) n = -n;
+        const Vec3 face_normal = of_b ? Vec3((rel.t_in_b[face_b.axis] < 0.0 ? -1.0 : 1.0) * rel.r.col(face_b.axis))
+                                      : Vec3((rel.t[face_a.axis] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(face_a.axis));
+        if (edges_along_face(n, face_normal, scratch.choice)) {
+            edge_i = -1;
+            separation = of_b ? face_b.separation : face_a.separation;
+        }
+    }
     if (edge_i >= 0) {
         static const BoxEdges edges;
-        Vec3 n = Vec3::Unit(edge_i).cross(rel.r.col(edge_j)).normalized();
-        if (flip) n = -n;
         const Vec3 n_in_b = rel.r.transpose() * n;
         const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
         const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];

@@ -8,6 +8,7 @@
 namespace tumble {
 namespace {
 
+constexpr double along_face = 0.98;   // cosine of 11 degrees
 constexpr double lowest = -std::numeric_limits<double>::infinity();
 // Edges closer to parallel than this (squared sine) give no axis of their own: a face normal covers the case.
 constexpr double parallel = 1e-8;
@@ -132,6 +133,10 @@ double edge_reach(EdgeSearch search, double margin, double best_separation) {
 
 double axis_preference(double smaller_radius, AxisChoice choice) {
     return (choice == AxisChoice::steady ? 1e-3 : tuning::impact_touch) * smaller_radius;
+}
+
+bool edges_along_face(const Vec3& edge_normal, const Vec3& face_normal, AxisChoice choice) {
+    return choice == AxisChoice::steady && edge_normal.dot(face_normal) > along_face;
 }
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {

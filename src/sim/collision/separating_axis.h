@@ -34,6 +34,10 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
 /// size.
 double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::steady);
 
+/// Whether two edges meet so nearly along a face's normal that the face says more: its manifold has several points, and the
+/// next ones to touch are already among them; of the edges' one point a tilted plate would rattle round.
+bool edges_along_face(const Vec3& edge_normal, const Vec3& face_normal, AxisChoice choice);
+
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);
 

@@ -30,6 +30,15 @@ void temper(Manifold& m, const ContactProblem& problem) {
     m.twist *= share;
 }
 
+// One solve for a whole step is right to first order in the angles: corners that swing round during it are for substeps.
+bool turns_fast(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
+    const double most = tuning::direct_turn / problem.patches.h;
+    return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
+        const Body& body = problem.bodies[i];
+        return body.angular_velocity.squaredNorm() > most * most && !std::holds_alternative<Ball>(body.collider);
+    });
+}
+
 }  // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice)
@@ -69,6 +78,10 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         Memory& memory = memory_[bodies[0]];
         if (memory.wait > 0) {
             --memory.wait;
+            softly_.push_back(k);
+            continue;
+        }
+        if (turns_fast(problem, bodies)) {
             softly_.push_back(k);
             continue;
         }

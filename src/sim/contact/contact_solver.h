@@ -17,8 +17,7 @@ namespace tumble {
 
 class ContactSolver {
 public:
-    /// for_everything: one solver for all islands, for comparing them.
-    enum class Choice { by_island, soft, direct };
+    using Choice = ContactSolverChoice;
 
     explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island);
 

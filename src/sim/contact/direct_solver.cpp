@@ -433,8 +433,11 @@ bool DirectSolver::push_out(double h) {
     std::fill(push_.begin(), push_.end(), 0.0);
     const double stiffness = total_mass_ / tuning::direct_push_compliance;
     bool any = false;
-    for (const Patch& patch : patches_) {
+    for (Patch& patch : patches_) {
         for (int i = 0; i < patch.count; ++i) {
+            // What comes apart by its own speed, a bounce, needs no push.
+            const Row& row = patch.normal[i];
+            patch.overlap[i] -= h * std::max(0.0, row.offset + dot(patch, row, velocity_));
             const double beyond = patch.overlap[i] - tuning::direct_slop * patch.size;
             if (!(beyond > 0.0)) continue;
             any = true;
