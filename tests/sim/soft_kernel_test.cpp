@@ -1,11 +1,11 @@
 // The soft solver's inner loops: the same bits whatever the width, and one contact against closed forms.
 #include "sim/contact/soft_kernel.h"
 #include "sim/random_shapes.h"
+#include "sim/tuning.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 using namespace tumble;
 using namespace tumble::soft;
@@ -21,12 +21,12 @@ struct alignas(64) Line {
 
 struct LanePoint {
     Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
-    double separation = 0.0, bounce = 0.0, lever = 0.0, impulse = 0.0;
+    double separation = 0.0, bounce = 0.0, impulse = 0.0;
 };
 struct Lane {
     std::uint32_t a = unmoved, b = unmoved;
-    Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX(), friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
-    double friction = 0.0, impact = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, slop = 0.0, push_limit = 1e30;
+    Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
+    double friction = 0.0, impact = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, size = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
 };
@@ -36,23 +36,30 @@ class OneColor {
 public:
     OneColor(const Kernel& kernel, std::size_t bodies, const std::vector<Lane>& lanes)
         : kernel_(kernel), lanes_(std::size_t(kernel.lanes)), groups_((lanes.size() + lanes_ - 1) / lanes_),
-          state_(bodies + 1), mass_((bodies + 2) / 2), rows_((groups_ * group_rows * lanes_ + 15) / 16),
+          state_(bodies + 1), mass_((bodies + 2) / 2), forces_(mass_.size()), start_(mass_.size()), rows_((groups_ * group_rows * lanes_ + 15) / 16),
           bodies_(2 * lanes_ * groups_, unmoved), points_(groups_, 0) {
         for (std::size_t k = 0; k < lanes.size(); ++k) pack(k, lanes[k]);
     }
     float* state(std::size_t slot) { return state_[slot].f; }
     float* mass(std::size_t slot) { return mass_[slot / 2].f + 8 * (slot % 2); }
+    float* force(std::size_t slot) { return forces_[slot / 2].f + 8 * (slot % 2); }
     float& head(std::size_t lane, int row) { return reinterpret_cast<float*>(rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_]; }
     float& at(std::size_t lane, int point, int row) { return head(lane, head_rows + point * point_rows + row); }
 
     void prepare() { call(kernel_.prepare); }
     void warm_start() { call(kernel_.warm_start); }
     void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), rate); }
+    void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
+    void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
+    void sum() { kernel_.sum(groups(), 0, groups_); }
     void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), rate); }
 
 private:
     Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), points_.data()}; }
-    Bodies bodies() { return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(mass_.data())}; }
+    Bodies bodies() { 
+        return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(mass_.data()),
+                reinterpret_cast<float*>(forces_.data()), reinterpret_cast<float*>(start_.data())};
+    }
     void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) { pass(groups(), 0, groups_, bodies()); }
 
     void pack(std::size_t k, const Lane& lane) {
@@ -65,15 +72,12 @@ private:
         };
         vector(normal, lane.normal);
         vector(tangent_1, lane.tangent);
-        vector(friction_arm_a, lane.friction_arm_a);
-        vector(friction_arm_b, lane.friction_arm_b);
         head(k, friction_coefficient) = float(lane.friction);
         head(k, impact_impulse) = float(lane.impact);
         head(k, bias_rate) = float(lane.bias_rate);
         head(k, mass_scale) = float(lane.mass_scale);
         head(k, impulse_scale) = float(lane.impulse_scale);
-        head(k, slop) = float(lane.slop);
-        head(k, push_limit) = float(lane.push_limit);
+        head(k, size) = float(lane.size);
         head(k, friction_1) = float(lane.start_friction[0]);
         head(k, friction_2) = float(lane.start_friction[1]);
         head(k, twist) = float(lane.start_friction[2]);
@@ -85,14 +89,13 @@ private:
             at(k, int(i), normal_mass) = 1.0f;
             at(k, int(i), separation) = float(p.separation);
             at(k, int(i), bounce) = float(p.bounce);
-            at(k, int(i), lever) = float(p.lever);
             at(k, int(i), impulse) = float(p.impulse);
         }
     }
 
     const Kernel& kernel_;
     std::size_t lanes_, groups_;
-    std::vector<Line> state_, mass_, rows_;
+    std::vector<Line> state_, mass_, forces_, start_, rows_;
     std::vector<std::uint32_t> bodies_;
     std::vector<std::uint8_t> points_;
 };
@@ -131,8 +134,7 @@ OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3&
 Lane ball_lane(double friction, double separation = 0.0) {
     Lane lane;
     lane.friction = friction;
-    lane.friction_arm_b = Vec3(0.0, -r, 0.0);
-    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0, 0.0, 0.0}};
+    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0, 0.0}};
     return lane;
 }
 
@@ -152,39 +154,40 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                 lane.b = random.below(8) == 0 ? unmoved | std::uint32_t(2 * k + 2) : std::uint32_t(2 * k + 2);
                 if (lane.a == unmoved && (lane.b & unmoved)) lane.a = std::uint32_t(2 * k + 1);
                 lane.normal = random.direction();
-                lane.tangent = lane.normal.unitOrthogonal();
-                lane.friction_arm_a = random.vector(1.0);
-                lane.friction_arm_b = random.vector(1.0);
+                lane.tangent = random.below(2) ? Vec3(Vec3::Zero()) : random.direction();
                 lane.friction = random(0.0, 1.0);
                 lane.impact = random.below(3) == 0 ? random(0.0, 0.1) : 0.0;
                 lane.bias_rate = random(10.0, 100.0);
                 lane.mass_scale = random(0.5, 1.0);
                 lane.impulse_scale = 1.0 - lane.mass_scale;
-                lane.slop = 1e-4;
-                lane.push_limit = random(0.01, 3.0);
+                lane.size = random(0.01, 3.0);
                 for (double& f : lane.start_friction) f = random(-0.01, 0.01);
                 for (int i = 1 + random.below(4); i > 0; --i)
                     lane.points.push_back({random.vector(1.0), random.vector(1.0), random(-0.05, 0.02),
-                                           random.below(5) == 0 ? random(0.0, 1.0) : 0.0, random(0.0, 1.0), random(0.0, 0.1)});
+                                           random.below(5) == 0 ? random(0.0, 1.0) : 0.0, random(0.0, 0.1)});
                 lanes.push_back(lane);
             }
             OneColor color(*kernel, std::size_t(2 * count), lanes);
             for (std::size_t s = 1; s <= std::size_t(2 * count); ++s) {
-                for (int i = 0; i < 6; ++i) color.state(s)[i] = float(random(-1.0, 1.0));
+                for (int i = 0; i < 6; ++i) {
+                    color.state(s)[i] = float(random(-1.0, 1.0));
+                    color.force(s)[i] = float(random(-0.02, 0.02));
+                }
                 random_mass(random, color.mass(s));
             }
             color.prepare();
-            color.warm_start();
             for (int step = 0; step < 4; ++step) {
+                color.accelerate(step > 0);
+                if (step == 0) color.warm_start();
                 color.push(480.0f);
-                for (std::size_t s = 1; s <= std::size_t(2 * count); ++s)
-                    for (int i = 0; i < 6; ++i) color.state(s)[8 + i] += color.state(s)[i] / 480.0f;
+                color.move(1.0f / 480.0f);
                 color.relax(480.0f);
             }
+            color.sum();
             std::vector<float> result;
             for (std::size_t s = 0; s <= std::size_t(2 * count); ++s) result.insert(result.end(), color.state(s), color.state(s) + body_floats);
             for (std::size_t k = 0; k < lanes.size(); ++k) {
-                for (const int row : {friction_1, friction_2, twist, friction_1_sum, friction_2_sum, twist_sum}) result.push_back(color.head(k, row));
+                for (const int row : std::initializer_list<int>{friction_1, friction_2, twist, friction_1_sum, friction_2_sum, twist_sum, force, force + 1, force + 2, moment, moment + 1, moment + 2}) result.push_back(color.head(k, row));
                 for (std::size_t i = 0; i < lanes[k].points.size(); ++i) {
                     result.push_back(color.at(k, int(i), impulse));
                     result.push_back(color.at(k, int(i), impulse_sum));
@@ -195,7 +198,8 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
         }
         for (std::size_t k = 1; k < results.size(); ++k) {
             ASSERT_EQ(results[k].size(), results[0].size());
-            ASSERT_EQ(std::memcmp(results[k].data(), results[0].data(), results[0].size() * sizeof(float)), 0) << all[k]->lanes << " lanes";
+            // Equal but for the sign of a zero: adding the nothing of points that a neighbour has makes -0 a +0.
+            for (std::size_t i = 0; i < results[0].size(); ++i) ASSERT_EQ(results[k][i], results[0][i]) << all[k]->lanes << " lanes, " << i;
         }
     }
 }
@@ -263,7 +267,7 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
         lane.bias_rate = 50.0;
         lane.mass_scale = 0.8;
         lane.impulse_scale = 0.2;
-        lane.slop = 0.001;
+        lane.size = 0.001 / tuning::soft_slop;
         OneColor color = ball(*kernel, lane, Vec3::Zero());
         color.push(480.0f);
         EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * 50.0 * 0.009, 1e-5);
@@ -272,7 +276,7 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
         EXPECT_NEAR(color.at(0, 0, impulse), first - m * 0.8 * (v - 50.0 * 0.009) - 0.2 * first, 1e-5);
         color.relax(480.0f);
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
-        lane.push_limit = 0.1;
+        lane.size = 0.1 / tuning::push_limit;
         OneColor limited = ball(*kernel, lane, Vec3::Zero());
         limited.push(480.0f);
         EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
@@ -306,7 +310,7 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5);
         lane.points.clear();
-        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3::Zero(), Vec3(0.2 * side, -r, 0.0), 0.0, 0.0, 0.2, 0.4});
+        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         fast.push(480.0f);
         EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);

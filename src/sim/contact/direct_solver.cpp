@@ -388,9 +388,13 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     factorisations_ = 0;
     load_bodies(problem, bodies);
     load_patches(problem, bodies, manifolds);
-    if (patches_.empty() || speed_scale_ == 0.0) return true;
+    if (patches_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
+    if (speed_scale_ == 0.0) {   // nothing comes nearer, without gravity: what overlaps is pushed apart all the same
+        store(problem, bodies, push_out(problem.patches.h));
+        return true;
+    }
 
     // Friction soft at first, where Newton's method does not stall on the edges of the discs; then stiffer from round to
     // round, each beginning where the one before ended, as far as that goes.
