@@ -159,10 +159,11 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     } else {
         axis = {SeparatingAxis::Kind::face_a, face_a.separation, face_a.face, 0, a.faces[face_a.face].normal};
     }
+    const SeparatingAxis face = axis;
     double best = axis.separation + preference;
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (axis.separation > margin) return {};
-    return axis;
+    return edges_along_face(axis.normal, face.normal, scratch.choice) ? face : axis;
 }
 
 }  // namespace tumble
