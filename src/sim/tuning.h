@@ -62,6 +62,8 @@ inline constexpr double direct_friction_stiffening = 0.3;
 inline constexpr double direct_friction_stiff = 1.0;
 /// Convergence of its Newton steps and of its rounds, relative to the step's own change of velocity and to the impulses.
 inline constexpr double direct_tolerance = 1e-9;
+/// Speeds below this part of the fastest body's are rounding, which the stiffness of the contacts magnifies.
+inline constexpr double direct_rounding = 1e-12;
 inline constexpr double direct_round_tolerance = 1e-4;
 inline constexpr int direct_first_newton_steps = 40;   // after a landing, every contact of a stack of 30 changes its mind
 inline constexpr int direct_newton_steps = 12;
@@ -71,17 +73,20 @@ inline constexpr int direct_line_search = 25;
 inline constexpr double direct_tie = 1e-10;
 /// Friction may pass its cone by this factor while its limit still follows the load.
 inline constexpr double direct_cone = 1.05;
+/// What its solution may leave a contact closing by, of the speed scale.
+inline constexpr double direct_closing = 1e-3;
 /// Overlaps below this part of the smaller radius are not pushed out: under a micrometre for metre-sized bodies.
 inline constexpr double direct_slop = 1e-6;
 /// Compliance of its push-out, over the island's mass, and how stiff it is across the normals against that.
 inline constexpr double direct_push_compliance = 1e-2;
 inline constexpr double direct_push_across = 0.03;
 
-/// Islands in which a body turns farther than this (rad) in a step are left to the substeps.
+/// Islands in which a body turns farther than this (rad) in a step are left to the substeps. Not those that touch nothing
+/// fixed: the direct solve keeps their angular momentum, poses and all.
 inline constexpr double direct_turn = 0.03;
 /// Single bodies with so few manifolds are solved directly; and all islands of a scene with so few in contact.
 inline constexpr std::size_t direct_small_manifolds = 8;
-inline constexpr std::size_t direct_few_manifolds = 32;
+inline constexpr std::size_t direct_few_manifolds = 128;
 /// Larger ones when a body carries so many times its own mass, and up to so many bodies.
 inline constexpr double direct_load_ratio = 16.0;
 inline constexpr std::size_t direct_most_bodies = 512;
@@ -219,6 +224,9 @@ inline constexpr double extrapolation_rest_in_air = 2.0;
 inline constexpr double extrapolation_no_drag = 1e-14;
 /// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
 inline constexpr int most_substeps = 200000;
+
+/// Growth of a touched body's spin energy in the turn of one step that is let pass: boxes at 0.1 rad a step stay below.
+inline constexpr double spin_growth = 0.01;
 
 /// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
 inline constexpr double sleep_drift = 2e-4;

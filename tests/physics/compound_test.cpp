@@ -125,12 +125,13 @@ TEST(Compound, HookedLinksDoNotFallApart) {
 
 TEST(Compound, HookedLBlocksHoldEachOther) {
     SceneDescription scene;
-    // A hook that points up, fixed, and one that points down, hung into it.
+    // A hook that points up, fixed, and one that hangs over its tip.
     const CompoundShape hook = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()), part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {0.3, 0.3, 0.0}),
                                             part(BoxShape{Vec3(0.2, 1.0, 0.3)}, {-0.3, -0.4, 0.0})});
     add_compound(scene, hook, Vec3::Zero(), 0.8).type = BodyType::fixed;
-    BodyDescription& hung = add_compound(scene, hook, {0.0, 0.25, 0.0}, 0.8);
-    hung.rotation = turn(Vec3::UnitZ(), M_PI);
+    const CompoundShape hanger = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()), part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {-0.3, -0.3, 0.0}),
+                                              part(BoxShape{Vec3(0.2, 1.0, 0.3)}, {0.3, -0.6, 0.0})});
+    add_compound(scene, hanger, {0.3, 0.61, 0.0}, 0.8);
     World world(scene);
     run(world, scene, 3.0);
     EXPECT_GT(world.snapshot().bodies[1].origin.y(), -0.2);

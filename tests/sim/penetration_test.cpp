@@ -44,7 +44,7 @@ struct Tally {
 
 void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef& b, const Pose& pose_b, double margin,
                 Tally& tally) {
-    const double radius = std::min(a->radius, b->radius), slack = axis_preference(radius) + 1e-10 * radius;
+    const double radius = std::min(a->radius, b->radius), slack = face_over_edges(radius) + 1e-10 * radius;
     const Exact exact = exact_separation(*a, pose_a, *b, pose_b);
     const std::vector<Manifold> found = collide_all(a, pose_a, b, pose_b, margin);
     if (exact.separation > margin + 1e-10) {

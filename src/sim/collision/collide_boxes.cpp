@@ -219,9 +219,11 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         if (flip) n = -n;
         const Vec3 face_normal = of_b ? Vec3((rel.t_in_b[face_b.axis] < 0.0 ? -1.0 : 1.0) * rel.r.col(face_b.axis))
                                       : Vec3((rel.t[face_a.axis] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(face_a.axis));
-        if (edges_along_face(n, face_normal, scratch.choice)) {
+        const SeparatingAxis by_edges{.separation = separation, .normal = n};
+        const SeparatingAxis by_face{.separation = of_b ? face_b.separation : face_a.separation, .normal = face_normal};
+        if (edges_along_face(by_edges, by_face, std::min(a.radius, b.radius), scratch.choice)) {
             edge_i = -1;
-            separation = of_b ? face_b.separation : face_a.separation;
+            separation = by_face.separation;
         }
     }
     if (edge_i >= 0) {

@@ -135,8 +135,11 @@ double axis_preference(double smaller_radius, AxisChoice choice) {
     return (choice == AxisChoice::steady ? 1e-3 : tuning::impact_touch) * smaller_radius;
 }
 
-bool edges_along_face(const Vec3& edge_normal, const Vec3& face_normal, AxisChoice choice) {
-    return choice == AxisChoice::steady && edge_normal.dot(face_normal) > along_face;
+double face_over_edges(double smaller_radius) { return 0.03 * smaller_radius; }
+
+bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
+    return choice == AxisChoice::steady && edges.normal.dot(face.normal) > along_face &&
+           edges.separation - face.separation < face_over_edges(smaller_radius);
 }
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
@@ -163,7 +166,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     double best = axis.separation + preference;
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (axis.separation > margin) return {};
-    return edges_along_face(axis.normal, face.normal, scratch.choice) ? face : axis;
+    return edges_along_face(axis, face, std::min(a.radius, b.radius), scratch.choice) ? face : axis;
 }
 
 }  // namespace tumble

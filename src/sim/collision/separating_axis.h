@@ -34,9 +34,13 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
 /// size.
 double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::steady);
 
-/// Whether two edges meet so nearly along a face's normal that the face says more: its manifold has several points, and the
-/// next ones to touch are already among them; of the edges' one point a tilted plate would rattle round.
-bool edges_along_face(const Vec3& edge_normal, const Vec3& face_normal, AxisChoice choice);
+/// How much better (m) an edge pair must separate than a face with almost the same normal for being chosen.
+double face_over_edges(double smaller_radius);
+
+/// Whether two edges meet so nearly along a face's normal, and separate so little better, that the face says more: its
+/// manifold has several points, and the next ones to touch are already among them; of the edges' one point a tilted plate
+/// would rattle round. Both as normal and separation; not for AxisChoice::nearest.
+bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
 
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);

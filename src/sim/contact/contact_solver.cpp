@@ -39,10 +39,16 @@ bool turns_fast(const ContactProblem& problem, std::span<const std::uint32_t> bo
     });
 }
 
+bool floats(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
+    return std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
+        return problem.bodies[problem.manifolds[k].a].dynamic() && problem.bodies[problem.manifolds[k].b].dynamic();
+    });
+}
+
 }  // namespace
 
-ContactSolver::ContactSolver(std::size_t bodies, Choice choice)
-    : choice_(choice), memory_(bodies), loads_(bodies), soft_(bodies) {}
+ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
+    : choice_(choice), effort_(effort), memory_(bodies), loads_(bodies), soft_(bodies) {}
 
 // As it was up to `holds` steps ago; not looked at where no body can carry much.
 PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
@@ -71,7 +77,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
-        if (choice_ != Choice::by_island) {
+        const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
+        if (choice_ != Choice::by_island || precise) {
             (choice_ == Choice::soft ? softly_ : direct_).push_back(k);
             continue;
         }
@@ -81,7 +88,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        if (turns_fast(problem, bodies)) {
+        const bool free = floats(problem, manifolds);
+        if (!free && turns_fast(problem, bodies)) {
             softly_.push_back(k);
             continue;
         }
@@ -91,7 +99,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         }
         if (bodies.size() <= tuning::direct_most_bodies) {
             const double ratio = load(problem, islands, k, 0).ratio;
-            if (few || ratio >= tuning::direct_load_ratio) {
+            if (free || few || ratio >= tuning::direct_load_ratio) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 const std::size_t work = memory.solver->factor_work(problem, bodies, manifolds);
                 if (work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
@@ -184,9 +192,10 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         memory.failures = std::min(memory.failures + 1, tuning::direct_most_failures);
         softly_.push_back(direct_[k]);
     }
-    if (softly_.empty()) return;
-    deal(islands, problem, std::size_t(pool.size()));
-    soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
+    if (!softly_.empty()) {
+        deal(islands, problem, std::size_t(pool.size()));
+        soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
+    }
 }
 
 }  // namespace tumble

@@ -19,7 +19,10 @@ class ContactSolver {
 public:
     using Choice = ContactSolverChoice;
 
-    explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island);
+    /// precisely: directly wherever that finds a solution, whatever it costs, for scenes that ask for exact impacts.
+    enum class Effort { balanced, precisely };
+
+    explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island, Effort effort = Effort::balanced);
 
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
@@ -42,6 +45,7 @@ private:
     void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
 
     Choice choice_;
+    Effort effort_;
     std::vector<Memory> memory_;          // by body
     PileLoads loads_;
     SoftSolver soft_;

@@ -35,7 +35,7 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
     const std::size_t n = bodies.size();
     masses_.resize(n);
     for (auto* v : {&free_, &velocity_, &step_, &gradient_, &scratch_, &push_}) v->assign(6 * n, 0.0);
-    length_ = total_mass_ = speed_scale_ = 0.0;
+    length_ = total_mass_ = speed_scale_ = fastest_ = 0.0;
     for (const std::uint32_t i : bodies) length_ += problem.bodies[i].radius / double(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Body& body = problem.bodies[bodies[k]];
@@ -44,6 +44,7 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
         masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
         masses_[k].inverse_inertia = body.inverse_inertia * (length_ * length_);
         put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
+        fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
         speed_scale_ = std::max(speed_scale_, (body.velocity - problem.velocity_before[bodies[k]]).norm());
     }
 }
@@ -315,7 +316,8 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
 
 bool DirectSolver::minimise(int most_steps) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
-    const double tolerance = tuning::direct_tolerance * tuning::direct_tolerance * energy;
+    const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
+    const double tolerance = total_mass_ * speed * speed;
     for (int k = 0; k <= most_steps; ++k) {
         evaluate_speeds();
         if (gradient(gradient_) <= tolerance) return true;
@@ -374,9 +376,15 @@ void DirectSolver::start() {
 bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
+    const double closing = tuning::direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
     for (const Patch& patch : patches_) {
         double load = patch.impact;
-        for (int i = 0; i < patch.count; ++i) load += patch.normal[i].impulse;
+        for (int i = 0; i < patch.count; ++i) {
+            const Row& row = patch.normal[i];
+            load += row.impulse;
+            // Squeezed between walls there is no solution.
+            if (row.offset + dot(patch, row, velocity_) < row.target - closing) return false;
+        }
         const double friction = std::hypot(patch.friction[0].impulse, patch.friction[1].impulse);
         if (friction > tuning::direct_cone * patch.coefficient * load + 1e-6 * total_mass_ * speed_scale_) return false;
     }
@@ -391,7 +399,7 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     if (patches_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
-    if (speed_scale_ == 0.0) {   // nothing comes nearer, without gravity: what overlaps is pushed apart all the same
+    if (speed_scale_ <= tuning::direct_rounding * fastest_) {   // nothing comes nearer, without gravity: what overlaps is pushed apart all the same
         store(problem, bodies, push_out(problem.patches.h));
         return true;
     }

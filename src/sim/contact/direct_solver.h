@@ -93,7 +93,7 @@ private:
         double mass = 0.0;      // kg
         Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();   // over the squared length
     };
-    double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0;   // m, kg, m/s
+    double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;   // m, kg, m/s, m/s
     double compliance_ = 0.0, friction_compliance_ = 0.0;          // 1/kg: R
     bool driven_ = false;            // something given moves: energy may come in
     int factorisations_ = 0;

@@ -37,7 +37,7 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       neighbourhood_(bodies),
       queue_(bodies.size()),
       islands_(bodies.size()),
-      contact_solver_(bodies.size(), settings.contact_solver),
+      contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
       velocity_before_(bodies.size(), Vec3::Zero()),
       angular_velocity_before_(bodies.size(), Vec3::Zero()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
