@@ -50,8 +50,9 @@ bool floats(const ContactProblem& problem, std::span<const std::uint32_t> manifo
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
     : choice_(choice), effort_(effort), memory_(bodies), loads_(bodies), soft_(bodies) {}
 
-// As it was up to `holds` steps ago; not looked at where no body can carry much.
-PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds) {
+// As it was up to `holds` steps ago; not looked at where no body can carry `enough` times its mass.
+PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
+                             double enough) {
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
     if (memory.looked-- > 0) return memory.load;
@@ -62,7 +63,7 @@ PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands
         mass += problem.bodies[i].mass;
         least = std::min(least, problem.bodies[i].mass);
     }
-    if (mass >= tuning::direct_load_ratio * least)
+    if (mass >= enough * least)
         memory.load = loads_.find(problem.bodies, problem.manifolds, bodies, islands.manifolds(island));
     return memory.load;
 }
@@ -74,6 +75,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     std::size_t all_manifolds = 0;
     for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
     const bool few = all_manifolds <= tuning::direct_few_manifolds;
+    const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
@@ -98,8 +100,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             continue;
         }
         if (bodies.size() <= tuning::direct_most_bodies) {
-            const double ratio = load(problem, islands, k, 0).ratio;
-            if (free || few || ratio >= tuning::direct_load_ratio) {
+            const double ratio = load(problem, islands, k, 0, enough).ratio;
+            if (free || few || ratio >= enough) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 const std::size_t work = memory.solver->factor_work(problem, bodies, manifolds);
                 if (work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
@@ -114,7 +116,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& l, const Candidate& r) {
         return l.load_ratio != r.load_ratio ? l.load_ratio > r.load_ratio : l.island < r.island;
     });
-    std::size_t budget = tuning::direct_budget + tuning::direct_budget_each * all_manifolds;
+    std::size_t budget = tuning::direct_budget;
     for (const Candidate& c : candidates_) {
         if (c.work <= budget) {
             budget -= c.work;
@@ -130,7 +132,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 }
 
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
-    const int levels = load(problem, islands, island, tuning::soft_load_age).levels;
+    const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     return levels > tuning::soft_very_high_pile ? 4 : levels > tuning::soft_high_pile ? 2 : 1;
 }
 

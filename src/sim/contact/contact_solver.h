@@ -40,7 +40,7 @@ private:
         std::size_t work;
     };
     void choose(const ContactProblem& problem, const ContactIslands& islands);
-    PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds);
+    PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
 
