@@ -1,27 +1,14 @@
 #include "contact/program.h"
 
 #include "harness/clock.h"
+#include "harness/options.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <string_view>
 
 namespace tumble::bench {
 namespace {
-
-struct Options {
-    bool quick = false;
-    double patience = 150.0;  // CPU s
-    std::vector<std::string> cases, ways;
-};
-
-bool wanted(const std::vector<std::string>& names, const std::string& name) {
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string quoted(const std::string& text) { return text.find(',') == std::string::npos ? text : '"' + text + '"'; }
 
 // Time of stepping alone, as a whole and of the last 2 s.
 struct Spent {
@@ -78,46 +65,18 @@ void write(const std::string& name, const std::string& program, const Way& way, 
     std::fflush(stdout);
 }
 
-// False where the command line is wrong.
-bool read(int argc, char** argv, Options& options) {
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view option = argv[i];
-        const bool more = i + 1 < argc;
-        if (option == "--quick")
-            options.quick = true;
-        else if (option == "--case" && more)
-            options.cases.emplace_back(argv[++i]);
-        else if (option == "--way" && more)
-            options.ways.emplace_back(argv[++i]);
-        else if (option == "--patience" && more)
-            options.patience = std::atof(argv[++i]);
-        else if (option == "--header")
-            std::puts("case,program,way,quantity,value,unit");
-        else
-            return false;
-    }
-    return true;
-}
-
 }  // namespace
 
 int run_contact(int argc, char** argv, const std::string& program, const std::vector<Way>& ways) {
     const std::vector<ContactCase> cases = contact_cases();
-    if (argc == 2 && std::string_view(argv[1]) == "--list") {
-        for (const ContactCase& c : cases) std::puts(c.name.c_str());
-        return 0;
-    }
+    CommandLine line{"case,program,way,quantity,value,unit", {}, "way", true};
+    for (const ContactCase& c : cases) line.cases.push_back(c.name);
     Options options;
-    if (!read(argc, argv, options)) {
-        std::fprintf(stderr,
-                     "usage: %s [--header] [--quick] [--case NAME]... [--way NAME]... [--patience SECONDS] | --list\n",
-                     argv[0]);
-        return 2;
-    }
+    if (const auto status = read_options(argc, argv, line, options)) return *status;
     for (const ContactCase& c : cases) {
-        if (!wanted(options.cases, c.name)) continue;
+        if (!options.wants_case(c.name)) continue;
         for (const Way& way : ways) {
-            if (!wanted(options.ways, way.name) || c.scene.bodies.size() > way.most_bodies) continue;
+            if (!options.wants_way(way.name) || c.scene.bodies.size() > way.most_bodies) continue;
             if (std::find(way.tasks.begin(), way.tasks.end(), c.task) == way.tasks.end()) continue;
             try {
                 write(c.name, program, way, run(c, way, options));

@@ -1,6 +1,7 @@
 #include "stability/program.h"
 
 #include "harness/clock.h"
+#include "harness/options.h"
 #include "harness/penetration.h"
 #include "stability/random_scenes.h"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <string_view>
 
 namespace tumble::bench {
 namespace {
@@ -18,15 +18,6 @@ namespace {
 constexpr double patience = 5.0;  // CPU s a cell
 constexpr long random_scenes = 2000, quick_random_scenes = 84;
 constexpr const char* random_name = "random scenes";
-
-struct Options {
-    bool quick = false;
-    std::vector<std::string> cases, ways;
-};
-
-bool wanted(const std::vector<std::string>& names, const std::string& name) {
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
 
 // late: stopped by patience; none: the program cannot hold the scene.
 enum class Verdict { pass, fail, late, none };
@@ -150,33 +141,18 @@ void map_random(const std::string& program, const StabilityWay& way, bool quick)
 
 int run_stability(int argc, char** argv, const std::string& program, const std::vector<StabilityWay>& ways) {
     const std::vector<StabilityCase> cases = stability_cases();
+    CommandLine line{"case,program,way,parameter,pass line,rate,value,worst,verdict,steps", {}, "way"};
+    for (const StabilityCase& c : cases) line.cases.push_back(c.name);
+    line.cases.push_back(random_name);
     Options options;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view option = argv[i];
-        if (option == "--quick") {
-            options.quick = true;
-        } else if (option == "--case" && i + 1 < argc) {
-            options.cases.emplace_back(argv[++i]);
-        } else if (option == "--way" && i + 1 < argc) {
-            options.ways.emplace_back(argv[++i]);
-        } else if (option == "--header") {
-            std::puts("case,program,way,parameter,pass line,rate,value,worst,verdict,steps");
-        } else if (option == "--list") {
-            for (const StabilityCase& c : cases) std::puts(c.name.c_str());
-            std::puts(random_name);
-            return 0;
-        } else {
-            std::fprintf(stderr, "usage: %s [--header] [--quick] [--case NAME]... [--way NAME]... | --list\n", argv[0]);
-            return 2;
-        }
-    }
+    if (const auto status = read_options(argc, argv, line, options)) return *status;
     for (const StabilityCase& c : cases)
-        if (wanted(options.cases, c.name))
+        if (options.wants_case(c.name))
             for (const StabilityWay& way : ways)
-                if (wanted(options.ways, way.name) && (c.flight || way.contacts)) map(c, program, way, options.quick);
-    if (wanted(options.cases, random_name))
+                if (options.wants_way(way.name) && (c.flight || way.contacts)) map(c, program, way, options.quick);
+    if (options.wants_case(random_name))
         for (const StabilityWay& way : ways)
-            if (wanted(options.ways, way.name) && way.contacts) map_random(program, way, options.quick);
+            if (options.wants_way(way.name) && way.contacts) map_random(program, way, options.quick);
     return 0;
 }
 

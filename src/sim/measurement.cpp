@@ -1,7 +1,7 @@
 #include "sim/measurement.h"
 
 #include "sim/collision/compound.h"
-#include "sim/tuning.h"
+#include "sim/touch.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -24,7 +24,7 @@ Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity)
 
 void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m) {
     for (const Manifold& manifold : manifolds) {
-        const double touch = tuning::touch * std::min(bodies[manifold.a].radius, bodies[manifold.b].radius);
+        const double touch = touch_distance(bodies[manifold.a].radius, bodies[manifold.b].radius);
         for (int i = 0; i < manifold.count; ++i) {
             const double separation = manifold.points[std::size_t(i)].separation;
             m.contacts += separation <= touch;

@@ -1,6 +1,7 @@
 #include "sim/narrow_phase.h"
 
 #include "sim/collision/carry_over.h"
+#include "sim/touch.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ bool of_second(const Manifold& m) { return (m.points[0].feature >> 63) != 0; }
 }  // namespace
 
 double NarrowPhase::margin(const View& a, const View& b, double h) const {
-    if (mode_ == Mode::measure) return tuning::touch * std::min(a.radius, b.radius);
+    if (mode_ == Mode::measure) return touch_distance(a.radius, b.radius);
     return a.speculative + b.speculative + h * ((b.velocity - a.velocity).norm() + a.spin + b.spin);
 }
 

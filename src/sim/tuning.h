@@ -105,18 +105,8 @@ inline constexpr int direct_most_failures = 6;
 inline constexpr double direct_handover = 20.0;
 inline constexpr std::size_t direct_parallel_grain = 4;
 
-/// Sweeps of the contact solver in a step: few are needed with last step's impulses to start from.
-inline constexpr int solver_sweeps = 50;
-/// A sweep that changes no velocity by more than this part of |g| h ends the solve: 1e-4 of what gravity adds in a step.
-inline constexpr double solver_tolerance = 1e-4;
-/// Floor of that tolerance, m/s, for scenes without gravity.
-inline constexpr double solver_floor = 1e-12;
-
 /// Share of an overlap that is pushed out in a step. Less leaves boxes sunk after a hard landing, more makes heaps tremble.
 inline constexpr double push_share = 0.2;
-inline constexpr int push_sweeps = 12;
-/// Overlaps below this part of the smaller radius stay: they keep the contact alive.
-inline constexpr double push_slop = 1e-5;
 /// Fastest push-out, in radii per second: deep overlaps at the start dissolve visibly, not with a bang.
 inline constexpr double push_limit = 5.0;
 

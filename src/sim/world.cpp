@@ -16,6 +16,7 @@
 #include "sim/measurement.h"
 #include "sim/narrow_phase.h"
 #include "sim/thread_pool.h"
+#include "sim/touch.h"
 #include "sim/tuning.h"
 
 #include <fmt/format.h>
@@ -192,12 +193,10 @@ bool World::State::collides(std::size_t island) const {
         const Manifold& m = (*manifolds)[k];
         const Body &a = bodies[m.a], &b = bodies[m.b];
         if (pair_restitution(a, b) <= 0.0) continue;
-        const double touch = tuning::touch * std::min(a.radius, b.radius);
+        const double touch = touch_distance(a.radius, b.radius);
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];
-            if (p.separation > touch) continue;
-            const Vec3 approach = b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position);
-            if (m.normal.dot(approach) < -threshold) return true;
+            if (p.separation <= touch && relative_velocity(p, m.normal, a, b) < -threshold) return true;
         }
     }
     return false;

@@ -1,7 +1,7 @@
 #include "sim/contact/contact.h"
 
 #include "sim/contact/contact_patch.h"
-#include "sim/tuning.h"
+#include "sim/touch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +86,7 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.normal = m.normal;
     c.restitution = pair_restitution(a, b);
     c.friction = pair_friction(a, b);
-    c.touch_distance = tuning::touch * std::min(a.radius, b.radius);
+    c.touch_distance = touch_distance(a.radius, b.radius);
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         c.feature = p.feature;

@@ -1,5 +1,6 @@
 #include "sim/contact/contact_patch.h"
 
+#include "sim/touch.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -28,9 +29,13 @@ void release(Manifold& manifold) {
 double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
 double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
 
+double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b) {
+    return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
+}
+
 bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings) {
-    if (p.bounce > 0.0 || p.separation <= tuning::touch * std::min(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
-    return normal.dot(a.point_velocity(p.position - a.position) - b.point_velocity(p.position - b.position)) > settings.bounce_threshold;
+    if (p.bounce > 0.0 || p.separation <= touch_distance(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
+    return relative_velocity(p, normal, a, b) < -settings.bounce_threshold;
 }
 
 ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const PatchSettings& settings) {

@@ -34,6 +34,9 @@ struct PatchSettings {
     double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide
 };
 
+/// v_rel of a manifold's point, m/s; negative: approaching.
+double relative_velocity(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b);
+
 /// Whether a point is left alone in this step because it will bounce: stopping it at the surface would take the speed it
 /// must come back with.
 bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings);

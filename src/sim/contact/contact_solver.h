@@ -1,8 +1,9 @@
 // Resting contact of all islands: each goes to the solver that suits it, by rules that see only the scene.
 //
-// Directly (direct_solver.h): islands of a few bodies, and those where much rests on little, as long as factoring them is
-// cheap and the step's budget of such work lasts, the worst first. All others, and those for which the direct solver finds
-// no solution, by soft substeps (soft_solver.h); after a failure it is not tried again for a while.
+// Directly (direct_solver.h): single bodies, all islands of a small scene, those that touch nothing fixed, and those where
+// much rests on little, as long as factoring them is cheap and the step's budget of such work lasts, the worst first. All
+// others, those in which something turns fast, and those for which the direct solver finds no solution, by soft substeps
+// (soft_solver.h); after a failure it is not tried again for a while.
 #pragma once
 
 #include "sim/contact/contact_islands.h"

@@ -1,5 +1,7 @@
 #include "sim/contact/sleep.h"
 
+#include "sim/contact/contact_patch.h"
+#include "sim/touch.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -20,10 +22,10 @@ namespace {
 
 // Touching now, or before the step is over.
 bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
-    const double touch = tuning::touch * std::min(a.radius, b.radius);
+    const double touch = touch_distance(a.radius, b.radius);
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
-        const double v = m.normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
+        const double v = relative_velocity(p, m.normal, a, b);
         if (p.separation <= touch + h * std::max(0.0, speed_change - v)) return true;
     }
     return false;

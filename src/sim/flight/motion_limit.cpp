@@ -1,5 +1,6 @@
 #include "sim/flight/motion_limit.h"
 
+#include "sim/touch.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
             return std::tie(m.a, m.b) < std::tie(pair.first, pair.second);
         };
         std::optional<double> deepest;
-        const double touch = tuning::touch * std::min(bodies[a].radius, bodies[b].radius);
+        const double touch = touch_distance(bodies[a].radius, bodies[b].radius);
         for (auto m = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
              m != manifolds.end() && m->a == a && m->b == b; ++m)
             for (int i = 0; i < m->count; ++i)
