@@ -60,3 +60,28 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
         }
     }
 }
+
+// Corners that bear come before those that hang over: one left out would sink until it is missed.
+TEST(Manifold, WhatBearsIsKept) {
+    Random random(10);
+    for (int trial = 0; trial < 2000; ++trial) {
+        const int corners = 5 + random.below(4), bearing = 1 + random.below(4);
+        std::vector<ContactPoint> points;
+        for (int i = 0; i < corners; ++i) {
+            ContactPoint p;
+            const double angle = 6.283185307179586 * (i + random(-0.2, 0.2)) / corners;
+            p.position = Vec3(std::cos(angle), 0.0, std::sin(angle));
+            p.feature = std::uint64_t(i);
+            p.separation = i < bearing ? random(-2e-3, -1e-4) : random(5e-3, 3e-2);
+            points.push_back(p);
+        }
+        for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[std::size_t(random.below(int(i)))]);
+        Manifold m;
+        m.normal = Vec3::UnitY();
+        keep_best_points(points, m);
+        ASSERT_EQ(m.count, 4);
+        int kept = 0;
+        for (int i = 0; i < 4; ++i) kept += m.points[std::size_t(i)].separation < 0.0;
+        EXPECT_EQ(kept, bearing) << trial;
+    }
+}

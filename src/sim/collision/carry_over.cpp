@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace tumble {
+namespace {
+
+constexpr double same_side = 0.9;   // cosine between two steps' normals: of 26 degrees
+
+}  // namespace
 
 void carry_over(const Manifold& old, double reach, Manifold& m) {
     m.tangent = old.tangent;
@@ -34,6 +39,16 @@ void carry_over(const Manifold& old, double reach, Manifold& m) {
         if (best < 0) continue;
         point.impulse = old.points[std::size_t(best)].impulse;
         taken[best] = true;
+    }
+    // The load must not be lost where the points have changed: what is left goes to the nearest ones.
+    if (old.normal.dot(m.normal) < same_side) return;
+    for (int k = 0; k < old.count; ++k) {
+        const ContactPoint& before = old.points[std::size_t(k)];
+        if (taken[k] || before.impulse == 0.0) continue;
+        const auto distance = [&](const ContactPoint& p) { return (p.position - before.position).squaredNorm(); };
+        const auto nearest = std::min_element(m.points.begin(), m.points.begin() + m.count,
+                                              [&](const ContactPoint& l, const ContactPoint& r) { return distance(l) < distance(r); });
+        nearest->impulse += before.impulse;
     }
 }
 

@@ -6,7 +6,8 @@
 namespace tumble {
 
 /// Takes the impulses of `old` over to `m`, the same two bodies' manifold found later: to each point that of the same
-/// feature, and where no feature is the same, that of the nearest old point not yet taken, if nearer than `reach` (m).
+/// feature, and where no feature is the same, that of the nearest old point not yet taken, if nearer than `reach` (m). What
+/// is left over then goes to the nearest points, while the normals agree: a load must not be lost where points change.
 /// Friction, its tangent and its twist come along.
 void carry_over(const Manifold& old, double reach, Manifold& m);
 

@@ -197,7 +197,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
 
     const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
-    const bool of_b = face_b.separation > face_a.separation + preference;
+    bool of_b = face_b.separation > face_a.separation + preference;
     double separation = of_b ? face_b.separation : face_a.separation;
     double best = separation + preference;
     int edge_i = -1, edge_j = -1;
@@ -213,18 +213,35 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             edge_j = j;
             flip = turned;
         }
-    Vec3 n = Vec3::Zero();
+    const double smaller = std::min(a.radius, b.radius);
+    const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
+        return on_b ? Vec3((rel.t_in_b[k] < 0.0 ? -1.0 : 1.0) * rel.r.col(k)) : Vec3((rel.t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
+    };
+    int face = of_b ? face_b.axis : face_a.axis;
+    Vec3 n = normal_of(of_b, face);
     if (edge_i >= 0) {
+        const SeparatingAxis by_face{.separation = of_b ? face_b.separation : face_a.separation, .normal = n};
         n = Vec3::Unit(edge_i).cross(rel.r.col(edge_j)).normalized();
         if (flip) n = -n;
-        const Vec3 face_normal = of_b ? Vec3((rel.t_in_b[face_b.axis] < 0.0 ? -1.0 : 1.0) * rel.r.col(face_b.axis))
-                                      : Vec3((rel.t[face_a.axis] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(face_a.axis));
-        const SeparatingAxis by_edges{.separation = separation, .normal = n};
-        const SeparatingAxis by_face{.separation = of_b ? face_b.separation : face_a.separation, .normal = face_normal};
-        if (edges_along_face(by_edges, by_face, std::min(a.radius, b.radius), scratch.choice)) {
+        if (edges_along_face({.separation = separation, .normal = n}, by_face, smaller, scratch.choice)) {
             edge_i = -1;
             separation = by_face.separation;
+            n = by_face.normal;
         }
+    }
+    const bool overlapping = separation < 0.0;
+    if (separation > 0.0) {
+        const SeparatingAxis axis{.separation = separation, .normal = n};
+        double most = lowest;
+        for (const bool on_b : {false, true})
+            for (int k = 0; k < 3; ++k) {
+                const double s = on_b ? rel.face_b(k) : rel.face_a(k);
+                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, smaller, scratch.choice)) continue;
+                most = separation = s;
+                edge_i = -1;
+                of_b = on_b;
+                face = k;
+            }
     }
     if (edge_i >= 0) {
         static const BoxEdges edges;
@@ -237,12 +254,12 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
                           separation, ea, eb, pose_a, out);
     } else if (of_b) {
         // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
-        const int k = face_b.axis;
+        const int k = face;
         add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), k, rel.t_in_b[k] > 0.0 ? -1.0 : 1.0, true,
-                 separation < 0.0, margin, scratch, out);
+                 overlapping, margin, scratch, out);
     } else {
-        const int k = face_a.axis;
-        add_face(a, b, pose_a, rel.t, rel.r, k, rel.t[k] < 0.0 ? -1.0 : 1.0, false, separation < 0.0, margin, scratch, out);
+        const int k = face;
+        add_face(a, b, pose_a, rel.t, rel.r, k, rel.t[k] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
     }
 }
 

@@ -15,7 +15,7 @@ void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std:
 void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
                   const SeparatingAxis& axis, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Pose identity;
-    const bool overlapping = axis.separation < 0.0;
+    const bool overlapping = axis.separation < 0.0 && !axis.grazed;
     const double level = axis_preference(std::min(a.radius, b.radius));
     switch (axis.kind) {
         case SeparatingAxis::Kind::none: return;
@@ -65,7 +65,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, EdgeSearch::nearby, scratch);
     const std::size_t first = out.size();
     add_manifold(a, pose_a, b, b_in_a, axis, margin, scratch, out);
-    if (axis.separation >= 0.0 || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
+    if (axis.separation >= 0.0 || axis.grazed || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
     // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
     out.resize(first);
     add_manifold(a, pose_a, b, b_in_a, find_separating_axis(a, b, b_in_a, margin, EdgeSearch::all, scratch), margin,

@@ -37,8 +37,8 @@ struct Manifold {
     bool solved_directly = false;         // by the direct contact solver, in the last step
 };
 
-/// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and the three that
-/// span the largest area with it.
+/// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and three that span a
+/// large area with it: of those that touch before the others.
 void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold);
 
 }  // namespace tumble

@@ -9,6 +9,7 @@ namespace tumble {
 namespace {
 
 constexpr double along_face = 0.98;   // cosine of 11 degrees
+constexpr double across_face = 0.5;   // cosine of 60 degrees
 constexpr double lowest = -std::numeric_limits<double>::infinity();
 // Edges closer to parallel than this (squared sine) give no axis of their own: a face normal covers the case.
 constexpr double parallel = 1e-8;
@@ -125,6 +126,30 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
     }
 }
 
+// The face that shapes apart along `axis` slide past, if there is one: the one that separates most; else `axis`.
+SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, const SeparatingAxis& axis,
+                           double smaller_radius, AxisChoice choice) {
+    SeparatingAxis grazed = axis;
+    const auto look = [&](const Polyhedron& shape, const Polyhedron& other, const Pose& pose, bool of_b) {
+        for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
+            const Polyhedron::Face& face = shape.faces[f];
+            const double height = face.normal.dot(pose.position) - face.offset;
+            if (height - other.inner_radius < -axis_preference(smaller_radius)) continue;
+            const Vec3 down = -(pose.rotation.transpose() * face.normal);
+            const double reach = other.is_box ? other.half_extent.dot(down.cwiseAbs()) : down.dot(other.vertices[other.support(down, 0)]);
+            SeparatingAxis candidate{.kind = of_b ? SeparatingAxis::Kind::face_b : SeparatingAxis::Kind::face_a,
+                                     .separation = height - reach, .feature_a = of_b ? 0 : f, .feature_b = of_b ? f : 0,
+                                     .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal, .grazed = true};
+            if (slides_past(axis, candidate, smaller_radius, choice) &&
+                (!grazed.grazed || candidate.separation > grazed.separation))
+                grazed = candidate;
+        }
+    };
+    look(a, b, b_in_a, false);
+    look(b, a, inverse(b_in_a), true);
+    return grazed;
+}
+
 }  // namespace
 
 double edge_reach(EdgeSearch search, double margin, double best_separation) {
@@ -140,6 +165,11 @@ double face_over_edges(double smaller_radius) { return 0.03 * smaller_radius; }
 bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
     return choice == AxisChoice::steady && edges.normal.dot(face.normal) > along_face &&
            edges.separation - face.separation < face_over_edges(smaller_radius);
+}
+
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
+    return choice == AxisChoice::steady && apart.separation > 0.0 && face.separation < apart.separation &&
+           face.separation > -axis_preference(smaller_radius) && std::abs(face.normal.dot(apart.normal)) < across_face;
 }
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
@@ -166,7 +196,9 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     double best = axis.separation + preference;
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (axis.separation > margin) return {};
-    return edges_along_face(axis, face, std::min(a.radius, b.radius), scratch.choice) ? face : axis;
+    const double smaller = std::min(a.radius, b.radius);
+    if (edges_along_face(axis, face, smaller, scratch.choice)) axis = face;
+    return axis.separation > 0.0 ? grazed_face(a, b, b_in_a, axis, smaller, scratch.choice) : axis;
 }
 
 }  // namespace tumble

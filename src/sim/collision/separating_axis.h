@@ -14,6 +14,7 @@ struct SeparatingAxis {
     std::uint32_t feature_a = 0;     // face or edge of A
     std::uint32_t feature_b = 0;
     Vec3 normal = Vec3::Zero();      // away from A, in A's frame
+    bool grazed = false;             // a face the shapes slide past; along another axis they are apart
 };
 
 /// Which edges are looked at. nearby: those that can be the edges of a contact, and so all that matter when the shapes
@@ -41,6 +42,11 @@ double face_over_edges(double smaller_radius);
 /// manifold has several points, and the next ones to touch are already among them; of the edges' one point a tilted plate
 /// would rattle round. Both as normal and separation; not for AxisChoice::nearest.
 bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
+
+/// Whether shapes that are `apart` along one axis pass each other along another face: they graze its plane, and what
+/// comes nearer would meet nothing but a corner's height of it. Then the face says more: a box that slides from tile to tile
+/// does not run into the next tile's side. `face`: separation and normal. Not for AxisChoice::nearest.
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
 
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);
