@@ -201,6 +201,8 @@ inline constexpr double box_margin = 0.3;
 /// A way in a step longer than this part of both bodies' inner radii together is looked along (impacts = "stepped"): less
 /// than the whole of them is still pushed out of the right side.
 inline constexpr double fast_share = 0.5;
+/// And one longer than this part of the smaller inner radius: what is not stopped overlaps by as much for a step.
+inline constexpr double fast_deepest = 0.9;
 /// What touches when the step begins may come to an overlap of the first part of it, or deeper by the second: the contact
 /// solver leaves small approaches, which must not hold fast bodies up.
 inline constexpr double fast_overlap = 0.05;

@@ -210,7 +210,8 @@ void World::State::resolve_collisions() {
     contacts.clear();
     for (const std::uint32_t k : struck) add_contacts((*manifolds)[k], bodies, contacts);
     const std::vector<Island> colliding = find_islands(contacts, bodies);
-    const ImpactSettings impacts{.threshold = tuning::restitution_threshold * gravity_step(), .law = settings.impact_law};
+    const ImpactSettings impacts{
+        .threshold = tuning::restitution_threshold * gravity_step(), .law = settings.impact_law, .friction = true};
     pool.for_each(colliding.size(), tuning::parallel_grain,
                   [&](std::size_t i, std::size_t) { resolve_impacts(colliding[i], contacts, bodies, impacts); });
     std::size_t next = 0;
@@ -218,10 +219,9 @@ void World::State::resolve_collisions() {
         Manifold& m = (*manifolds)[k];
         for (int i = 0; i < m.count; ++i) {
             const Contact& c = contacts[next++];
-            m.points[std::size_t(i)].impact = c.impact;
             m.points[std::size_t(i)].bounce = c.impact > 0.0 ? c.bounce_velocity : 0.0;
             // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
-            if (c.impact > 0.0) add_impulse(c, c.impact * c.normal, bodies[c.a], bodies[c.b]);
+            if (c.impact > 0.0) add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);
         }
     }
 }
@@ -248,7 +248,7 @@ void World::State::solve_resting_contacts() {
     contact_solver.solve({bodies, *manifolds, old_velocity, old_angular_velocity, {h, tuning::restitution_threshold * gravity_step()}},
                          islands, pool);
     for (const std::uint32_t k : struck)
-        for (ContactPoint& p : (*manifolds)[k].points) p.impact = p.bounce = 0.0;
+        for (ContactPoint& p : (*manifolds)[k].points) p.bounce = 0.0;
 }
 
 // The velocities that poses are moved with.
@@ -318,6 +318,11 @@ void World::State::move() {
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
+            if (!touched && share < 1.0) {   // forces have acted for as long as it moved
+                const Momenta &before = before_forces[i], &after = after_forces[i];
+                body.momentum = before.momentum + share * (after.momentum - before.momentum);
+                body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
+            }
             body.derive();
             if (touched) limit_spin(body, spin_energy);
         }

@@ -26,7 +26,7 @@ struct LanePoint {
 struct Lane {
     std::uint32_t a = unmoved, b = unmoved;
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
-    double friction = 0.0, impact = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, size = 1.0;
+    double friction = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, size = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
 };
@@ -73,7 +73,6 @@ private:
         vector(normal, lane.normal);
         vector(tangent_1, lane.tangent);
         head(k, friction_coefficient) = float(lane.friction);
-        head(k, impact_impulse) = float(lane.impact);
         head(k, bias_rate) = float(lane.bias_rate);
         head(k, mass_scale) = float(lane.mass_scale);
         head(k, impulse_scale) = float(lane.impulse_scale);
@@ -156,7 +155,6 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                 lane.normal = random.direction();
                 lane.tangent = random.below(2) ? Vec3(Vec3::Zero()) : random.direction();
                 lane.friction = random(0.0, 1.0);
-                lane.impact = random.below(3) == 0 ? random(0.0, 0.1) : 0.0;
                 lane.bias_rate = random(10.0, 100.0);
                 lane.mass_scale = random(0.5, 1.0);
                 lane.impulse_scale = 1.0 - lane.mass_scale;

@@ -55,7 +55,6 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const P
         to.impulse = from.impulse;
         to.bounce = from.bounce;
         to.source = i;
-        patch.impact += from.impact;
         const double weight = from.separation < near ? 1.0 : tuning::friction_far_weight;
         center += weight * arm_a;
         weights += weight;

@@ -23,7 +23,6 @@ struct ContactPatch {
     Vec3 normal = Vec3::Zero(), tangent_1 = Vec3::Zero(), tangent_2 = Vec3::Zero();   // tangent_2 = normal x tangent_1
     Vec3 friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
     double friction = 0.0;          // mu
-    double impact = 0.0;            // N s, normal impulses of a collision resolved in this step: friction may use them
     double size = 0.0;              // m, the smaller body's radius: what tolerances are parts of
     std::array<Point, Manifold::capacity> points;
 };

@@ -82,7 +82,6 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.count = geometry.count;
         patch.manifold = k;
         patch.coefficient = geometry.friction;
-        patch.impact = geometry.impact;
         patch.size = geometry.size;
         driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves());
         for (int i = 0; i < patch.count; ++i) {
@@ -159,7 +158,7 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
 
 // Friction's limits follow the normal impulses of the round before.
 void DirectSolver::set_limits(Patch& patch) {
-    double load = patch.impact, levers = 0.0;
+    double load = 0.0, levers = 0.0;
     for (int i = 0; i < patch.count; ++i) {
         load += patch.normal[i].estimate;
         levers += patch.normal[i].estimate * patch.lever[i];
@@ -378,7 +377,7 @@ bool DirectSolver::admissible() const {
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
     const double closing = tuning::direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
     for (const Patch& patch : patches_) {
-        double load = patch.impact;
+        double load = 0.0;
         for (int i = 0; i < patch.count; ++i) {
             const Row& row = patch.normal[i];
             load += row.impulse;

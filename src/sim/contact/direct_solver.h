@@ -49,7 +49,7 @@ private:
         std::uint32_t manifold = 0;
         Row normal[4], friction[2], twist;
         double lever[4] = {}, overlap[4] = {};  // m
-        double coefficient = 0.0, impact = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
+        double coefficient = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
         Vec3 tangent_1 = Vec3::Zero();
         std::uint8_t source[4] = {};
         ContactPatch geometry;

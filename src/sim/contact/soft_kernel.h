@@ -31,18 +31,17 @@ enum Head : int {
     inverse_mass_a = 44,
     inverse_mass_b = 45,
     friction_coefficient = 46,
-    impact_impulse = 47,   // of a collision resolved in this step: its share of friction's limit
-    bias_rate = 48,        // 1/s: overlap to velocity
-    mass_scale = 49,       // of the soft constraint
-    impulse_scale = 50,
-    size = 51,             // m, the smaller body's radius
-    friction_1 = 52,
-    friction_2 = 53,
-    twist = 54,
-    friction_1_sum = 55,   // over the substeps
-    friction_2_sum = 56,
-    twist_sum = 57,
-    head_rows = 58
+    bias_rate = 47,        // 1/s: overlap to velocity
+    mass_scale = 48,       // of the soft constraint
+    impulse_scale = 49,
+    size = 50,             // m, the smaller body's radius
+    friction_1 = 51,
+    friction_2 = 52,
+    twist = 53,
+    friction_1_sum = 54,   // over the substeps
+    friction_2_sum = 55,
+    twist_sum = 56,
+    head_rows = 57
 };
 enum Point : int {
     arm_a = 0,             // 3; then replaced by arm x normal

@@ -263,7 +263,7 @@ void move(std::size_t first, std::size_t last, const Bodies& bodies, float subst
 
 // Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now.
 inline void solve_friction(const Group& g, Motion& a, Motion& b) {
-    Lanes load_all = g[impact_impulse], load_levers = Lanes{};
+    Lanes load_all = Lanes{}, load_levers = Lanes{};
     for (int i = 0; i < g.points; ++i) {
         load_all += g.at(i, impulse);
         load_levers += g.at(i, impulse) * g.at(i, lever);

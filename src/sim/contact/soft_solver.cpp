@@ -201,7 +201,6 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
     Source& source = sources_[lane];
-    double impact = 0.0;
     int count = 0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
@@ -214,7 +213,6 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
         row[soft::separation * stride] = float(p.separation);
         row[soft::bounce * stride] = float(p.bounce);
         row[soft::impulse * stride] = float(share * p.impulse);
-        impact += p.impact;
     }
     if (count == 0) return release(m);   // left to bounce
     source.count = std::uint8_t(count);
@@ -226,7 +224,6 @@ void SoftSolver::Batch::pack_lane(const ContactProblem& problem, std::uint32_t m
     put(head + soft::tangent_1 * stride, stride, m.tangent);
     const Softness& soft = a.dynamic && b.dynamic ? moving_ : fixed_;
     put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
-    put_row(soft::impact_impulse, share * impact);
     put_row(soft::bias_rate, soft.bias_rate);
     put_row(soft::mass_scale, soft.mass_scale);
     put_row(soft::impulse_scale, soft.impulse_scale);

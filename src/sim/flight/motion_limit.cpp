@@ -91,9 +91,11 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
-        // Pushed out of the right side is what is in by less than both inner radii together.
+        // Pushed out of the right side is what is in by less than both inner radii together; but nothing shall be seen to sink
+        // in by more than its own.
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
-        const double thin = tuning::fast_share * (surface(a) ? depth_b : surface(b) ? depth_a : depth_a + depth_b);
+        const double thin = std::min(tuning::fast_share * (surface(a) ? depth_b : surface(b) ? depth_a : depth_a + depth_b),
+                                     tuning::fast_deepest * std::min(surface(a) ? depth_b : depth_a, surface(b) ? depth_a : depth_b));
         if (way(a, b, motions[pair.a], motions[pair.b], h) <= thin) continue;
         FastPair fast{pair.a, pair.b, 0.0};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
