@@ -86,7 +86,7 @@ inline constexpr double direct_push_across = 0.03;
 inline constexpr double direct_turn = 0.03;
 /// Single bodies with so few manifolds are solved directly; and all islands of a scene with so few in contact.
 inline constexpr std::size_t direct_small_manifolds = 8;
-inline constexpr std::size_t direct_few_manifolds = 128;
+inline constexpr std::size_t direct_few_manifolds = 32;
 /// Larger ones when a body carries so many times its own mass, and up to so many bodies.
 inline constexpr double direct_load_ratio = 16.0;
 /// In scenes of many manifolds only for more: hundreds of columns of 20 stand softly, too, in half the time.

@@ -294,6 +294,33 @@ TEST(ContactHardInput, NoGravity) {
     EXPECT_LE((s.bodies[3].velocity - Vec3(0.5, 0.0, 0.1)).norm(), 1e-12);
 }
 
+// Gravity switched off, over and on again under a stack that had fallen asleep, by forces on every body (a scene's gravity
+// does not change): it wakes each time, stays while nothing pulls, rises and falls as one, and rests again.
+TEST(ContactHardInput, GravitySwitched) {
+    SceneDescription scene = ground_scene(0.0, 0.5, 4);
+    for (int i = 0; i < 5; ++i) add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5 + i, 0.0}).mass = 2.0;
+    for (std::size_t i = 1; i <= 5; ++i) {
+        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 2.0 * g, 0.0), false, 2.0, 3.0});    // off
+        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 4.0 * g, 0.0), false, 3.0, 3.25});   // upside down
+    }
+    World world(scene);
+    const auto heights = [&](double lifted, double tolerance) {
+        const Snapshot s = world.snapshot();
+        for (std::size_t i = 1; i <= 5; ++i)
+            EXPECT_LE((s.bodies[i].center_of_mass - Vec3(0.0, i - 0.5 + lifted, 0.0)).norm(), tolerance) << i << " at " << s.time;
+    };
+    run(world, scene, 1.9);
+    EXPECT_EQ(world.measure().kinetic, 0.0);
+    run(world, scene, 1.0);
+    heights(0.0, 1e-5);
+    run(world, scene, 0.35);
+    const double h = scene.step();
+    heights(0.5 * g * 0.25 * 0.25, 2.0 * g * h * 0.25);   // symplectic Euler: g h t / 2
+    run(world, scene, 3.0);
+    heights(0.0, 1e-3);   // fell from 0.6 m, as a stack
+    EXPECT_EQ(world.measure().kinetic, 0.0);
+}
+
 // A hundred thousand bodies, a part of them in touch: three steps, and each is where it belongs.
 TEST(ContactHardInput, AHundredThousandBodies) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);

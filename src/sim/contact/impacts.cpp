@@ -52,7 +52,9 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     if (passes == 0) return 0;
     if (settings.friction) {
         ImpactFriction friction(cluster);
-        add_friction(cluster, settings, friction);
+        // At a step, what friction makes approach again is left to the solver of resting contact.
+        if (settings.complete) add_friction(cluster, settings, friction);
+        else friction.apply(cluster);
         friction.store(cluster, contacts);
     }
     cluster.store(contacts, bodies);
