@@ -37,6 +37,7 @@
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                   \
     X(PFNGLENABLEPROC, Enable)                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
+    X(PFNGLFINISHPROC, Finish)                                                 \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
     X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                     \
     X(PFNGLFRONTFACEPROC, FrontFace)                                           \

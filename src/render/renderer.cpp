@@ -11,6 +11,7 @@
 #include "render/mesh_library.h"
 #include "render/occlusion_texture.h"
 #include "render/plane_painter.h"
+#include "render/render_times.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
 
@@ -32,7 +33,7 @@ struct Renderer::State {
         : drawn(description),
           scene(drawn.scene()),
           looks(make_scene_looks(scene)),
-          view(scene.camera, scene.output.width, scene.output.height),
+          view(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y}),
           stage(scene, looks, view, shadow_map_texels),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
@@ -42,7 +43,8 @@ struct Renderer::State {
           occlusion(gl),
           shadow_map(gl, shaders, frame_block),
           programs(gl, shaders, looks, !scene.cords.empty()),
-          planes(gl, shaders, looks) {
+          planes(gl, shaders, looks),
+          times(options.times) {
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
@@ -64,6 +66,8 @@ struct Renderer::State {
     ShadowMap shadow_map;
     SurfacePrograms programs;
     PlanePainter planes;
+    std::vector<Rectangle> changed;
+    RenderTimes* times;
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -75,6 +79,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
+    StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
     const double near_distance = near_distance_for(s.looks, snapshot, s.view);
     const Visibility visibility = find_visible(s.looks, snapshot, s.view);
@@ -86,6 +91,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     for (const PlanePatch& plane : planes)
         areas.push_back(find_plane_areas(plane, s.scene, s.looks, snapshot, s.view, shadows, visibility.cover));
 
+    clock.ends(RenderStage::preparation);
+
     s.occlusion.upload(atlas);
     s.meshes.upload(list.instances);
     const FrameUniforms uniforms =
@@ -94,7 +101,11 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
 
+    clock.ends(RenderStage::upload);
+
     if (s.scene.light.shadows) s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
+
+    clock.ends(RenderStage::shadow);
 
     s.framebuffer.bind();
     s.gl.Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
@@ -103,13 +114,21 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
+    clock.ends(RenderStage::bodies);
     s.planes.draw(planes, areas, s.looks, atlas, snapshot, s.view);
+    clock.ends(RenderStage::planes);
     s.planes.draw_sky(planes, s.view);
+    clock.ends(RenderStage::sky);
 
     s.framebuffer.resolve();
+    clock.ends(RenderStage::edges);
     s.framebuffer.read(frame);
+    clock.ends(RenderStage::read);
+    s.changed = {{0, 0, s.view.width(), s.view.height()}};
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }
+
+const std::vector<Rectangle>& Renderer::changed() const { return state_->changed; }
 
 std::string Renderer::driver() const {
     const GlFunctions& gl = state_->gl;
