@@ -57,7 +57,7 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
 
 void add_run(CLI::App& command, int& threads, bool& quiet) {
     threads = machine_threads();
-    command.add_option("--threads", threads, "Threads to use; the result is the same for any number")
+    command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", threads));
     command.add_flag("--quiet", quiet, "Say nothing but errors");
 }
@@ -78,6 +78,12 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
     command->add_option("--gl", c.drawing.backend, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
         ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
+    command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
+                               "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
+                               "else what stays is shown longer, which costs nothing");
+    c.workers = machine_threads();
+    command->add_option("--workers", c.workers, "Processes that draw, one a core; the pixels are the same for any number")
+        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, c.quiet);
     command->footer(
         "Examples:\n"

@@ -42,7 +42,7 @@ class Render(program.ProgramTest):
     def test_rates(self):
         for fps, rate, count in (("29.97", "2997/100", 3), ("0.5", "1/2", 1), ("1e6", "1000000/1", 100001)):
             duration = "0.1" if fps != "1e6" else "0.000003"
-            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration)
+            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration, "--constant-rate")
             expected = count if fps != "1e6" else 4
             self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), [rate, str(expected)])
 
@@ -51,14 +51,30 @@ class Render(program.ProgramTest):
         self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["1"])
         self.assertEqual(self.names(), ["a.mp4", "out", "out/frame_000000.png"])
 
+    RESTING = program.SCENE.replace("position = [0.0, 3.0, 0.0]", "position = [0.0, 0.5, 0.0]").replace(
+        "angular_velocity = [1.0, 2.0, 0.5]", "")
+
+    def test_what_rests_is_drawn_once_and_shown_longer(self):
+        self.write("resting.toml", self.RESTING)
+        run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3")
+        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 5 (what does not change is shown longer)", run.stderr)
+        self.assertEqual(program.probe(self.folder / "a.mp4", "r_frame_rate,duration,nb_read_frames"),
+                         ["10/1", "3.100000", "5"])
+        self.assertIn("frames/s; 1 drawn;", run.stderr)
+        frames = [(self.folder / "out" / name).read_bytes() for name in program.frame_names(31)]
+        self.assertEqual(len(set(frames)), 1)
+        self.check(0, "render", "resting.toml", "-o", "a.mp4", "--duration", "3", "--constant-rate")
+        self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), ["10/1", "31"])
+
     def test_odd_sizes(self):
         self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--size", "49x33", "--duration", "0")
         self.assertEqual(program.png_size(self.folder / "out/frame_000000.png"), (49, 33))
         self.assertEqual(program.probe(self.folder / "a.mp4", "width,height"), ["50", "34"])
 
-    def test_threads_and_repetition_change_no_byte(self):
-        for name, threads in (("a", 1), ("b", 4), ("c", 4)):
-            self.check(0, "render", "scene.toml", "-o", name + ".mp4", "--frames", name, "--threads", threads)
+    def test_threads_workers_and_repetition_change_no_byte(self):
+        for name, threads, workers in (("a", 1, 1), ("b", 4, 3), ("c", 4, 2)):
+            self.check(0, "render", "scene.toml", "-o", name + ".mp4", "--frames", name, "--threads", threads,
+                       "--workers", workers)
         for name in program.frame_names(6):
             a = (self.folder / "a" / name).read_bytes()
             self.assertEqual(a, (self.folder / "b" / name).read_bytes())
