@@ -10,7 +10,8 @@ class OcclusionTexture {
 public:
     explicit OcclusionTexture(const GlFunctions& gl);
 
-    void upload(const OcclusionAtlas& atlas);
+    /// Sends the rows that changed since the last time (all of them, when there are more rows than ever).
+    void upload(const OcclusionAtlas& atlas, int first_row, int end_row);
 
     GLuint name() const { return texture_.name(); }
 
