@@ -93,7 +93,12 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
         if (i < bodies && looks_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
         if (now.items[i].exists()) casters_changed_ = true;
     }
-    if (background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
+    // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
+    const bool too_near = std::any_of(now.items.begin(), now.items.end(), [&](const DrawnItem& item) {
+        return item.exists() && view_->sees(item.center, item.radius) &&
+               item.center.dot(view_->forward()) - item.radius < 1.01 * now.near_distance;
+    });
+    if (too_near || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
         marks.mark_all();
     } else {
         for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {

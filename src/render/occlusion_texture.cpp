@@ -1,5 +1,7 @@
 #include "render/occlusion_texture.h"
 
+#include <algorithm>
+
 namespace tumble {
 
 OcclusionTexture::OcclusionTexture(const GlFunctions& gl) : gl_(&gl), texture_(gl, GlKind::texture) {
@@ -19,8 +21,11 @@ void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int en
     if (rows > height_) {
         height_ = rows;
         gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, OcclusionAtlas::width, rows, 0, GL_RED, GL_UNSIGNED_BYTE, nullptr);
-        first_row = 0;
-        end_row = atlas.height;
+        filled_ = 0;
+    }
+    if (atlas.height > filled_) {  // rows that are open from the start have not changed, but are new here
+        first_row = std::min(first_row, filled_);
+        end_row = filled_ = atlas.height;
     }
     if (first_row >= end_row) return;
     gl_->TexSubImage2D(GL_TEXTURE_2D, 0, 0, first_row, OcclusionAtlas::width, end_row - first_row, GL_RED,

@@ -21,7 +21,7 @@ public:
 private:
     const GlFunctions* gl_;
     GlObject texture_;
-    int height_ = 0;
+    int height_ = 0, filled_ = 0;  // rows
 };
 
 }  // namespace tumble

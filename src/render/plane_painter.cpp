@@ -69,13 +69,14 @@ void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const 
         upload_polygon(corners);
         gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
     };
+    // The sky first: at the horizon a plane's depth rounds to the sky's, and the plane is drawn last in any case.
+    const std::vector<glm::vec3> sky = sky_polygon(planes, view);
+    sky_.use();
+    if (sky.size() >= 3) draw(sky);
     for (const PlanePatch& plane : planes) {
         set_uniforms(planes_[std::size_t(looks.bodies[plane.body].pattern)]->open, plane, planes, looks);
         draw(plane.corners);
     }
-    const std::vector<glm::vec3> sky = sky_polygon(planes, view);
-    sky_.use();
-    if (sky.size() >= 3) draw(sky);
     gl_->BindVertexArray(0);
 }
 
