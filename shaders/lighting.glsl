@@ -53,10 +53,9 @@ vec3 shade(Surface s) {
     float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
 #ifndef AWAY_FROM_SUN
     float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
-#ifdef OPEN
-    float sun = n_l;
-#else
-    float sun = n_l * sun_visible(s.position, s.face_normal) * mix(1.0, s.open, occlusion_of_sun);
+    float sun = n_l * mix(1.0, s.open, occlusion_of_sun);
+#ifndef OPEN
+    sun *= sun_visible(s.position, s.face_normal);
 #endif
     vec3 middle = normalize(to_light.xyz + s.to_eye);
     float n_h = clamp(dot(s.normal, middle), 0.0, 1.0);

@@ -108,7 +108,8 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 }  // namespace
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas) {
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const std::vector<char>& wanted) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -116,7 +117,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        const bool in_view = visibility.bodies[i];
+        const bool in_view = visibility.bodies[i] && wanted[i] != 0;
         const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
@@ -129,9 +130,9 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
             visible.push_back(item);
         }
     }
-    for (const CordDescription& cord : scene.cords) {
-        const Item item = cord_item(cord, snapshot, view);
-        visible.push_back(item);
+    for (std::size_t i = 0; i < scene.cords.size(); ++i) {
+        const Item item = cord_item(scene.cords[i], snapshot, view);
+        if (wanted[looks.bodies.size() + i] != 0) visible.push_back(item);
         if (scene.light.shadows) casters.push_back(item);
     }
     DrawList list;

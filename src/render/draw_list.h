@@ -41,7 +41,9 @@ struct DrawList {
     std::vector<Batch> casters;  // their shadows may be
 };
 
+/// `wanted`: of each item of drawn_items.h, whether it is to be drawn where it is visible. All casters are listed.
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas);
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const std::vector<char>& wanted);
 
 }  // namespace tumble

@@ -20,6 +20,7 @@
     X(PFNGLBUFFERDATAPROC, BufferData)                                         \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                 \
     X(PFNGLCLEARPROC, Clear)                                                   \
+    X(PFNGLCLEARDEPTHPROC, ClearDepth)                                         \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                   \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                   \
     X(PFNGLCREATESHADERPROC, CreateShader)                                     \

@@ -1,5 +1,6 @@
 #include "render/plane_areas.h"
 
+#include "render/cell_rectangles.h"
 #include "render/plane_axes.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 namespace tumble {
 namespace {
 
-constexpr double filter_texels = 6.0;  // the shadow filter's width and the normal's offset, with some to spare
 constexpr double rim = 2.0;            // pixels around what is touched: the atlas and the screen round too
 
 enum class Use : unsigned char { open, touched, covered };
@@ -61,7 +61,7 @@ void touch_cells(Cells& cells, const PlanePatch& plane, const SceneDescription& 
                  const Snapshot& snapshot, const CameraView& view, const ShadowFit& shadows) {
     const Vec3 light = scene.light.direction.normalized();
     const double approach = -plane.normal.dot(light);  // of the light to the plane: the sine of its elevation
-    const double margin = filter_texels * (shadows.has_far ? shadows.far_texel : shadows.near_texel);
+    const double margin = shadow_filter_texels * (shadows.has_far ? shadows.far_texel : shadows.near_texel);
     if (scene.light.shadows && !scene.cords.empty()) return cells.touch_everything();  // cords are long: no good bound
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
@@ -92,39 +92,23 @@ void cover_cells(Cells& cells, const PlanePatch& plane, const CameraView& view, 
         }
 }
 
-// Cells of one use as few rectangles: runs along a row, grown downward while the rows below have the same run.
-std::vector<PixelArea> rectangles(Cells cells, Use use, const CameraView& view) {
-    std::vector<PixelArea> areas;
-    for (int row = 0; row < cells.rows(); ++row)
-        for (int column = 0; column < cells.columns(); ++column) {
-            if (cells.at(column, row) != use) continue;
-            int end = column, bottom = row;
-            while (end < cells.columns() && cells.at(end, row) == use) ++end;
-            const auto same_run = [&](int y) {
-                for (int x = column; x < end; ++x)
-                    if (cells.at(x, y) != use) return false;
-                return true;
-            };
-            while (bottom < cells.rows() && same_run(bottom)) {
-                for (int x = column; x < end; ++x) cells.at(x, bottom) = Use::covered;  // taken
-                ++bottom;
-            }
-            areas.push_back({column * ScreenCover::cell, row * ScreenCover::cell,
-                             std::min(end * ScreenCover::cell, view.width()),
-                             std::min(bottom * ScreenCover::cell, view.height())});
-        }
-    return areas;
+std::vector<Rectangle> rectangles(Cells& cells, Use use, const CameraView& view, const TileMarks& marks) {
+    constexpr int per_tile = TileMarks::tile / ScreenCover::cell;
+    static_assert(per_tile * ScreenCover::cell == TileMarks::tile);
+    const CellGrid grid{cells.columns(), cells.rows(), ScreenCover::cell, view.width(), view.height()};
+    return cell_rectangles(grid, [&](int column, int row) { return cells.at(column, row) == use && marks.at(column / per_tile, row / per_tile);
+    });
 }
 
 }  // namespace
 
 PlaneAreas find_plane_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
                             const Snapshot& snapshot, const CameraView& view, const ShadowFit& shadows,
-                            const ScreenCover& cover) {
+                            const ScreenCover& cover, const TileMarks& marks) {
     Cells cells(plane.normal, view, cover);
     touch_cells(cells, plane, scene, looks, snapshot, view, shadows);
     cover_cells(cells, plane, view, cover);
-    return {rectangles(cells, Use::touched, view), rectangles(cells, Use::open, view)};
+    return {rectangles(cells, Use::touched, view, marks), rectangles(cells, Use::open, view, marks)};
 }
 
 }  // namespace tumble

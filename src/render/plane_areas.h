@@ -3,8 +3,10 @@
 // and joined into rectangles.
 #pragma once
 
+#include "core/rectangle.h"
 #include "render/plane_patch.h"
 #include "render/shadow_fit.h"
+#include "render/tile_marks.h"
 #include "render/visibility.h"
 
 #include <vector>
@@ -12,11 +14,12 @@
 namespace tumble {
 
 struct PlaneAreas {
-    std::vector<PixelArea> touched, open;
+    std::vector<Rectangle> touched, open;
 };
 
+/// Within the marked tiles.
 PlaneAreas find_plane_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
                             const Snapshot& snapshot, const CameraView& view, const ShadowFit& shadows,
-                            const ScreenCover& cover);
+                            const ScreenCover& cover, const TileMarks& marks);
 
 }  // namespace tumble

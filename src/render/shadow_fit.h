@@ -16,7 +16,11 @@ struct ShadowFit {
     bool has_far = false;
     glm::vec4 far{1.0f, 0.0f, 0.0f, 0.0f};     // near map -> far map: scale, offset x, offset y; w: 1 with a far map
     double near_texel = 0.0, far_texel = 0.0;  // m
+    friend bool operator==(const ShadowFit&, const ShadowFit&) = default;
 };
+
+/// Texels from a shadow's outline that its filter and the offset along the normal may reach, with some to spare.
+inline constexpr double shadow_filter_texels = 6.0;
 
 class ShadowStage {
 public:

@@ -32,6 +32,7 @@ void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& caster
     // Clearing costs by the area: the far half only when it is used.
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(0, 0, with_far ? 2 * shadow_map_texels : shadow_map_texels, shadow_map_texels);
+    gl_->ClearDepth(1.0);
     gl_->Clear(GL_DEPTH_BUFFER_BIT);
     program_.use();
     for (int far = 0; far <= (with_far ? 1 : 0); ++far) {

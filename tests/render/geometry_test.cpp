@@ -214,7 +214,8 @@ TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
     const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view,
-                                         find_visible(looks, first_snapshot(scene), view), atlas);
+                                         find_visible(looks, first_snapshot(scene), view), atlas,
+                                         std::vector<char>(scene.bodies.size(), 1));
     ASSERT_EQ(list.visible.size(), 2u);  // away from the sun, and in it
     EXPECT_EQ(list.visible[0].mesh, face_mesh);
     EXPECT_LE(list.visible[0].count + list.visible[1].count, 90u);  // at most three faces of each

@@ -75,13 +75,15 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesAndTheRestIsDrawnOnce) {
     const ShadowStage stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
+    TileMarks everything(heap.view);
+    everything.mark_all();
     const PlaneAreas areas = find_plane_areas(planes[0], heap.scene, heap.looks, heap.snapshot, heap.view,
-                                              stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover);
+                                              stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, everything);
     std::vector<int> times(1280 * 720, 0);
     for (const auto* list : {&areas.touched, &areas.open})
-        for (const PixelArea& area : *list)
-            for (int y = area.y0; y < area.y1; ++y)
-                for (int x = area.x0; x < area.x1; ++x) ++times[std::size_t(y * 1280 + x)];
+        for (const Rectangle& area : *list)
+            for (int y = area.y; y < area.y + area.height; ++y)
+                for (int x = area.x; x < area.x + area.width; ++x) ++times[std::size_t(y * 1280 + x)];
     int left_out = 0;
     for (int y = 0; y < 720; ++y)
         for (int x = 0; x < 1280; ++x) {
