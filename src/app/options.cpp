@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/commands.h"
+#include "app/speed.h"
 #include "core/error.h"
 
 #include <CLI/CLI.hpp>
@@ -78,6 +79,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
     command->add_option("--gl", c.drawing.backend, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
         ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
+    command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
+                        "at the same frames per second), 2 twice as fast")
+        ->check(CLI::Range(slowest_speed, fastest_speed))->option_text("X [1]");
     command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
                                "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
                                "else what stays is shown longer, which costs nothing");
@@ -90,6 +94,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml                          writes scene.mp4\n"
         "  tumble render scene.toml -o clip.webm --size 640x360\n"
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
+        "  tumble render scene.toml --speed 0.25             slow motion\n"
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only");
     return command;
 }

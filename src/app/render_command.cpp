@@ -2,6 +2,7 @@
 #include "app/interrupt.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/speed.h"
 
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@ struct Summary {
     const Drawer& drawer;
     ProcessEnd workers_end;
     std::optional<fs::path> clip;
+    double clip_fps;
     double seconds;
 
     void print() const {
@@ -41,7 +43,7 @@ struct Summary {
     std::string every_so_manieth(std::int64_t frames) const {
         if (video->frames_in_clip() == frames) return "";
         return fmt::format(" (every {}. of {}: the format holds no more)",
-                           video_format(*clip, scene.output.fps).frame_step, frames);
+                           video_format(*clip, clip_fps).frame_step, frames);
     }
 
     std::string stored() const {
@@ -77,14 +79,16 @@ struct Summary {
 
 void run_render(const RenderCommand& command) {
     const double start = wall_seconds();
-    const SceneDescription scene = load_scene(command.scene, command.overrides);
+    SceneDescription scene = load_scene(command.scene, command.overrides);
+    const double clip_fps = scene.output.fps;
+    apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames) clip = command.scene.stem().string() + ".mp4";
 
     // What can be wrong with the outputs is found out before anything is simulated or written.
     FrameForms forms{std::nullopt, command.frames.has_value()};
     if (clip) {
-        forms.video = video_format(*clip, scene.output.fps).pixels;
+        forms.video = video_format(*clip, clip_fps).pixels;
         find_ffmpeg();
     }
     Interrupt interrupt;   // before any thread or process is made
@@ -94,7 +98,7 @@ void run_render(const RenderCommand& command) {
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<VideoWriter> video;
-    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, scene.output.fps, command.times);
+    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.times);
 
     Pipeline pipeline(world, scene.frame_count(), drawer, folder ? &*folder : nullptr, video ? &*video : nullptr);
     {
@@ -104,7 +108,7 @@ void run_render(const RenderCommand& command) {
     const ProcessEnd workers_end = drawer.finish();
     if (!command.quiet)
         Summary{scene, pipeline, folder ? &*folder : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
-                wall_seconds() - start}
+                clip_fps, wall_seconds() - start}
             .print();
 }
 
