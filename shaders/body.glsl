@@ -5,7 +5,7 @@ in vec4 v_haze;
 flat in vec4 v_orientation;
 flat in vec4 v_scale;
 flat in vec4 v_color;
-flat in vec3 v_look;
+flat in vec4 v_look;
 
 layout(location = 0) out vec4 pixel;
 

@@ -27,7 +27,7 @@ out float v_open;                   // share of the sky's light
 flat out vec4 v_orientation;
 flat out vec4 v_scale;              // w: pattern's cell
 flat out vec4 v_color;              // w: roughness
-flat out vec3 v_look;               // metallic, pattern, bevel
+flat out vec4 v_look;               // metallic, pattern, bevel, the surface's number as alpha
 
 void main() {
 #ifdef BOX
@@ -48,7 +48,7 @@ void main() {
     // A bevel narrower than a pixel would glitter: it grows with the distance instead.
     float pixel = haze.y * length(instance_position.xyz);
     float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
-    v_look = vec3(instance_look.xy, min(max(instance_position.w, pixel), 0.5 * thinnest));
+    v_look = vec4(instance_look.xy, min(max(instance_position.w, pixel), 0.5 * thinnest), instance_tile.z);
     float squared = dot(v_position, v_position);
     float share = haze_share(squared);
     v_haze = vec4(share * sky(v_position * inversesqrt(max(squared, 1e-30))), 1.0 - share);

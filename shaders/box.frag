@@ -32,5 +32,5 @@ void main() {
     albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(local));
 #endif
     float open = texture(occlusion_atlas, clamp(v_atlas, v_rim.xy, v_rim.zw)).r;
-    pixel = vec4(shade(body_surface(rotate(v_orientation, local_normal), v_normal, albedo, open)), 1.0);
+    pixel = vec4(shade(body_surface(rotate(v_orientation, local_normal), v_normal, albedo, open)), v_look.w);
 }

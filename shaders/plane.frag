@@ -9,7 +9,7 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic
+uniform vec4 plane_look;        // metallic, the surface's number as alpha
 #ifndef OPEN
 uniform sampler2D occlusion_atlas;
 uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
@@ -71,5 +71,5 @@ void main() {
     surface.open = openness(position);
     float share = haze_share(dot(position, position));
     surface.haze = vec4(share * sky(-surface.to_eye), 1.0 - share);
-    pixel = vec4(shade(surface), 1.0);
+    pixel = vec4(shade(surface), plane_look.y);
 }

@@ -92,10 +92,12 @@ void measure_cost(const Arguments& a) {
         fmt::print("  {:<12} {:6.2f}\n", render_stage_names[i], 1e3 * times.seconds[i] / frames);
 }
 
-Image picture(const SceneDescription& scene, const Snapshot& snapshot, int samples, double shift_x, double shift_y) {
+Image picture(const SceneDescription& scene, const Snapshot& snapshot, int samples, bool multisample,
+              double shift_x = 0.0, double shift_y = 0.0) {
     SceneDescription sampled = scene;
     sampled.output.samples = samples;
     RenderOptions options;
+    options.multisample = multisample;
     options.shift_x = shift_x;
     options.shift_y = shift_y;
     Renderer renderer(sampled, options);
@@ -111,7 +113,7 @@ void measure_edges(const Arguments& a) {
     for (const Snapshot& snapshot : {clip.front(), clip.back()}) {
         PictureMean many;
         for (int i = 0; i < 64; ++i)   // an 8 x 8 lattice, sheared so that no two share a row or column
-            many.add(picture(scene, snapshot, 1, ((i % 8) + (i / 8 + 0.5) / 8.0) / 8.0 - 0.5,
+            many.add(picture(scene, snapshot, 1, false, ((i % 8) + (i / 8 + 0.5) / 8.0) / 8.0 - 0.5,
                              ((i / 8) + (i % 8 + 0.5) / 8.0) / 8.0 - 0.5));
         const Image reference = many.mean();
         const std::vector<bool> edges = many.edges();
@@ -119,13 +121,19 @@ void measure_edges(const Arguments& a) {
                    double(std::count(edges.begin(), edges.end(), true)) / double(edges.size()));
         if (!a.pictures.empty())
             write_png(fmt::format("{}/reference_{}.png", a.pictures, snapshot.frame), reference);
-        for (const int samples : {1, 4}) {
-            const Image image = picture(scene, snapshot, samples, 0.0, 0.0);
-            const double all = rms_difference(image, reference, std::vector<bool>(edges.size(), true));
-            fmt::print("  samples {}: edge RMSE {:.2f}, RMSE {:.3f}, SSIM {:.5f}\n", samples,
-                       rms_difference(image, reference, edges), all, structural_similarity(image, reference));
+        struct Way {
+            const char* name;
+            int samples;
+            bool multisample;
+        };
+        for (const Way& way : {Way{"none", 1, false}, Way{"multisampling", 4, true}, Way{"smooth edges", 4, false}}) {
+            const Image image = picture(scene, snapshot, way.samples, way.multisample);
+            fmt::print("  {:<14} edge RMSE {:5.2f}, RMSE {:.3f}, SSIM {:.5f}\n", way.name,
+                       rms_difference(image, reference, edges),
+                       rms_difference(image, reference, std::vector<bool>(edges.size(), true)),
+                       structural_similarity(image, reference));
             if (!a.pictures.empty())
-                write_png(fmt::format("{}/samples_{}_{}.png", a.pictures, samples, snapshot.frame), image);
+                write_png(fmt::format("{}/{}_{}.png", a.pictures, way.name, snapshot.frame), image);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "render/glm_conversion.h"
+#include "render/surface_ids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,16 +39,16 @@ std::size_t ball_mesh_for(double radius, double distance, const CameraView& view
 }
 
 Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view,
-                     const OcclusionPlace& place) {
+                     const OcclusionPlace& place, std::size_t body) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
             to_glm(look.half_size, look.pattern_cell),
             glm::vec4(look.color, look.roughness),
             glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
-            glm::vec2(float(place.size), 0.0f)};
+            glm::vec3(float(place.size), 0.0f, surface_alpha(body, 0))};
 }
 
-Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
+Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& snapshot, const CameraView& view) {
     const BodyState& state = snapshot.bodies[cord.body];
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
@@ -62,11 +63,11 @@ Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const Came
             true,
             middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
-             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec2(0.0f)}};
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec3(0.0f, 0.0f, surface_alpha(number, 0))}};
 }
 
 // The faces of a box that can be seen, those in the sun apart from the others.
-void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec3& light, std::vector<Item>& items) {
+void add_faces(Item item, std::size_t body, std::uint8_t faces, const Quat& orientation, const Vec3& light, std::vector<Item>& items) {
     const Mat3 axes = orientation.toRotationMatrix();
     item.mesh = face_mesh;
     for (int face = 0; face < 6; ++face) {
@@ -74,6 +75,7 @@ void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec
         const Vec3 normal = axes.col(face / 2) * (face % 2 == 0 ? -1.0 : 1.0);
         item.lit = normal.dot(light) < 0.0;
         item.instance.tile.y = float(face);
+        item.instance.tile.z = surface_alpha(body, std::size_t(face));
         items.push_back(item);
     }
 }
@@ -121,17 +123,17 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
-                           instance_of(look, snapshot.bodies[i], view, atlas.places[i])};
+                           instance_of(look, snapshot.bodies[i], view, atlas.places[i], i)};
         if (casts) casters.push_back(item);
         if (!in_view) continue;
         if (look.kind == DrawKind::box) {
-            add_faces(item, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);
+            add_faces(item, i, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);
         } else {
             visible.push_back(item);
         }
     }
     for (std::size_t i = 0; i < scene.cords.size(); ++i) {
-        const Item item = cord_item(scene.cords[i], snapshot, view);
+        const Item item = cord_item(scene.cords[i], looks.bodies.size() + i, snapshot, view);
         if (wanted[looks.bodies.size() + i] != 0) visible.push_back(item);
         if (scene.light.shadows) casters.push_back(item);
     }

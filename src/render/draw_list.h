@@ -21,7 +21,7 @@ struct Instance {
     glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
     glm::vec4 color;        // linear; w: roughness
     glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec2 tile;         // the edge of its tiles there; and which face of a box this is, as in make_box()
+    glm::vec3 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its number
 };
 
 /// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.

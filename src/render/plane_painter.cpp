@@ -2,6 +2,7 @@
 
 #include "render/glm_conversion.h"
 #include "render/plane_axes.h"
+#include "render/surface_ids.h"
 #include "render/surface_programs.h"
 
 #include <fmt/format.h>
@@ -109,7 +110,7 @@ void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& 
     program.set("plane_u", plane.u);
     program.set("plane_v", plane.v);
     program.set("plane_color", glm::vec4(look.color, look.roughness));
-    program.set("plane_look", glm::vec4(look.metallic, 0.0f, 0.0f, 0.0f));
+    program.set("plane_look", glm::vec4(look.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // those that are not in view lie far below: nothing comes near them
     for (const PlanePatch& other : planes)

@@ -5,6 +5,7 @@
 #include "render/camera_view.h"
 #include "render/change_finder.h"
 #include "render/draw_list.h"
+#include "render/edge_blender.h"
 #include "render/drawn_parts.h"
 #include "render/frame_uniforms.h"
 #include "render/framebuffer.h"
@@ -40,9 +41,12 @@ struct Renderer::State {
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks),
           changes(scene, looks, view),
+          edges(looks, view),
+          drawn_image(scene.output.width, scene.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
-          framebuffer(gl, scene.output.width, scene.output.height, scene.output.samples),
+          smooth_edges(scene.output.samples > 1 && scene.cords.empty() && !options.multisample),
+          framebuffer(gl, scene.output.width, scene.output.height, smooth_edges ? 1 : scene.output.samples),
           uniforms(gl, GlKind::buffer),
           meshes(gl, looks),
           occlusion_texture(gl),
@@ -65,8 +69,12 @@ struct Renderer::State {
     ShadowStage stage;
     OcclusionMaker occlusion;
     ChangeFinder changes;
+    EdgeFinder edges;
+    Image drawn_image;  // as it was drawn, with surface numbers in alpha
     std::unique_ptr<GlContext> context;
     GlFunctions gl;
+    // Cords can be thinner than a pixel: those scenes take several samples.
+    bool smooth_edges;
     Framebuffer framebuffer;
     GlObject uniforms;
     MeshLibrary meshes;
@@ -142,11 +150,21 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(RenderStage::planes);
 
     s.framebuffer.resolve(s.changed);
-    clock.ends(RenderStage::edges);
-    const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
-    if (!follows) frame = Image(s.view.width(), s.view.height());
-    s.framebuffer.read(follows ? s.changed : whole_picture(s.view), frame);
+    s.framebuffer.read(s.changed, s.drawn_image);
     clock.ends(RenderStage::read);
+    std::vector<Rectangle> written = s.changed;
+    if (frame.width != s.view.width() || frame.height != s.view.height()) {
+        frame = Image(s.view.width(), s.view.height());
+        written = whole_picture(s.view);
+        if (!marks.all()) {
+            marks.mark_all();
+            wanted.assign(wanted.size(), 1);
+        }
+    }
+    copy_opaque(s.drawn_image, written, frame);
+    if (s.smooth_edges)
+        blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, visibility, planes), marks, frame);
+    clock.ends(RenderStage::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }
 
