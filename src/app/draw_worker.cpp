@@ -78,7 +78,7 @@ public:
             });
         if (png_)
             drawn.png = timed([&] {
-                if (!changed.empty()) file_ = png_->encode(image_);
+                if (!changed.empty()) file_ = png_->encode(image_, changed);
                 std::ranges::copy(file_, memory_.png(job.slot).data());
             });
         drawn.png_bytes = file_.size();

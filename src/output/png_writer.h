@@ -1,8 +1,10 @@
-// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the file; its pixels are compressed by libdeflate and given
-// to it as a ready chunk, which takes two thirds of zlib's time (bench/README.md).
+// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the file; the pixels are compressed by ISA-L (igzip) in bands
+// of rows that do not look at each other, so that of a frame that is like the one before only the changed bands are
+// compressed again. The bytes are those of compressing all of them.
 #pragma once
 
 #include "core/image.h"
+#include "core/rectangle.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +12,6 @@
 #include <memory>
 #include <span>
 #include <vector>
-
-struct libdeflate_compressor;
 
 namespace tumble {
 
@@ -21,18 +21,24 @@ public:
     PngEncoder();
     ~PngEncoder();
 
-    /// The whole file, valid until the next call. The same picture gives the same bytes. Alpha is left out. Throws
-    /// RunError where the picture is empty or memory runs out.
+    /// The whole file, valid until the next call. `changed` are the parts that may differ from the picture before; a
+    /// first picture, and one of another size, is taken as a whole. Alpha is left out. Throws RunError where the
+    /// picture is empty or memory runs out.
+    std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
     std::span<const std::byte> encode(const Image& image);
 
 private:
-    void pack_rows(const Image& image);
-
-    struct FreeCompressor {
-        void operator()(libdeflate_compressor* compressor) const;
+    struct Band {
+        std::vector<std::uint8_t> compressed;
+        std::uint32_t checksum = 0;   // Adler-32 of its rows
     };
-    std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor_;
-    std::vector<std::uint8_t> rows_, compressed_;
+    void compress(const Image& image, int first_row, Band& band);
+
+    struct Compressor;
+    std::unique_ptr<Compressor> compressor_;
+    int width_ = 0, height_ = 0;      // of the picture before
+    std::vector<Band> bands_;
+    std::vector<std::uint8_t> rows_;  // of one band, as they are compressed
     std::vector<std::byte> file_;
 };
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 
@@ -62,6 +63,36 @@ TEST(Png, TheSamePictureIsTheSameBytes) {
     const std::vector<std::byte> first = encoded(colorful(64, 48));
     const std::vector<std::byte> second = encoded(colorful(64, 48));
     EXPECT_EQ(first, second);
+}
+
+TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
+    PngEncoder encoder;
+    for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
+        Image image = colorful(width, height);
+        encoder.encode(image, {});   // of another size than before: all of it, whatever has changed
+        const std::vector<Rectangle> changes[] = {
+            {{3, 0, 1, 1}}, {{0, height - 1, width, 1}}, {}, {{1, 5, 4, 20}, {5, 25, 2, 6}}, {{0, 0, width, height}}};
+        int value = 0;
+        for (const std::vector<Rectangle>& changed : changes) {
+            for (const Rectangle& r : changed) fill(image, r.x, r.y, r.width, r.height, {++value, 9, 200});
+            const std::span<const std::byte> part = encoder.encode(image, changed);
+            EXPECT_TRUE(std::ranges::equal(part, encoded(image))) << width << " x " << height << ", " << value;
+        }
+    }
+}
+
+TEST(Png, WhatDoesNotCompressFits) {
+    const TestFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 1000}, {500, 333}}) {
+        Image image(width, height);
+        std::uint32_t random = 1;
+        for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) image.at(x, y)[3] = 255;
+        write_png(folder / "a.png", image);
+        EXPECT_EQ(read_png(folder / "a.png"), image);
+        EXPECT_LE(encoded(image).size(), png_bytes_bound(width, height));
+    }
 }
 
 TEST(Png, AnEmptyPictureIsRefused) {
