@@ -58,8 +58,8 @@ class Render(program.ProgramTest):
         self.write("resting.toml", self.RESTING)
         run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3")
         self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (what does not change is shown longer)", run.stderr)
-        self.assertEqual(program.probe(self.folder / "a.mp4", "r_frame_rate,duration,nb_read_frames"),
-                         ["10/1", "3.100000", "4"])
+        self.assertEqual(program.probe(self.folder / "a.mp4", "duration,nb_read_frames"),
+                         ["3.100000", "4"])
         self.assertIn("frames/s; 1 drawn;", run.stderr)
         frames = [(self.folder / "out" / name).read_bytes() for name in program.frame_names(31)]
         self.assertEqual(len(set(frames)), 1)
