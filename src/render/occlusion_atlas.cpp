@@ -241,7 +241,7 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
     OcclusionWindow window;
     window.body = plane.body;
     // A power of two, and the window on whole cells: texels stay where they are while bodies move.
-    window.cell = std::exp2(std::floor(std::log2(looks_.typical_reach / texels_per_reach)));
+    window.cell = window_cell(looks_);
 
     struct Foot {
         const Occluder* occluder;
@@ -308,6 +308,10 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
 }
 
 }  // namespace
+
+double window_cell(const SceneLooks& looks) {
+    return std::exp2(std::floor(std::log2(looks.typical_reach / texels_per_reach)));
+}
 
 OcclusionMaker::OcclusionMaker(const SceneLooks& looks)
     : looks_(&looks), versions_(looks.bodies.size(), 0), neighbours_(looks.bodies.size()) {
