@@ -1,20 +1,12 @@
 #include "render/change_finder.h"
 
-#include "render/plane_areas.h"
-#include "render/plane_axes.h"
+#include "render/plane_marks.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-// A lower sun throws shadows without end.
-constexpr double least_approach = 0.02;   // sine of the elevation
-
-double shadow_margin(const ShadowFit& shadows) {
-    return shadow_filter_texels * (shadows.has_far ? shadows.far_texel : shadows.near_texel);
-}
 
 // The shadow maps' square in coarse cells: how near to the sun a moved body begins in each. What lies outside of the
 // square counts as in the cells at its rim.
@@ -126,38 +118,18 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
     return marks;
 }
 
-// Its shadow and its darkening there.
 void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now,
                                   TileMarks& marks) const {
     const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
-    for (const PlanePatch& plane : now.planes) {
-        const double height = plane.normal.dot(item.center) + plane.height;
-        if (height < -item.radius) continue;
-        const PlaneAxes axes = plane_axes(plane.normal);
-        std::array<Vec3, 32> points;
-        const auto mark_around = [&](double margin, auto foot) {
-            std::size_t count = 0;
-            for (const Vec3& corner : item.corners) {
-                const Vec3 on_plane = foot(corner, plane.normal.dot(corner) + plane.height);
-                for (const double a : {-margin, margin})
-                    for (const double b : {-margin, margin}) points[count++] = on_plane + a * axes.u + b * axes.v;
-            }
-            marks.mark_hull(points);
-        };
-        if (reach > 0.0 && height < item.radius + 2.0 * reach)   // .5: texels blur
-            mark_around(1.5 * reach, [&](const Vec3& p, double h) { return Vec3(p - plane.normal * h); });
-        const double approach = -plane.normal.dot(light_);
-        if (!scene_->light.shadows || approach <= 0.0 || !view_->sees_swept(item.center, item.radius, light_)) continue;
-        if (approach < least_approach) return marks.mark_all();
-        mark_around(shadow_margin(now.shadows) / approach,
-                    [&](const Vec3& p, double h) { return Vec3(p + light_ * (h / approach)); });
-    }
+    const ShadowLight light(scene_->light, now.shadows);
+    const double blur = 1.5 * window_cell(*looks_);
+    for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, reach, blur, light, *view_, marks);
 }
 
 // Whatever stood still behind something that moved, as the sun sees it.
 void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
                                  const Visibility& visibility, TileMarks& marks) const {
-    LightCells cells(now.shadows, light_, shadow_margin(now.shadows));
+    LightCells cells(now.shadows, light_, ShadowLight(scene_->light, now.shadows).margin);
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
         cells.add(items_[i]);

@@ -19,11 +19,16 @@ constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
 
 constexpr float cord_roughness = 0.7f;
 
+// Bodies are drawn in shells around the eye, the nearest first, and within a shell by mesh and shader: what is hidden is
+// mostly rejected, and there are few changes of shaders.
+constexpr double shells_per_doubling = 8.0;   // of the distance
+
 struct Item {
     std::size_t mesh;
     bool patterned, lit;
     double distance;
     Instance instance;
+    int shell() const { return int(std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30)))); }
 };
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
@@ -91,10 +96,11 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
     }
 }
 
-// Appends the items to the instances, one batch a mesh, nearest first; equal ones keep the scene's order.
-std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances) {
-    std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-        return std::tuple(a.mesh, a.patterned, a.lit, a.distance) < std::tuple(b.mesh, b.patterned, b.lit, b.distance);
+// Appends the items to the instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
+std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, bool in_shells) {
+    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
+        return std::tuple(in_shells ? a.shell() : 0, a.mesh, a.patterned, a.lit, a.distance) <
+               std::tuple(in_shells ? b.shell() : 0, b.mesh, b.patterned, b.lit, b.distance);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
@@ -138,8 +144,8 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         if (scene.light.shadows) casters.push_back(item);
     }
     DrawList list;
-    list.visible = append_batches(visible, list.instances);
-    list.casters = append_batches(casters, list.instances);
+    list.visible = append_batches(visible, list.instances, true);
+    list.casters = append_batches(casters, list.instances, false);
     return list;
 }
 

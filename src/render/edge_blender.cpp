@@ -38,40 +38,31 @@ public:
             if (length <= 0.0) continue;
             const double line = n0 + (0.5 * (from + to) - m0) * slope, half = 0.5 * std::abs(slope) * length;
             const int end = int(std::floor(std::clamp(line + half, -1.0, double(count_n_))));
-            for (int n = int(std::floor(std::clamp(line - half, -1.0, double(count_n_)))); n <= end; ++n) {
-                const double after = share_before(n + 1.0 - line, half);   // of the pixel, on the side of greater n
-                pixel(m, n, length * (side_ > 0 ? after : 1.0 - after), length);
-            }
+            for (int n = int(std::floor(std::clamp(line - half, -1.0, double(count_n_)))); n <= end; ++n)
+                pixel(m, n, line, half, length);
         }
     }
 
 private:
     const std::uint8_t* at(int m, int n) const { return across_ ? drawn_.at(n, m) : drawn_.at(m, n); }
 
-    // `inside`: the area that the inner surface has of the `length` of the edge in this pixel.
-    void pixel(int m, int n, double inside, double length) {
+    // The pixel that the edge passes, over `length` of it, at height `line`. A share of its colour comes from the neighbour
+    // over the edge, or the one behind it where the edge runs aslant. An edge that something hides meets other surfaces.
+    void pixel(int m, int n, double line, double half, double length) {
         if (n < 0 || n >= count_n_) return;
-        const int x = across_ ? n : m, y = across_ ? m : n;
-        if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
-        const std::uint8_t here = drawn_.at(x, y)[3];
-        // A line that passes the middle on the wrong side is an edge that something else hides a little of: half at most.
-        if (here == inner_) {
-            mix(m, n, -side_, std::min(length - inside, 0.5), [&](std::uint8_t id) {
-                return outer_ == 0 ? id != inner_ : id == outer_;
-            }, x, y);
-        } else if (outer_ == 0 || here == outer_) {
-            mix(m, n, side_, std::min(inside, 0.5), [&](std::uint8_t id) { return id == inner_; }, x, y);
-        }
-    }
-
-    // Takes a share from the neighbour over the edge, or the one behind it where the edge runs aslant.
-    template <class Wanted>
-    void mix(int m, int n, int step, double share, Wanted wanted, int x, int y) {
-        const int weight = int(256.0 * share + 0.5);
-        if (weight == 0) return;
+        const std::uint8_t here = at(m, n)[3];
+        const bool is_inner = here == inner_;
+        if (!is_inner && outer_ != 0 && here != outer_) return;
+        const int step = is_inner ? -side_ : side_;
         for (int other = n + step; other != n + 3 * step && other >= 0 && other < count_n_; other += step) {
             const std::uint8_t* from = at(m, other);
-            if (!wanted(from[3])) continue;
+            if (is_inner ? (outer_ == 0 ? from[3] == inner_ : from[3] != outer_) : from[3] != inner_) continue;
+            const int x = across_ ? n : m, y = across_ ? m : n;
+            if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
+            const double after = share_before(n + 1.0 - line, half);   // of the strip, on the side of greater n
+            // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
+            const double share = std::min(length * (step > 0 ? after : 1.0 - after), 0.5);
+            const int weight = int(256.0 * share + 0.5);
             std::uint8_t* to = frame_.at(x, y);
             for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
             return;

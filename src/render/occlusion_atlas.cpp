@@ -89,7 +89,7 @@ public:
         for (const PlaneInView& plane : planes_) add_window(plane, shelves);
         for (std::size_t i = 0; i < looks_.bodies.size(); ++i)
             if (visibility.bodies[i] && atlas_.places[i].size > 0)
-                add_body(i, bounding_ball(looks_.bodies[i], snapshot_.bodies[i], view_));
+                add_body(i, bounding_ball(looks_.bodies[i], snapshot_.bodies[i], view_), visibility.faces[i]);
     }
 
 private:
@@ -110,8 +110,8 @@ private:
     }
     std::uint8_t& texel(int x, int y) { return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)]; }
     // Are the body's neighbours those of the last time, in the same poses? Notes them down.
-    bool as_before(std::size_t body) {
-        key_.clear();
+    bool as_before(std::size_t body, std::uint8_t visible) {
+        key_.assign(1, visible);
         const auto add = [&](std::size_t other) {
             const std::uint64_t entry = std::uint64_t(other) << 32 | versions_[other];
             if (key_.empty() || key_.back() != entry) key_.push_back(entry);
@@ -128,7 +128,7 @@ private:
         for (const PlaneInView& plane : near_planes_) darken(points_, plane.normal, plane.height, float(reach));
     }
 
-    void add_body(std::size_t body, const BoundingBall& ball) {
+    void add_body(std::size_t body, const BoundingBall& ball, std::uint8_t visible) {
         const BodyLook& look = looks_.bodies[body];
         const Eigen::Vector3f center = ball.center.cast<float>();
         finder_.find(center, float(ball.radius), near_);
@@ -136,10 +136,10 @@ private:
         near_planes_.clear();
         for (const PlaneInView& plane : planes_)
             if (plane.normal.dot(center) + plane.height < ball.radius + 2.0 * look.reach) near_planes_.push_back(plane);
-        if (as_before(body)) return;
+        if (as_before(body, visible)) return;
         changed_ = false;
         std::uint8_t faces = 0;
-        if (look.kind == DrawKind::box) faces = add_box(body, ball.center);
+        if (look.kind == DrawKind::box) faces = add_box(body, ball.center, visible);
         if (look.kind == DrawKind::ball) add_ball(body, center);
         if (look.kind == DrawKind::mesh) add_mesh(body);
         if (changed_) changes_.bodies.push_back({body, faces});
@@ -147,7 +147,7 @@ private:
 
     // Tiles in the order of make_box()'s faces; a texel's centre at each corner of a face.
     // Returns the faces that changed.
-    std::uint8_t add_box(std::size_t body, const Vec3& center) {
+    std::uint8_t add_box(std::size_t body, const Vec3& center, std::uint8_t visible) {
         const BodyLook& look = looks_.bodies[body];
         const OcclusionPlace& place = atlas_.places[body];
         const int size = place.size;
@@ -158,15 +158,11 @@ private:
             const double side = face % 2 == 0 ? -1.0 : 1.0;
             const Vec3 normal = side * axes.col(axis);
             const Vec3 middle = center + normal * look.half_size[axis];
-            if (normal.dot(middle) >= 0.0) continue;  // turned away from the eye
+            if ((visible >> face & 1) == 0) continue;
             const int a = (axis + 1) % 3, b = (axis + 2) % 3;
             const Vec3 u = axes.col(a) * look.half_size[a], v = axes.col(b) * look.half_size[b];
-            points_.clear();
-            for (int j = 0; j < size; ++j)
-                for (int i = 0; i < size; ++i) {
-                    const double s = 2.0 * i / (size - 1) - 1.0, t = 2.0 * j / (size - 1) - 1.0;
-                    points_.add((middle + s * u + t * v).cast<float>(), normal.cast<float>());
-                }
+            points_.set_lattice((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
+                                (2.0 * v / (size - 1)).cast<float>(), normal.cast<float>(), size, size);
             const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
             near_face_.clear();
             for (const std::size_t i : near_)
@@ -241,7 +237,7 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
     OcclusionWindow window;
     window.body = plane.body;
     // A power of two, and the window on whole cells: texels stay where they are while bodies move.
-    window.cell = std::exp2(std::floor(std::log2(looks_.typical_reach / texels_per_reach)));
+    window.cell = window_cell(looks_);
 
     struct Foot {
         const Occluder* occluder;
@@ -291,13 +287,10 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
         const int i0 = first(foot.a, window.low_a), i1 = last(foot.a, window.low_a, window.width);
         const int j0 = first(foot.b, window.low_b), j1 = last(foot.b, window.low_b, window.height);
         if (i0 > i1 || j0 > j1) continue;
-        points_.clear();
         const Vec3 on_plane = origin + looks_.bodies[plane.body].plane.offset * plane.normal.cast<double>();
-        for (int j = j0; j <= j1; ++j)
-            for (int i = i0; i <= i1; ++i)
-                points_.add((on_plane + u * ((window.low_a + i) * window.cell) + v * ((window.low_b + j) * window.cell))
-                                .cast<float>(),
-                            plane.normal);
+        const Vec3 corner = on_plane + u * ((window.low_a + i0) * window.cell) + v * ((window.low_b + j0) * window.cell);
+        points_.set_lattice(corner.cast<float>(), (u * window.cell).cast<float>(), (v * window.cell).cast<float>(),
+                            plane.normal, i1 - i0 + 1, j1 - j0 + 1);
         darken(points_, *foot.occluder, foot.occluder->reach);
         for (int j = j0, k = 0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i, ++k) open[std::size_t(j * width + i)] *= points_.open[std::size_t(k)];
@@ -308,6 +301,10 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
 }
 
 }  // namespace
+
+double window_cell(const SceneLooks& looks) {
+    return std::exp2(std::floor(std::log2(looks.typical_reach / texels_per_reach)));
+}
 
 OcclusionMaker::OcclusionMaker(const SceneLooks& looks)
     : looks_(&looks), versions_(looks.bodies.size(), 0), neighbours_(looks.bodies.size()) {

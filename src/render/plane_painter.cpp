@@ -81,7 +81,7 @@ void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const 
     gl_->BindVertexArray(0);
 }
 
-void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas,
+void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
                                 const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
                                 const CameraView& view) const {
     gl_->Disable(GL_CULL_FACE);
@@ -89,11 +89,11 @@ void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std
     gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const ShaderProgram& program = planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->touched;
-        if (areas[i].touched.empty()) continue;
+        if (areas[i].empty()) continue;
         upload_polygon(planes[i].corners);
         set_uniforms(program, planes[i], planes, looks);
         set_window(program, planes[i], atlas, looks, snapshot, view);
-        for (const Rectangle& area : areas[i].touched) {
+        for (const Rectangle& area : areas[i]) {
             gl_->Scissor(area.x, area.y, area.width, area.height);
             gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
         }

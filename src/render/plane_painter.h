@@ -18,8 +18,8 @@ public:
     /// All planes without bodies and shadows, and the sky: what stays behind all frames.
     void draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks, const CameraView& view) const;
 
-    /// Draws planes[i] where `areas[i]` says that shadows or darkening touch it.
-    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas, const SceneLooks& looks,
+    /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
+    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas, const SceneLooks& looks,
               const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const;
 
 

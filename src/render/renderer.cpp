@@ -115,9 +115,10 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     for (const DrawnItem& item : items) wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
     const OcclusionAtlas& atlas = s.occlusion.atlas();
     const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, wanted);
-    std::vector<PlaneAreas> areas;
+    std::vector<std::vector<Rectangle>> touched;
     for (const PlanePatch& plane : planes)
-        areas.push_back(find_plane_areas(plane, s.scene, s.looks, snapshot, s.view, shadows, visibility.cover, marks));
+        touched.push_back(
+            find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, marks));
     clock.ends(RenderStage::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
@@ -146,7 +147,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
     clock.ends(RenderStage::bodies);
-    s.planes.draw_touched(planes, areas, s.looks, atlas, snapshot, s.view);
+    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view);
     clock.ends(RenderStage::planes);
 
     s.framebuffer.resolve(s.changed);

@@ -31,6 +31,22 @@ void SurfacePoints::add(const Eigen::Vector3f& position, const Eigen::Vector3f& 
     open.push_back(1.0f);
 }
 
+void SurfacePoints::set_lattice(const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int columns, int rows) {
+    const std::size_t count = std::size_t(columns) * std::size_t(rows);
+    for (std::vector<float>* values : {&x, &y, &z}) values->resize(count);
+    nx.assign(count, normal.x());
+    ny.assign(count, normal.y());
+    nz.assign(count, normal.z());
+    open.assign(count, 1.0f);
+    for (int j = 0, k = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i, ++k) {
+            x[std::size_t(k)] = corner.x() + float(i) * across.x() + float(j) * along.x();
+            y[std::size_t(k)] = corner.y() + float(i) * across.y() + float(j) * along.y();
+            z[std::size_t(k)] = corner.z() + float(i) * across.z() + float(j) * along.z();
+        }
+}
+
 void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
     const Eigen::Matrix3f& m = occluder.to_local;
     const Eigen::Vector3f c = occluder.center, half = occluder.half_size;

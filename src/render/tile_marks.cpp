@@ -29,15 +29,15 @@ Place place_of(std::span<const Vec3> points, const CameraView& view) {
     return before ? Place::before : Place::behind;
 }
 
-int tile_of(double pixel, int count) {
-    return int(std::clamp(std::floor(pixel / TileMarks::tile), -1.0, double(count)));
+int tile_of(double pixel, int size, int count) {
+    return int(std::clamp(std::floor(pixel / size), -1.0, double(count)));
 }
 
 }  // namespace
 
-TileMarks::TileMarks(const CameraView& view)
+TileMarks::TileMarks(const CameraView& view, int size)
     : view_(&view),
-      grid_{(view.width() + tile - 1) / tile, (view.height() + tile - 1) / tile, tile, view.width(), view.height()},
+      grid_{(view.width() + size - 1) / size, (view.height() + size - 1) / size, size, view.width(), view.height()},
       marks_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
 
 void TileMarks::mark_all() {
@@ -45,22 +45,28 @@ void TileMarks::mark_all() {
     count_ = grid_.columns * grid_.rows;
 }
 
-void TileMarks::mark_hull(std::span<const Vec3> points) {
+void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
     const Place place = place_of(points, *view_);
     if (place == Place::behind || all()) return;
     if (place == Place::beside) return mark_all();
     std::vector<ScreenPoint> corners;
+    double rim = margin;   // pixels
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (const Vec3& p : points) {
         corners.push_back(view_->pixel(p));
+        if (around > 0.0) {   // what is nearer to the eye by as much moves the farthest on the screen
+            const double depth = p.dot(view_->forward()), nearest = depth - around;
+            if (nearest < 0.1 * depth) return mark_all();
+            rim = std::max(rim, margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
+        }
         top = std::min(top, corners.back().y());
         bottom = std::max(bottom, corners.back().y());
     }
     corners = convex_hull(std::move(corners));
-    for (int row = std::max(0, tile_of(top - margin, grid_.rows));
-         row <= std::min(grid_.rows - 1, tile_of(bottom + margin, grid_.rows)); ++row) {
+    for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
         // The hull's reach to both sides within this row of tiles.
-        const double low = row * tile - margin, high = (row + 1) * tile + margin;
+        const double low = row * grid_.cell - rim, high = (row + 1) * grid_.cell + rim;
         double left = std::numeric_limits<double>::infinity(), right = -left;
         const auto reach = [&](double x) {
             left = std::min(left, x);
@@ -72,8 +78,8 @@ void TileMarks::mark_hull(std::span<const Vec3> points) {
             for (const double y : {low, high})
                 if ((a.y() < y) != (b.y() < y)) reach(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
         }
-        for (int column = std::max(0, tile_of(left - margin, grid_.columns));
-             column <= std::min(grid_.columns - 1, tile_of(right + margin, grid_.columns)); ++column) {
+        for (int column = std::max(0, tile_of(left - rim, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(right + rim, grid_.cell, grid_.columns)); ++column) {
             char& mark = marks_[std::size_t(row * grid_.columns + column)];
             count_ += mark == 0 ? 1 : 0;
             mark = 1;
@@ -94,10 +100,10 @@ bool TileMarks::touched_by(std::span<const Vec3> points) const {
         y0 = std::min(y0, at.y());
         y1 = std::max(y1, at.y());
     }
-    for (int row = std::max(0, tile_of(y0 - margin, grid_.rows));
-         row <= std::min(grid_.rows - 1, tile_of(y1 + margin, grid_.rows)); ++row)
-        for (int column = std::max(0, tile_of(x0 - margin, grid_.columns));
-             column <= std::min(grid_.columns - 1, tile_of(x1 + margin, grid_.columns)); ++column)
+    for (int row = std::max(0, tile_of(y0 - margin, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(y1 + margin, grid_.cell, grid_.rows)); ++row)
+        for (int column = std::max(0, tile_of(x0 - margin, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(x1 + margin, grid_.cell, grid_.columns)); ++column)
             if (at(column, row)) return true;
     return false;
 }

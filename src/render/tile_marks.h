@@ -1,4 +1,4 @@
-// The tiles of the picture that have to be drawn anew.
+// Tiles of the picture that something may touch: those that have to be drawn anew, those with shadows on the ground.
 #pragma once
 
 #include "core/rectangle.h"
@@ -15,13 +15,14 @@ class TileMarks {
 public:
     static constexpr int tile = 16;   // pixels: smaller ones follow outlines better, but make many small rectangles
 
-    explicit TileMarks(const CameraView& view);
+    explicit TileMarks(const CameraView& view, int size = tile);
 
     void mark_all();
 
-    /// Marks what the convex hull of the points (relative to the eye) may touch on the screen, and some pixels around it
-    /// for rasterisation and smooth edges. Points beside the eye may land anywhere: then everything is marked.
-    void mark_hull(std::span<const Vec3> points);
+    /// Marks what the convex hull of the points (relative to the eye), and all within `around` (m) of it, may touch on the
+    /// screen, and some pixels more for rasterisation and smooth edges. Points beside the eye may land anywhere: then
+    /// everything is marked.
+    void mark_hull(std::span<const Vec3> points, double around = 0.0);
 
     bool none() const { return count_ == 0; }
     bool all() const { return count_ == grid_.columns * grid_.rows; }
@@ -30,6 +31,7 @@ public:
     /// May the convex hull of the points touch a marked tile? (its bounding rectangle is looked at)
     bool touched_by(std::span<const Vec3> points) const;
 
+    const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
 
 private:

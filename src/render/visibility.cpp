@@ -72,20 +72,31 @@ void ScreenCover::add(const Corners& corners) {
     if (!project(corners, *view_, box)) return;
     const std::vector<Point> hull = convex_hull({box.points.begin(), box.points.end()});
     if (hull.size() < 3) return;
-    const auto inside = [&](double x, double y) {
+    // On each line between rows of cells, the hull without its rim is an interval; a cell is covered within both of its.
+    const auto interval = [&](double y, double& left, double& right) {
+        left = -std::numeric_limits<double>::infinity();
+        right = -left;
         for (std::size_t i = 0; i < hull.size(); ++i) {
-            const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
-            if (turn(a, b, {x, y}) < margin * (b - a).norm()) return false;
+            const Point &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+            // turn(a, b, (x, y)) >= margin |edge|, solved for x
+            const double rest = edge.x() * (y - a.y()) + edge.y() * a.x() - margin * edge.norm();
+            if (edge.y() > 0.0) right = std::min(right, rest / edge.y());
+            if (edge.y() < 0.0) left = std::max(left, rest / edge.y());
+            if (edge.y() == 0.0 && rest < 0.0) left = std::numeric_limits<double>::infinity();
         }
-        return true;
     };
-    for (int row = first_cell(box.y0); row <= last_cell(box.y1, rows_); ++row)
-        for (int column = first_cell(box.x0); column <= last_cell(box.x1, columns_); ++column) {
-            const double x0 = column * cell, y0 = row * cell, x1 = x0 + cell, y1 = y0 + cell;
-            if (!inside(x0, y0) || !inside(x1, y0) || !inside(x0, y1) || !inside(x1, y1)) continue;
+    const int first = first_cell(box.y0);
+    double above_left, above_right, left, right;
+    interval(first * cell, above_left, above_right);
+    for (int row = first; row <= last_cell(box.y1, rows_); ++row, above_left = left, above_right = right) {
+        interval((row + 1) * cell, left, right);
+        const double from = std::max({above_left, left, 0.0}), to = std::min(above_right, right);
+        const double end = std::min(std::floor(to / cell), double(columns_));
+        for (int column = int(std::ceil(std::min(from, 1e9) / cell)); column < end; ++column) {
             double& depth = depths_[std::size_t(row * columns_ + column)];
             depth = std::min(depth, box.furthest);
         }
+    }
 }
 
 bool ScreenCover::hides(std::span<const Vec3> corners) const {
