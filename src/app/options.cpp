@@ -17,6 +17,7 @@ namespace tumble {
 namespace {
 
 constexpr int most_threads = 256;
+constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder keep up with no more of them
 
 int machine_threads() { return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads); }
 
@@ -85,8 +86,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
                                "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
                                "else what stays is shown longer, which costs nothing");
-    c.workers = machine_threads();
-    command->add_option("--workers", c.workers, "Processes that draw, one a core; the pixels are the same for any number")
+    c.workers = std::min(machine_threads(), enough_workers);
+    command->add_option("--workers", c.workers, "Processes that draw, one a core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, c.quiet);
     command->footer(
