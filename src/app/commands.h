@@ -19,6 +19,8 @@ struct RenderCommand {
     RenderOptions drawing;
     FrameTimes times = FrameTimes::longer_frames;
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
+    double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
+    int blur_samples = 8;   // moments of an open shutter
     int threads = 1;      // of the simulation
     int workers = 1;      // processes that draw
     bool quiet = false;

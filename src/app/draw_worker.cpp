@@ -2,6 +2,7 @@
 
 #include "app/stage_time.h"
 #include "core/error.h"
+#include "core/image_mean.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
 
@@ -25,8 +26,8 @@ namespace {
 
 struct Job {
     std::int64_t frame = 0;
-    double time = 0.0;   // s
     int slot = 0;
+    std::size_t moments = 1;
 };
 
 /// Messages are whole or not there (SOCK_SEQPACKET). False: nobody is at the other end.
@@ -66,19 +67,21 @@ public:
     DrawnFrame make(const Job& job) {
         DrawnFrame drawn;
         drawn.frame = snapshot_.frame = job.frame;
-        snapshot_.time = job.time;
-        memory_.read_poses(job.slot, snapshot_);
-        drawn.drawing = timed([&] { renderer_.render(snapshot_, image_); });
-        const std::vector<Rectangle>& changed = renderer_.changed();
+        drawn.drawing = timed([&] { expose(job); });
+        const bool partly = !blurred_before_ && job.moments == 1;   // else the picture before was another one
+        const std::vector<Rectangle> changed =
+            partly ? renderer_.changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
+        const Image& picture = job.moments == 1 ? image_ : blurred_;
+        blurred_before_ = job.moments > 1;
         drawn.unchanged = changed.empty();
         if (video_)
             drawn.conversion = timed([&] {
-                video_->update(image_, changed);
+                video_->update(picture, changed);
                 std::ranges::copy(video_->bytes(), memory_.video(job.slot).data());
             });
         if (png_)
             drawn.png = timed([&] {
-                if (!changed.empty()) file_ = png_->encode(image_, changed);
+                if (!changed.empty()) file_ = png_->encode(picture, changed);
                 std::ranges::copy(file_, memory_.png(job.slot).data());
             });
         drawn.png_bytes = file_.size();
@@ -86,10 +89,22 @@ public:
     }
 
 private:
+    void expose(const Job& job) {
+        for (std::size_t i = 0; i < job.moments; ++i) {
+            memory_.read_poses(job.slot, i, snapshot_);
+            renderer_.render(snapshot_, image_);
+            if (job.moments > 1) mean_.add(image_);
+        }
+        if (job.moments > 1) mean_.take(blurred_);
+    }
+
     WorkerMemory& memory_;
     Renderer renderer_;
     Snapshot snapshot_;
-    Image image_;
+    Image image_;          // the last moment that was drawn
+    ImageMean mean_;
+    Image blurred_;
+    bool blurred_before_ = false;
     std::optional<VideoPixels> video_;
     std::optional<PngEncoder> png_;
     std::span<const std::byte> file_;
@@ -133,8 +148,9 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots)
-    : memory_(std::make_shared<WorkerMemory>(scene, forms, slots)) {
+DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+                       int most_moments)
+    : memory_(std::make_shared<WorkerMemory>(scene, forms, slots, most_moments)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
@@ -155,12 +171,12 @@ DrawWorker::~DrawWorker() {
     finish();
 }
 
-DrawnFrame DrawWorker::draw(const Snapshot& snapshot, int slot) {
-    memory_->write_poses(slot, snapshot);
+DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(slot, i, exposure.moments[i]);
     DrawnFrame drawn;
-    if (!send_message(socket_, Job{snapshot.frame, snapshot.time, slot}) || !receive_message(socket_, drawn))
-        died(snapshot.frame);
-    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", snapshot.frame, memory_->words()));
+    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size()}) || !receive_message(socket_, drawn))
+        died(exposure.frame);
+    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
     return drawn;
 }
 

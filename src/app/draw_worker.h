@@ -3,6 +3,7 @@
 // and leaves it in shared memory. It writes no files, so that it can be stopped at any time.
 #pragma once
 
+#include "app/exposure.h"
 #include "app/worker_memory.h"
 #include "output/process.h"
 #include "render/renderer.h"
@@ -33,7 +34,8 @@ class DrawWorker {
 public:
     /// Forks; the child opens OpenGL at once. The calling program must have no other thread. Throws RunError when there
     /// are no more processes or no memory to be had.
-    DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots);
+    DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+               int most_moments);
     /// Ends it, whatever it does.
     ~DrawWorker();
     DrawWorker(const DrawWorker&) = delete;
@@ -41,7 +43,7 @@ public:
 
     /// Draws one frame into the slot and waits for it. Throws RunError naming the frame where drawing fails, or the
     /// process has died.
-    DrawnFrame draw(const Snapshot& snapshot, int slot);
+    DrawnFrame draw(const Exposure& exposure, int slot);
 
     /// Asks it to end at once; from any thread. A draw() that waits then fails.
     void kill();

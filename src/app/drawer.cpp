@@ -57,17 +57,18 @@ private:
     std::shared_ptr<WorkerMemory> memory_;   // lives as long as a slot of it is read
 };
 
-Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers)
+Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+               int most_moments)
     : drawn_poses_(scene) {
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(std::make_unique<DrawWorker>(scene, options, forms, slots_of_worker));
+        workers_.push_back(std::make_unique<DrawWorker>(scene, options, forms, slots_of_worker, most_moments));
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
 }
 
 Drawer::~Drawer() = default;
 
-void Drawer::run(BoundedQueue<Snapshot>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times) {
+void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times) {
     FrameOrder order(workers_.size());
     std::vector<std::thread> threads;
     const auto stop = [&] {
@@ -95,13 +96,24 @@ void Drawer::run(BoundedQueue<Snapshot>& poses, const std::function<bool(const F
     stop();
 }
 
+/// The poses to draw; false: the frame shows what the one before shows. Where nothing moves while the shutter is open, one
+/// moment is left.
+bool Drawer::follow(Exposure& exposure) {
+    bool first = false, later = false;
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i)
+        if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
+    if (!later) exposure.moments.resize(1);
+    const bool moved_before = std::exchange(moves_, later);
+    return first || later || moved_before;
+}
+
 /// The life of the thread that looks after one worker.
-void Drawer::tend(std::size_t worker, BoundedQueue<Snapshot>& poses, FrameOrder& order, DrawingTimes& times) {
+void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times) {
     Slots& slots = *slots_[worker];
-    const auto next_pose = [&]() -> std::optional<Snapshot> {
+    const auto next_pose = [&]() -> std::optional<Exposure> {
         const std::lock_guard lock(pose_mutex_);
-        while (std::optional<Snapshot> pose = poses.pop()) {
-            if (drawn_poses_.follow(*pose)) {
+        while (std::optional<Exposure> pose = poses.pop()) {
+            if (follow(*pose)) {
                 ++drawn_;
                 return pose;
             }
@@ -111,7 +123,7 @@ void Drawer::tend(std::size_t worker, BoundedQueue<Snapshot>& poses, FrameOrder&
     };
     // The slot comes first: who has a pose can always finish it, and the frames behind it wait for no one else.
     while (const std::shared_ptr<const int> slot = slots.take()) {
-        const std::optional<Snapshot> pose = next_pose();
+        const std::optional<Exposure> pose = next_pose();
         if (!pose) return;
         const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
         times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);

@@ -7,6 +7,7 @@
 
 #include "app/bounded_queue.h"
 #include "app/draw_worker.h"
+#include "app/exposure.h"
 #include "app/stage_time.h"
 #include "render/drawn_poses.h"
 #include "scene/description.h"
@@ -40,13 +41,15 @@ class FrameOrder;
 
 class Drawer {
 public:
-    /// Starts the processes: call it before the program has any other thread. The scene must outlive it. Throws RunError.
-    Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers);
+    /// Starts the processes: call it before the program has any other thread. Frames have so many moments at most.
+    /// The scene must outlive it. Throws RunError.
+    Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+           int most_moments = 1);
     ~Drawer();
 
     /// Takes poses until their queue ends, and hands each finished frame on, in the order of the poses. Stops early
     /// when `hand_on` says false. Throws RunError naming the frame where drawing fails or a process dies.
-    void run(BoundedQueue<Snapshot>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times);
+    void run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times);
 
     /// Ends the processes at once, from any thread; run() then comes back.
     void abandon();
@@ -59,12 +62,14 @@ public:
 
 private:
     class Slots;
-    void tend(std::size_t worker, BoundedQueue<Snapshot>& poses, FrameOrder& order, DrawingTimes& times);
+    bool follow(Exposure& exposure);
+    void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times);
 
     std::vector<std::unique_ptr<DrawWorker>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
     std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time
     DrawnPoses drawn_poses_;
+    bool moves_ = false;                          // while the shutter was open for the frame before
     std::int64_t drawn_ = 0;
 };
 

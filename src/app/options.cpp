@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/commands.h"
+#include "app/exposure.h"
 #include "app/speed.h"
 #include "core/error.h"
 
@@ -83,6 +84,10 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
                         "at the same frames per second), 2 twice as fast")
         ->check(CLI::Range(slowest_speed, fastest_speed))->option_text("X [1]");
+    command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
+        ->check(CLI::Range(0.0, 360.0))->option_text("DEGREES [0]");
+    command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
+        ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
     command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
                                "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
                                "else what stays is shown longer, which costs nothing");

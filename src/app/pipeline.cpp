@@ -27,12 +27,14 @@ void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<voi
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video)
+Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+                   Shutter shutter)
     : world_(world),
       frames_(frames),
       drawer_(drawer),
       folder_(folder),
       video_(video),
+      shutter_(shutter),
       poses_(waiting_poses),
       for_png_(waiting_frames),
       for_video_(waiting_frames) {}
@@ -59,13 +61,18 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 
 void Pipeline::simulate() {
     for (std::int64_t n = 0; n < frames_; ++n) {
-        Snapshot pose;
+        Exposure exposure;
+        exposure.frame = n;
         {
             const StageTimer timer(times_.simulation);
-            if (n > 0) world_.advance_frame();
-            pose = world_.snapshot();
+            // What the shutter of the last frame does not see needs not be simulated.
+            const int parts = n + 1 < frames_ ? shutter_.parts : shutter_.moments;
+            for (int part = 0; part < parts; ++part) {
+                if (n > 0 || part > 0) world_.advance_frame();
+                if (part < shutter_.moments) exposure.moments.push_back(world_.snapshot());
+            }
         }
-        if (!poses_.push(std::move(pose))) return;
+        if (!poses_.push(std::move(exposure))) return;
     }
     poses_.close();
 }

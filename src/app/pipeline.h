@@ -33,8 +33,9 @@ struct PipelineTimes {
 class Pipeline {
 public:
     /// Simulates and draws `frames` frames; each goes to the outputs that are there (null: not asked for).
-    /// All are used while run() lasts; the drawer must make the forms that the outputs want.
-    Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video);
+    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that the outputs want.
+    Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+             Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
     /// Throws the first error of any stage; RunError when interrupted. Frames written by then are whole, and stay.
@@ -54,7 +55,8 @@ private:
     Drawer& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;
-    BoundedQueue<Snapshot> poses_;
+    Shutter shutter_;
+    BoundedQueue<Exposure> poses_;
     BoundedQueue<Frame> for_png_, for_video_;
     std::atomic<std::int64_t> written_{0}, filmed_{0};
     PipelineTimes times_;

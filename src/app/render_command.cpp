@@ -82,6 +82,9 @@ void run_render(const RenderCommand& command) {
     SceneDescription scene = load_scene(command.scene, command.overrides);
     const double clip_fps = scene.output.fps;
     apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
+    const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
+    SceneDescription in_parts = scene;
+    divide_frames(in_parts, shutter.parts);
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames) clip = command.scene.stem().string() + ".mp4";
 
@@ -93,14 +96,16 @@ void run_render(const RenderCommand& command) {
     }
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
-    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, scene.frame_count())));
-    World world(scene, command.threads);
+    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, scene.frame_count())),
+                  shutter.moments);
+    World world(in_parts, command.threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<VideoWriter> video;
     if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.times);
 
-    Pipeline pipeline(world, scene.frame_count(), drawer, folder ? &*folder : nullptr, video ? &*video : nullptr);
+    Pipeline pipeline(world, scene.frame_count(), drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
+                      shutter);
     {
         Progress progress(scene.frame_count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });

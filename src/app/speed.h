@@ -13,4 +13,7 @@ inline constexpr double slowest_speed = 1e-3, fastest_speed = 1e3;
 /// becomes the next smaller one that divides the frame. Throws InputError where that makes too many frames.
 void apply_speed(SceneDescription& scene, double speed);
 
+/// Makes each frame of the scene so many (for the moments of a shutter); the step follows the same rule.
+void divide_frames(SceneDescription& scene, int parts);
+
 }  // namespace tumble

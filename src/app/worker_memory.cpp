@@ -24,9 +24,10 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 
 }  // namespace
 
-WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots)
+WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
     : bodies_(scene.bodies.size()),
-      video_at_(whole_pages(bodies_ * numbers_of_body * sizeof(double))),
+      poses_size_(bodies_ * numbers_of_body * sizeof(double)),
+      video_at_(whole_pages(std::size_t(most_moments) * poses_size_)),
       video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
       png_at_(video_at_ + whole_pages(video_size_)),
       png_size_(forms.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
@@ -43,9 +44,9 @@ WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& form
 
 WorkerMemory::~WorkerMemory() { munmap(memory_, size_); }
 
-void WorkerMemory::write_poses(int slot, const Snapshot& snapshot) {
+void WorkerMemory::write_poses(int slot, std::size_t moment, const Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
-    auto* to = reinterpret_cast<double*>(part(slot, 0, 0).data());
+    auto* to = reinterpret_cast<double*>(part(slot, moment * poses_size_, poses_size_).data());
     for (const BodyState& body : snapshot.bodies) {
         std::copy_n(body.origin.data(), 3, to);
         std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
@@ -53,9 +54,9 @@ void WorkerMemory::write_poses(int slot, const Snapshot& snapshot) {
     }
 }
 
-void WorkerMemory::read_poses(int slot, Snapshot& snapshot) const {
+void WorkerMemory::read_poses(int slot, std::size_t moment, Snapshot& snapshot) const {
     snapshot.bodies.resize(bodies_);
-    const auto* from = reinterpret_cast<const double*>(part(slot, 0, 0).data());
+    const auto* from = reinterpret_cast<const double*>(part(slot, moment * poses_size_, poses_size_).data());
     for (BodyState& body : snapshot.bodies) {
         std::copy_n(from, 3, body.origin.data());
         std::copy_n(from + 3, 4, body.orientation.coeffs().data());

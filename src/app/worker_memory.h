@@ -22,15 +22,15 @@ struct FrameForms {
 
 class WorkerMemory {
 public:
-    /// Before the fork. Throws RunError when there is not enough memory.
-    WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots);
+    /// Before the fork, for frames of so many moments. Throws RunError when there is not enough memory.
+    WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments);
     ~WorkerMemory();
     WorkerMemory(const WorkerMemory&) = delete;
     WorkerMemory& operator=(const WorkerMemory&) = delete;
 
-    /// Origins and orientations, which is all that drawing needs.
-    void write_poses(int slot, const Snapshot& snapshot);
-    void read_poses(int slot, Snapshot& snapshot) const;
+    /// Of one moment of the frame: origins and orientations, which is all that drawing needs.
+    void write_poses(int slot, std::size_t moment, const Snapshot& snapshot);
+    void read_poses(int slot, std::size_t moment, Snapshot& snapshot) const;
 
     std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
     std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // room for the largest
@@ -44,7 +44,7 @@ private:
         return {memory_ + std::size_t(slot) * slot_size_ + at, size};
     }
 
-    std::size_t bodies_, video_at_, video_size_, png_at_, png_size_, slot_size_, words_at_, size_;
+    std::size_t bodies_, poses_size_, video_at_, video_size_, png_at_, png_size_, slot_size_, words_at_, size_;
     std::byte* memory_;
 };
 

@@ -1,6 +1,7 @@
 // The drawing processes: the same bytes from any number of them, an error for each that dies, and none left behind.
 #include "app/drawer.h"
 #include "core/error.h"
+#include "core/image_mean.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
 
@@ -50,6 +51,20 @@ Snapshot at_frame(std::int64_t n) {
     return snapshot;
 }
 
+Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}}; }
+
+/// The shutter is open while the box moves to its next place; where it does not move, all moments are the same.
+Exposure blurred(std::int64_t n) {
+    Exposure exposure = sharp(n);
+    const Snapshot next = at_frame(n + 1);
+    for (int i = 1; i < 4; ++i) {
+        Snapshot between = at_frame(n);
+        between.bodies[2].origin += 0.25 * i * (next.bodies[2].origin - between.bodies[2].origin);
+        exposure.moments.push_back(between);
+    }
+    return exposure;
+}
+
 struct Seen {
     std::int64_t number;
     bool repeated;
@@ -59,11 +74,12 @@ struct Seen {
 
 /// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
 std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64_t frames,
-                       const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {}) {
-    BoundedQueue<Snapshot> poses(4);
+                       const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
+                       const std::function<Exposure(std::int64_t)>& exposure = sharp) {
+    BoundedQueue<Exposure> poses(4);
     std::thread simulation([&] {
         for (std::int64_t n = 0; n < frames; ++n)
-            if (!poses.push(at_frame(n))) return;
+            if (!poses.push(exposure(n))) return;
         poses.close();
     });
     std::vector<Seen> seen;
@@ -126,6 +142,40 @@ TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
         return 0;
     };
     // In a process of its own: this one must stay without OpenGL, so that the next tests can fork.
+    const pid_t id = fork();
+    if (id == 0) _exit(expect());
+    int status = -1;
+    waitpid(id, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
+    const SceneDescription scene = two_boxes();
+    std::vector<Seen> first;
+    for (const int workers : {1, 3}) {
+        Drawer drawer(scene, {}, both, workers, 4);
+        const std::vector<Seen> seen = draw(drawer, scene, 20, [](std::int64_t) {}, blurred);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+    }
+    // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
+    for (std::size_t n = 0; n < first.size(); ++n)
+        EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
+    const auto expect = [&] {
+        Renderer renderer(scene, {});
+        PngEncoder png;
+        for (const Seen& s : first) {
+            ImageMean mean;
+            Image image, expected;
+            for (const Snapshot& moment : blurred(s.number).moments) {
+                renderer.render(moment, image);
+                mean.add(image);
+            }
+            mean.take(expected);
+            if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
+        }
+        return 0;
+    };
     const pid_t id = fork();
     if (id == 0) _exit(expect());
     int status = -1;

@@ -1,4 +1,5 @@
 // Slow motion and speed-up against a run at the normal speed.
+#include "app/exposure.h"
 #include "app/speed.h"
 #include "core/error.h"
 #include "sim/world.h"
@@ -63,6 +64,29 @@ TEST(Speed, NeverMakesTheStepLonger) {
         EXPECT_LE(scene.step(), step * (1.0 + 1e-9)) << speed;
         EXPECT_DOUBLE_EQ(scene.step() * scene.simulation.steps_per_frame, speed / fps) << speed;
     }
+}
+
+TEST(Shutter, OpensForTheNearestPartOfAFrame) {
+    const auto of = [](double degrees, int samples) {
+        const Shutter shutter = Shutter::of(degrees, samples);
+        return std::pair{shutter.parts, shutter.moments};
+    };
+    EXPECT_EQ(of(0.0, 8), (std::pair{1, 1}));
+    EXPECT_EQ(of(180.0, 8), (std::pair{16, 8}));
+    EXPECT_EQ(of(360.0, 8), (std::pair{8, 8}));
+    EXPECT_EQ(of(90.0, 4), (std::pair{16, 4}));
+    EXPECT_EQ(of(270.0, 8), (std::pair{11, 8}));   // 262 degrees
+}
+
+TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
+    SceneDescription scene = falling_box();
+    const double step = scene.step();
+    divide_frames(scene, 4);
+    EXPECT_EQ(scene.step(), step);
+    EXPECT_EQ(scene.output.fps, 240.0);
+    const std::vector<Snapshot> normal = frames_of(falling_box()), parts = frames_of(scene);
+    ASSERT_EQ(parts.size(), 4 * (normal.size() - 1) + 1);
+    for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
 }
 
 TEST(Speed, TooManyFramesAreRefused) {
