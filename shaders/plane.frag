@@ -64,7 +64,9 @@ void main() {
     surface.position = position;
     surface.to_eye = -normalize(ray);
     surface.normal = plane_normal.xyz;
-    surface.face_normal = plane_normal.xyz;
+#ifndef OPEN
+    surface.shadow = shadow_place(position, plane_normal.xyz, in_near_map(position));
+#endif
     surface.albedo = albedo;
     surface.roughness = plane_color.w;
     surface.metallic = plane_look.x;
