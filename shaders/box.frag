@@ -33,6 +33,6 @@ void main() {
 #else
     albedo *= 1.0 - crate_groove_depth * groove(on_face);
 #endif
-    float open = texture(occlusion_atlas, v_tile.xy + on_face * v_tile.zw).r;
+    float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
     pixel = vec4(shade(body_surface(normal, albedo, open)), v_look.w);
 }
