@@ -30,7 +30,7 @@ float openness(vec3 position) {
     float open = 1.0;
 #ifndef OPEN
     vec2 texel = vec2(dot(window_u.xyz, position), dot(window_v.xyz, position)) + vec2(window_u.w, window_v.w);
-    open = texture(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy).r;
+    open = textureLod(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy, 0.0).r;
 #endif
 #ifdef OTHER_PLANES
     for (int i = 0; i < OTHER_PLANES; ++i) {
@@ -64,7 +64,9 @@ void main() {
     surface.position = position;
     surface.to_eye = -normalize(ray);
     surface.normal = plane_normal.xyz;
-    surface.face_normal = plane_normal.xyz;
+#ifndef OPEN
+    surface.shadow = shadow_place(position, plane_normal.xyz, in_near_map(position));
+#endif
     surface.albedo = albedo;
     surface.roughness = plane_color.w;
     surface.metallic = plane_look.x;

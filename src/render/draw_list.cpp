@@ -44,16 +44,17 @@ std::size_t ball_mesh_for(double radius, double distance, const CameraView& view
 }
 
 Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view,
-                     const OcclusionPlace& place, std::size_t body) {
+                     const OcclusionPlace& place, std::size_t body, bool near_shadows) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
             to_glm(look.half_size, look.pattern_cell),
             glm::vec4(look.color, look.roughness),
             glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
-            glm::vec3(float(place.size), 0.0f, surface_alpha(body, 0))};
+            glm::vec4(float(place.size), 0.0f, surface_alpha(body, 0), near_shadows ? 1.0f : 0.0f)};
 }
 
-Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& snapshot, const CameraView& view) {
+Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& snapshot, const CameraView& view,
+               const ShadowFit& shadows) {
     const BodyState& state = snapshot.bodies[cord.body];
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
@@ -68,7 +69,9 @@ Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& 
             true,
             middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
-             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec3(0.0f, 0.0f, surface_alpha(number, 0))}};
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f),
+             glm::vec4(0.0f, 0.0f, surface_alpha(number, 0),
+                       shadows.near_holds(middle, 0.5 * length + cord.radius) ? 1.0f : 0.0f)}};
 }
 
 // The faces of a box that can be seen, those in the sun apart from the others.
@@ -117,7 +120,7 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
                         const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const std::vector<char>& wanted) {
+                        const ShadowFit& shadows, const std::vector<char>& wanted) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -129,7 +132,8 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
-                           instance_of(look, snapshot.bodies[i], view, atlas.places[i], i)};
+                           instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
+                                       shadows.near_holds(ball.center, ball.radius))};
         if (casts) casters.push_back(item);
         if (!in_view) continue;
         if (look.kind == DrawKind::box) {
@@ -139,7 +143,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         }
     }
     for (std::size_t i = 0; i < scene.cords.size(); ++i) {
-        const Item item = cord_item(scene.cords[i], looks.bodies.size() + i, snapshot, view);
+        const Item item = cord_item(scene.cords[i], looks.bodies.size() + i, snapshot, view, shadows);
         if (wanted[looks.bodies.size() + i] != 0) visible.push_back(item);
         if (scene.light.shadows) casters.push_back(item);
     }

@@ -5,6 +5,7 @@
 #include "render/body_looks.h"
 #include "render/camera_view.h"
 #include "render/occlusion_atlas.h"
+#include "render/shadow_fit.h"
 #include "sim/snapshot.h"
 
 #include <glm/vec2.hpp>
@@ -21,7 +22,8 @@ struct Instance {
     glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
     glm::vec4 color;        // linear; w: roughness
     glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec3 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its number
+    glm::vec4 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its surface's
+                            // number as alpha; 1: wholly within the near shadow map
 };
 
 /// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.
@@ -44,6 +46,6 @@ struct DrawList {
 /// `wanted`: of each item of drawn_items.h, whether it is to be drawn where it is visible. All casters are listed.
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
                         const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const std::vector<char>& wanted);
+                        const ShadowFit& shadows, const std::vector<char>& wanted);
 
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl_object.h"
+#include "render/occlusion_atlas.h"
 #include "render/plane_areas.h"
 #include "render/shader_program.h"
 

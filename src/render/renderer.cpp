@@ -114,7 +114,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     std::vector<char> wanted;
     for (const DrawnItem& item : items) wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
     const OcclusionAtlas& atlas = s.occlusion.atlas();
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, wanted);
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted);
     std::vector<std::vector<Rectangle>> touched;
     for (const PlanePatch& plane : planes)
         touched.push_back(
