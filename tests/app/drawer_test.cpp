@@ -22,11 +22,11 @@ constexpr FrameForms both{PixelForm::yuv420, true};
 
 SceneDescription two_boxes() {
     SceneDescription scene;
-    scene.output.width = 96;
-    scene.output.height = 64;
+    scene.output.width = 240;
+    scene.output.height = 160;
     scene.output.samples = 1;
-    scene.camera.eye = {1.0, 3.0, 7.0};
-    scene.camera.target = {0.0, 0.5, 0.0};
+    scene.camera.eye = {1.0, 3.0, 9.0};
+    scene.camera.target = {0.0, 1.5, 0.0};
     for (int i = 0; i < 3; ++i) {
         BodyDescription body;
         if (i == 0) body.shape = PlaneShape{};
@@ -47,7 +47,7 @@ Snapshot at_frame(std::int64_t n) {
         body.orientation = Quat::Identity();
     }
     snapshot.bodies[1].origin = {-1.0, 0.5, 0.0};
-    snapshot.bodies[2].origin = {1.0, 0.5 + 0.1 * double(moves), 0.0};
+    snapshot.bodies[2].origin = {1.0, 0.5 + 0.3 * double(moves), 0.0};
     return snapshot;
 }
 
