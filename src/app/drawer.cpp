@@ -10,6 +10,7 @@ InProcessDrawer::InProcessDrawer(const SceneDescription& scene, const RenderOpti
 
 void InProcessDrawer::run(BoundedQueue<Snapshot>& poses, const std::function<bool(Frame)>& hand_on, StageTime& time) {
     std::optional<Renderer> renderer;
+    Image picture;
     {
         const StageTimer timer(time);
         renderer.emplace(scene_, options_);
@@ -18,7 +19,8 @@ void InProcessDrawer::run(BoundedQueue<Snapshot>& poses, const std::function<boo
         std::shared_ptr<Image> image = images_.take();
         {
             const StageTimer timer(time);
-            renderer->render(*pose, *image);
+            renderer->render(*pose, picture);   // writes what changed only
+            *image = picture;
         }
         if (!hand_on({pose->frame, std::move(image)})) return;
     }
