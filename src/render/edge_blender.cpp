@@ -51,7 +51,8 @@ private:
     void pixel(int m, int n, double line, double half, double length) {
         if (n < 0 || n >= count_n_) return;
         const std::uint8_t here = at(m, n)[3];
-        const bool is_inner = here == inner_;
+        bool is_inner = here == inner_;
+        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - line) * side_ > 0.0;   // the number does not tell
         if (!is_inner && outer_ != 0 && here != outer_) return;
         const int step = is_inner ? -side_ : side_;
         for (int other = n + step; other != n + 3 * step && other >= 0 && other < count_n_; other += step) {

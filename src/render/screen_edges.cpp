@@ -156,7 +156,9 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const MeshLo
         if (!outline && !(edge.crease && left)) continue;
         const auto& t = surface.triangles[std::size_t(left || open ? edge.left : edge.right)];
         const ScreenPoint inside = (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
-        found_.push_back(directed(points[edge.from], points[edge.to], inside, id, outline ? 0 : id));
+        // The mesh before itself has one number on both sides, as at a crease; where both are in sight they are blended.
+        found_.push_back(directed(points[edge.from], points[edge.to], inside, id, id));
+        if (outline) found_.push_back(directed(points[edge.from], points[edge.to], inside, id, 0));
     }
 }
 
