@@ -53,13 +53,13 @@ Snapshot at_frame(std::int64_t n) {
 
 Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}}; }
 
-/// The shutter is open while the box moves to its next place; where it does not move, all moments are the same.
+/// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
 Exposure blurred(std::int64_t n) {
     Exposure exposure = sharp(n);
     const Snapshot next = at_frame(n + 1);
     for (int i = 1; i < 4; ++i) {
         Snapshot between = at_frame(n);
-        between.bodies[2].origin += 0.25 * i * (next.bodies[2].origin - between.bodies[2].origin);
+        between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
         exposure.moments.push_back(between);
     }
     return exposure;
