@@ -88,6 +88,28 @@ class Render(program.ProgramTest):
         self.check(0, "render", "fast.toml", "--frames", "b")
         self.assertEqual((self.folder / "a/frame_000002.png").read_bytes(), (self.folder / "b/frame_000004.png").read_bytes())
 
+    def test_slow_motion(self):
+        options = ("--size", "320x240", "--duration", "0.3")
+        self.check(0, "render", "scene.toml", "--frames", "a", *options)
+        run = self.check(0, "render", "scene.toml", "--frames", "b", "-o", "b.mp4", "--speed", "0.25", *options)
+        self.assertIn("wrote b.mp4: 13 frames", run.stderr)
+        self.assertEqual(program.probe(self.folder / "b.mp4", "r_frame_rate,nb_read_frames"), ["10/1", "13"])
+        for n in range(4):
+            self.assertEqual((self.folder / f"a/frame_{n:06}.png").read_bytes(),
+                             (self.folder / f"b/frame_{4 * n:06}.png").read_bytes())
+        for speed in ("0", "-1", "1e4", "fast"):
+            self.check(2, "render", "scene.toml", "--speed", speed)
+
+    def test_motion_blur(self):
+        options = ("--size", "64x48", "--duration", "0.2")
+        self.check(0, "render", "scene.toml", "--frames", "sharp", *options)
+        self.check(0, "render", "scene.toml", "--frames", "blurred", "--shutter", "180", "--workers", "2", *options)
+        self.check(0, "render", "scene.toml", "--frames", "again", "--shutter", "180", "--workers", "1", *options)
+        for name in program.frame_names(3):
+            blurred = (self.folder / "blurred" / name).read_bytes()
+            self.assertNotEqual((self.folder / "sharp" / name).read_bytes(), blurred)
+            self.assertEqual((self.folder / "again" / name).read_bytes(), blurred)
+
     def test_scenes_of_nearly_nothing(self):
         self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")
         self.check(0, "render", "empty.toml", "--frames", "out")
