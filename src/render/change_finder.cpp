@@ -75,7 +75,8 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
     TileMarks marks(*view_);
     const std::size_t bodies = looks_->bodies.size();
     background_changed_ = first_ || now.near_distance != near_distance_;
-    casters_changed_ = first_ || now.shadows != shadows_;
+    shadow_marks_ = ShadowMarks(now.shadows);
+    if (first_ || now.shadows != shadows_) shadow_marks_.mark_all();
     if (first_) poses_.resize(bodies);
     std::vector<char> item_moved(now.items.size(), 0);
     for (std::size_t i = 0; i < now.items.size(); ++i) {
@@ -83,7 +84,9 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
         item_moved[i] = first_ || moved(now.snapshot, body) ? 1 : 0;
         if (item_moved[i] == 0) continue;
         if (i < bodies && looks_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
-        if (now.items[i].exists()) casters_changed_ = true;
+        if (!now.items[i].exists()) continue;
+        if (!first_) shadow_marks_.mark(items_[i]);
+        shadow_marks_.mark(now.items[i]);
     }
     // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
     const bool too_near = std::any_of(now.items.begin(), now.items.end(), [&](const DrawnItem& item) {
