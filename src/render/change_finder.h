@@ -50,7 +50,6 @@ private:
     const SceneDescription* scene_;
     const SceneLooks* looks_;
     const CameraView* view_;
-    Vec3 light_;   // unit, the way it travels
     bool first_ = true, background_changed_ = true;
     ShadowMarks shadow_marks_{ShadowFit()};
     std::vector<Pose> poses_;

@@ -52,6 +52,11 @@ bool ShadowMarks::touched_by(const DrawnItem& item) const {
     return false;
 }
 
+void ShadowMarks::settle() {
+    const auto marked = std::count(marks_.begin(), marks_.end(), char(1));
+    if (2 * marked > std::ptrdiff_t(marks_.size())) mark_all();
+}
+
 std::vector<Rectangle> ShadowMarks::rectangles() const {
     const int texels = (fit_.texels + count - 1) / count;
     std::vector<Rectangle> all;

@@ -20,6 +20,9 @@ public:
     void mark(const DrawnItem& item);
     bool touched_by(const DrawnItem& item) const;
 
+    /// Marks all where most is marked: one large rectangle is cheaper than many small ones.
+    void settle();
+
     bool none() const;
     bool all() const;
 
