@@ -12,16 +12,16 @@ namespace {
 // square counts as in the cells at its rim.
 class LightCells {
 public:
-    LightCells(const ShadowFit& fit, const Vec3& light, double margin) : fit_(fit), light_(light), margin_(margin) {
+    explicit LightCells(const ShadowLight& light) : light_(light) {
         depths_.fill(std::numeric_limits<double>::infinity());
     }
 
     void add(const DrawnItem& caster) {
-        const double depth = light_.dot(caster.center) - caster.radius;
-        visit(caster, margin_, [&](double& cell) { cell = std::min(cell, depth); });
+        const double depth = light_.direction.dot(caster.center) - caster.radius;
+        visit(caster, light_.margin(caster), [&](double& cell) { cell = std::min(cell, depth); });
     }
     bool shadows(const DrawnItem& receiver) {
-        const double depth = light_.dot(receiver.center) + receiver.radius;
+        const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
         visit(receiver, 0.0, [&](const double& cell) { found = found || cell < depth; });
         return found;
@@ -32,13 +32,13 @@ private:
 
     template <class Visit>
     void visit(const DrawnItem& item, double more, Visit see) {
-        const double radius = (item.radius + more) * glm_length(fit_.x);
-        const auto [x0, x1] = range(fit_.x, item.center, radius);
-        const auto [y0, y1] = range(fit_.y, item.center, radius);
+        const double radius = (item.radius + more) * length(light_.fit.x);
+        const auto [x0, x1] = range(light_.fit.x, item.center, radius);
+        const auto [y0, y1] = range(light_.fit.y, item.center, radius);
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x) see(depths_[std::size_t(y * count + x)]);
     }
-    static double glm_length(const glm::vec4& row) {
+    static double length(const glm::vec4& row) {
         return std::sqrt(double(row.x) * row.x + double(row.y) * row.y + double(row.z) * row.z);
     }
     static std::pair<int, int> range(const glm::vec4& row, const Vec3& center, double radius) {
@@ -47,9 +47,7 @@ private:
         return {cell(at - radius), cell(at + radius)};
     }
 
-    const ShadowFit& fit_;
-    Vec3 light_;
-    double margin_;
+    ShadowLight light_;
     std::array<double, std::size_t(count* count)> depths_;
 };
 
@@ -64,7 +62,7 @@ std::array<Vec3, 4> face_corners(const DrawnItem& box, int face) {
 }  // namespace
 
 ChangeFinder::ChangeFinder(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view)
-    : scene_(&scene), looks_(&looks), view_(&view), light_(scene.light.direction.normalized()) {}
+    : scene_(&scene), looks_(&looks), view_(&view) {}
 
 bool ChangeFinder::moved(const Snapshot& snapshot, std::size_t body) const {
     const BodyState& state = snapshot.bodies[body];
@@ -75,7 +73,8 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
     TileMarks marks(*view_);
     const std::size_t bodies = looks_->bodies.size();
     background_changed_ = first_ || now.near_distance != near_distance_;
-    casters_changed_ = first_ || now.shadows != shadows_;
+    shadow_marks_ = ShadowMarks(now.shadows);
+    if (first_ || now.shadows != shadows_) shadow_marks_.mark_all();
     if (first_) poses_.resize(bodies);
     std::vector<char> item_moved(now.items.size(), 0);
     for (std::size_t i = 0; i < now.items.size(); ++i) {
@@ -83,13 +82,16 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
         item_moved[i] = first_ || moved(now.snapshot, body) ? 1 : 0;
         if (item_moved[i] == 0) continue;
         if (i < bodies && looks_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
-        if (now.items[i].exists()) casters_changed_ = true;
+        if (!now.items[i].exists()) continue;
+        if (!first_) shadow_marks_.mark(items_[i]);
+        shadow_marks_.mark(now.items[i]);
     }
     // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
     const bool too_near = std::any_of(now.items.begin(), now.items.end(), [&](const DrawnItem& item) {
         return item.exists() && view_->sees(item.center, item.radius) &&
                item.center.dot(view_->forward()) - item.radius < 1.01 * now.near_distance;
     });
+    shadow_marks_.settle();
     if (too_near || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
         marks.mark_all();
     } else {
@@ -129,7 +131,7 @@ void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, con
 // Whatever stood still behind something that moved, as the sun sees it.
 void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
                                  const Visibility& visibility, TileMarks& marks) const {
-    LightCells cells(now.shadows, light_, ShadowLight(scene_->light, now.shadows).margin);
+    LightCells cells{ShadowLight(scene_->light, now.shadows)};
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
         cells.add(items_[i]);

@@ -9,6 +9,7 @@
 #include "render/occlusion_atlas.h"
 #include "render/plane_patch.h"
 #include "render/shadow_fit.h"
+#include "render/shadow_marks.h"
 #include "render/tile_marks.h"
 
 #include <vector>
@@ -31,8 +32,8 @@ public:
     /// Compares with the state of the call before, and remembers this one.
     TileMarks find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
-    /// Did anything that throws shadows, or the maps' place, change in the last find()?
-    bool casters_changed() const { return casters_changed_; }
+    /// What of the shadow maps the last find() found changed.
+    const ShadowMarks& shadow_marks() const { return shadow_marks_; }
     /// Did the planes or the depths' range?
     bool background_changed() const { return background_changed_; }
 
@@ -49,8 +50,8 @@ private:
     const SceneDescription* scene_;
     const SceneLooks* looks_;
     const CameraView* view_;
-    Vec3 light_;   // unit, the way it travels
-    bool first_ = true, casters_changed_ = true, background_changed_ = true;
+    bool first_ = true, background_changed_ = true;
+    ShadowMarks shadow_marks_{ShadowFit()};
     std::vector<Pose> poses_;
     std::vector<DrawnItem> items_;
     double near_distance_ = 0.0;

@@ -120,7 +120,8 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
                         const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowFit& shadows, const std::vector<char>& wanted) {
+                        const ShadowFit& shadows, const std::vector<char>& wanted,
+                        const std::vector<char>& casting) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -129,7 +130,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         const bool in_view = visibility.bodies[i] && wanted[i] != 0;
-        const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
+        const bool casts = scene.light.shadows && casting[i] != 0 && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
                            instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
@@ -145,7 +146,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
     for (std::size_t i = 0; i < scene.cords.size(); ++i) {
         const Item item = cord_item(scene.cords[i], looks.bodies.size() + i, snapshot, view, shadows);
         if (wanted[looks.bodies.size() + i] != 0) visible.push_back(item);
-        if (scene.light.shadows) casters.push_back(item);
+        if (scene.light.shadows && casting[looks.bodies.size() + i] != 0) casters.push_back(item);
     }
     DrawList list;
     list.visible = append_batches(visible, list.instances, true);

@@ -43,9 +43,11 @@ struct DrawList {
     std::vector<Batch> casters;  // their shadows may be
 };
 
-/// `wanted`: of each item of drawn_items.h, whether it is to be drawn where it is visible. All casters are listed.
+/// `wanted`, `casting`: of each item of drawn_items.h, whether it is to be drawn where it is visible, and into the shadow
+/// maps where its shadow may be.
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
                         const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowFit& shadows, const std::vector<char>& wanted);
+                        const ShadowFit& shadows, const std::vector<char>& wanted,
+                        const std::vector<char>& casting);
 
 }  // namespace tumble

@@ -30,10 +30,14 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, d
 
 }  // namespace
 
-ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& fit)
-    : shadows(light.shadows),
-      direction(light.direction.normalized()),
-      margin(shadow_filter_texels * (fit.has_far ? fit.far_texel : fit.near_texel)) {}
+ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit)
+    : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
+
+double ShadowLight::margin(const DrawnItem& item) const {
+    const double near = shadow_filter_texels * fit.near_texel;
+    if (!fit.has_far || fit.near_holds(item.center, item.radius + near)) return near;   // so is its shadow
+    return shadow_filter_texels * fit.far_texel;
+}
 
 void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
                    const CameraView& view, TileMarks& marks) {
@@ -48,7 +52,7 @@ void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach,
     for (std::size_t i = 0; i < 8; ++i)
         feet[i] = item.corners[i] +
                   light.direction * ((plane.normal.dot(item.corners[i]) + plane.height) / approach);
-    marks.mark_hull(feet, light.margin / approach);
+    marks.mark_hull(feet, light.margin(item) / approach);
 }
 
 }  // namespace tumble

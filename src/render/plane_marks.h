@@ -12,9 +12,12 @@ namespace tumble {
 struct ShadowLight {
     bool shadows = true;
     Vec3 direction = Vec3::Zero();   // unit, the way the light travels
-    double margin = 0.0;             // m, of the filter around a shadow's outline, across the light
+    ShadowFit fit;
 
-    ShadowLight(const LightDescription& light, const ShadowFit& fit);
+    ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit);
+
+    /// How far the filter reaches around the outline of this item's shadow, across the light, m.
+    double margin(const DrawnItem& item) const;
 };
 
 /// Marks the item's shadow on the plane, and its darkening of it within `reach` (m; 0: it has none), which is blurred

@@ -111,10 +111,15 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     if (s.full_redraw) marks.mark_all();
     s.changed = marks.rectangles();
 
-    std::vector<char> wanted;
-    for (const DrawnItem& item : items) wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
+    ShadowMarks shadow_marks = s.changes.shadow_marks();
+    if (s.full_redraw) shadow_marks.mark_all();
+    std::vector<char> wanted, casting;
+    for (const DrawnItem& item : items) {
+        wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
+        casting.push_back(item.exists() && shadow_marks.touched_by(item) ? 1 : 0);
+    }
     const OcclusionAtlas& atlas = s.occlusion.atlas();
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted);
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
     std::vector<std::vector<Rectangle>> touched;
     for (const PlanePatch& plane : planes)
         touched.push_back(
@@ -130,8 +135,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
     clock.ends(RenderStage::upload);
 
-    if (s.scene.light.shadows && (s.changes.casters_changed() || s.full_redraw))
-        s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
+    if (s.scene.light.shadows && !shadow_marks.none())
+        s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
     clock.ends(RenderStage::shadow);
 
     if (s.changes.background_changed()) {

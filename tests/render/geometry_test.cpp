@@ -215,6 +215,7 @@ TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
     atlas.places.resize(scene.bodies.size());
     const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view,
                                          find_visible(looks, first_snapshot(scene), view), atlas, {},
+                                         std::vector<char>(scene.bodies.size(), 1),
                                          std::vector<char>(scene.bodies.size(), 1));
     std::size_t faces = 0;
     double last = 0.0;   // distance
