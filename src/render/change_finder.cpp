@@ -69,6 +69,12 @@ bool ChangeFinder::moved(const Snapshot& snapshot, std::size_t body) const {
     return poses_[body].origin != state.origin || poses_[body].orientation.coeffs() != state.orientation.coeffs();
 }
 
+bool ChangeFinder::unmoved(const Snapshot& snapshot) const {
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+        if (first_ || moved(snapshot, i)) return false;
+    return !first_;
+}
+
 TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
     TileMarks marks(*view_);
     const std::size_t bodies = looks_->bodies.size();

@@ -29,6 +29,9 @@ class ChangeFinder {
 public:
     ChangeFinder(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view);
 
+    /// Are all poses those of the last find()? Then the picture is the same.
+    bool unmoved(const Snapshot& snapshot) const;
+
     /// Compares with the state of the call before, and remembers this one.
     TileMarks find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 

@@ -98,6 +98,11 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
     StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
+    const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
+    if (follows && !s.full_redraw && s.changes.unmoved(snapshot)) {
+        s.changed.clear();
+        return;
+    }
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
                      near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view), {}};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
@@ -159,7 +164,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.framebuffer.read(s.changed, s.drawn_image);
     clock.ends(RenderStage::read);
     std::vector<Rectangle> written = s.changed;
-    if (frame.width != s.view.width() || frame.height != s.view.height()) {
+    if (!follows) {
         frame = Image(s.view.width(), s.view.height());
         written = whole_picture(s.view);
         if (!marks.all()) {
