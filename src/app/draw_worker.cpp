@@ -68,7 +68,7 @@ public:
         DrawnFrame drawn;
         drawn.frame = snapshot_.frame = job.frame;
         drawn.drawing = timed([&] { expose(job); });
-        const bool partly = !blurred_before_ && job.moments == 1;   // else the picture before was another one
+        const bool partly = !blurred_before_ && job.moments == 1;   // else another picture came before
         const std::vector<Rectangle> changed =
             partly ? renderer_.changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
         const Image& picture = job.moments == 1 ? image_ : blurred_;

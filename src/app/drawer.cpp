@@ -96,8 +96,8 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
     stop();
 }
 
-/// The poses to draw; false: the frame shows what the one before shows. Where nothing moves while the shutter is open, one
-/// moment is left.
+/// The poses to draw; false: the frame shows what the one before shows. Where nothing moves while the shutter is open,
+/// one moment is left.
 bool Drawer::follow(Exposure& exposure) {
     bool first = false, later = false;
     for (std::size_t i = 0; i < exposure.moments.size(); ++i)

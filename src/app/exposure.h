@@ -18,8 +18,8 @@ struct Exposure {
 struct Shutter {
     int parts = 1, moments = 1;
 
-    /// A shutter of so many degrees (of 360, a whole frame) sampled so often; 0 degrees: a moment. The parts are a whole
-    /// number, so that time stays a whole number of steps: the shutter is open for the nearest that can be (a half or a
+    /// A shutter of so many degrees (of 360, a whole frame) sampled so often; 0 degrees: a moment. The parts are a
+    /// whole number, so that time stays a whole number of steps: the shutter is open for the nearest that can be (a half or a
     /// whole frame exactly).
     static Shutter of(double degrees, int samples);
 };
