@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+// Eight lanes where the processor has them, with the same bits (no fused operations; sanitizers do without).
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TUMBLE_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define TUMBLE_WIDE
+#endif
+
 namespace tumble {
 namespace {
 
@@ -47,7 +54,7 @@ void SurfacePoints::set_lattice(const Eigen::Vector3f& corner, const Eigen::Vect
         }
 }
 
-void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
+TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
     const Eigen::Matrix3f& m = occluder.to_local;
     const Eigen::Vector3f c = occluder.center, half = occluder.half_size;
     const float m00 = m(0, 0), m01 = m(0, 1), m02 = m(0, 2), m10 = m(1, 0), m11 = m(1, 1), m12 = m(1, 2);

@@ -50,8 +50,10 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
     if (place == Place::behind || all()) return;
     if (place == Place::beside) return mark_all();
     std::vector<ScreenPoint> corners;
+    corners.reserve(points.size());
     double rim = margin;   // pixels
-    double top = std::numeric_limits<double>::infinity(), bottom = -top;
+    double leftmost = std::numeric_limits<double>::infinity(), rightmost = -leftmost;
+    double top = leftmost, bottom = -leftmost;
     for (const Vec3& p : points) {
         corners.push_back(view_->pixel(p));
         if (around > 0.0) {   // what is nearer to the eye by as much moves the farthest on the screen
@@ -59,9 +61,12 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
             if (nearest < 0.1 * depth) return mark_all();
             rim = std::max(rim, margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
         }
+        leftmost = std::min(leftmost, corners.back().x());
+        rightmost = std::max(rightmost, corners.back().x());
         top = std::min(top, corners.back().y());
         bottom = std::max(bottom, corners.back().y());
     }
+    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
     corners = convex_hull(std::move(corners));
     for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
@@ -85,6 +90,15 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
             mark = 1;
         }
     }
+}
+
+bool TileMarks::all_marked(double x0, double y0, double x1, double y1) const {
+    for (int row = std::max(0, tile_of(y0, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(y1, grid_.cell, grid_.rows)); ++row)
+        for (int column = std::max(0, tile_of(x0, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(x1, grid_.cell, grid_.columns)); ++column)
+            if (!at(column, row)) return false;
+    return true;
 }
 
 bool TileMarks::touched_by(std::span<const Vec3> points) const {

@@ -35,6 +35,8 @@ public:
     std::vector<Rectangle> rectangles() const;
 
 private:
+    bool all_marked(double x0, double y0, double x1, double y1) const;   // in this part of the screen, pixels
+
     const CameraView* view_;
     CellGrid grid_;
     std::vector<char> marks_;
