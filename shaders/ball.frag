@@ -30,5 +30,5 @@ void main() {
     vec2 texel = v_tile.xy + (0.5 + 0.5 * octahedral(direction)) * max(v_tile.z - 1.0, 0.0) + 0.5;
     float open = texture(occlusion_atlas, (v_tile.z > 0.0 ? texel : vec2(0.5)) * atlas.xy).r;
     vec3 normal = rotate(v_orientation, direction);
-    pixel = vec4(shade(body_surface(normal, normal, albedo, open)), 1.0);
+    pixel = vec4(shade(body_surface(normal, albedo, open)), v_look.w);
 }

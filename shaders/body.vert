@@ -4,18 +4,28 @@
 #include "instance.glsl"
 #include "look.glsl"
 #include "sky.glsl"
+#include "shadow_place.glsl"
 
 #ifdef MESH
 uniform sampler2D occlusion_atlas;
 #endif
 
 out vec3 v_position;                // relative to the eye
+#if !defined(BOX) || defined(PATTERNED)
 out vec3 v_local;                   // body axes, from the body's origin, m
+#endif
 out vec4 v_haze;                    // light of the air before it; w: share of its own light that comes through
+#ifndef AWAY_FROM_SUN
+out vec4 v_shadow;                  // place in the shadow maps
+#endif
 #ifdef BOX
-flat out vec3 v_normal;             // of the face, world axes
-out vec2 v_atlas;                   // place in the occlusion atlas
-flat out vec4 v_rim;                // first and last place of the face there
+out vec2 v_on_face;                 // m, from the face's middle along its axes
+flat out vec2 v_half;               // m, half the face's size
+flat out vec3 v_normal;             // world axes: of the face, and its two own
+flat out vec3 v_along_a;
+flat out vec3 v_along_b;
+flat out vec4 v_tile;               // place of the face's middle in the occlusion atlas, and of a metre along its axes
+flat out vec2 v_groove;             // m: how far from the edge it is, and half its width
 #endif
 #ifdef BALL
 flat out vec3 v_tile;               // corner and edge of its tile in the atlas
@@ -27,7 +37,7 @@ out float v_open;                   // share of the sky's light
 flat out vec4 v_orientation;
 flat out vec4 v_scale;              // w: pattern's cell
 flat out vec4 v_color;              // w: roughness
-flat out vec3 v_look;               // metallic, pattern, bevel
+flat out vec4 v_look;               // metallic, pattern, bevel, the surface's number as alpha
 
 void main() {
 #ifdef BOX
@@ -40,30 +50,42 @@ void main() {
 #else
     vec3 on_cube = mesh_position;
 #endif
-    v_local = on_cube * instance_scale.xyz;
-    v_position = placed(v_local);
+    vec3 local = on_cube * instance_scale.xyz;
+#if !defined(BOX) || defined(PATTERNED)
+    v_local = local;
+#endif
+    v_position = placed(local);
     v_orientation = instance_orientation;
     v_scale = instance_scale;
     v_color = instance_color;
     // A bevel narrower than a pixel would glitter: it grows with the distance instead.
     float pixel = haze.y * length(instance_position.xyz);
     float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
-    v_look = vec3(instance_look.xy, min(max(instance_position.w, pixel), 0.5 * thinnest));
+    v_look = vec4(instance_look.xy, min(max(instance_position.w, pixel), 0.5 * thinnest), instance_tile.z);
     float squared = dot(v_position, v_position);
     float share = haze_share(squared);
     v_haze = vec4(share * sky(v_position * inversesqrt(max(squared, 1e-30))), 1.0 - share);
     gl_Position = clip_from_relative * vec4(v_position, 1.0);
 
 #ifdef BOX
-    // A tile has a texel's centre at each corner of its face.
+    // The face's axes a and b are the box's next two; a tile has a texel's centre at each corner of its face.
+    int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    vec3 unit_a = vec3(a == 0, a == 1, a == 2), unit_b = vec3(b == 0, b == 1, b == 2);
+    v_half = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
+    v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
-    float span = instance_tile.x - 1.0;
-    v_rim = (instance_tile.x > 0.0 ? vec4(first, first + span) : vec4(0.5)) * atlas.xyxy;
-    v_atlas = mix(v_rim.xy, v_rim.zw, 0.5 + 0.5 * corner);
+    float span = max(instance_tile.x - 1.0, 0.0);
+    vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * span : vec2(0.5);
+    v_tile = vec4(middle, 0.5 * span / v_half) * atlas.xyxy;
+    v_groove = vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest);
+    v_along_a = rotate(instance_orientation, unit_a);
+    v_along_b = rotate(instance_orientation, unit_b);
     v_normal = rotate(instance_orientation, outward);
+    vec3 lift = v_normal;
 #endif
 #ifdef BALL
     v_tile = vec3(instance_look.zw, instance_tile.x);
+    vec3 lift = rotate(instance_orientation, mesh_normal);
 #endif
 #ifdef MESH
     int width = textureSize(occlusion_atlas, 0).x;
@@ -71,5 +93,9 @@ void main() {
     ivec2 texel = ivec2(probe % width, int(instance_look.w) + probe / width);
     v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? texel : ivec2(0), 0).r;
     v_normal = rotate(instance_orientation, normalize(mesh_normal / instance_scale.xyz));
+    vec3 lift = v_normal;
+#endif
+#ifndef AWAY_FROM_SUN
+    v_shadow = shadow_place(v_position, lift, instance_tile.w > 0.0);
 #endif
 }

@@ -2,35 +2,37 @@
 #include "frame.glsl"
 #include "body.glsl"
 
-flat in vec3 v_normal;
-in vec2 v_atlas;
-flat in vec4 v_rim;
+in vec2 v_on_face;                  // m, from the face's middle along its axes
+flat in vec2 v_half;                // m, half the face's size
+flat in vec3 v_normal;              // world axes: of the face, and its two own
+flat in vec3 v_along_a;
+flat in vec3 v_along_b;
+flat in vec4 v_tile;                // place of the face's middle in the occlusion atlas, and of a metre along its axes
+flat in vec2 v_groove;              // m: how far from the edge it is, and half its width
 
 // How much of the pixel lies in the groove between a crate's frame and its panel.
-float groove(vec3 to_edges) {
-    // to_edges: distances to the three pairs of faces; the smallest is this face's own (0), the middle the edge's
-    float edge = max(min(to_edges.x, to_edges.y), min(max(to_edges.x, to_edges.y), to_edges.z));
-    float shortest = 2.0 * min(v_scale.x, min(v_scale.y, v_scale.z));
-    float footprint = max(fwidth(edge), 1e-6 * shortest);
-    float half_width = 0.5 * crate_groove * shortest;
-    float off = abs(edge - crate_frame * shortest);
-    return clamp((half_width - off) / footprint + 0.5, 0.0, 1.0) * min(1.0, 2.0 * half_width / footprint);
+float groove(vec2 on_face) {
+    vec2 to_edges = v_half - abs(on_face);
+    float edge = min(to_edges.x, to_edges.y);
+    float footprint = max(fwidth(edge), 1e-4 * v_groove.x);
+    float off = abs(edge - v_groove.x);
+    return clamp((v_groove.y - off) / footprint + 0.5, 0.0, 1.0) * min(1.0, 2.0 * v_groove.y / footprint);
 }
 
 void main() {
-    vec3 half_size = v_scale.xyz;
     // At the rim of a face seen edge-on the pixel's middle can lie far outside of it: back onto the box, and its tile.
-    vec3 local = clamp(v_local, -half_size, half_size);
+    vec2 on_face = clamp(v_on_face, -v_half, v_half);
     // A rounded box's normal: away from the box that is smaller by the bevel.
-    vec3 inner = half_size - v_look.z;
-    vec3 local_normal = normalize(local - clamp(local, -inner, inner));
+    float bevel = v_look.z;
+    vec2 bent = on_face - clamp(on_face, bevel - v_half, v_half - bevel);
+    vec3 normal = normalize(v_normal * bevel + v_along_a * bent.x + v_along_b * bent.y);
 
     vec3 albedo = v_color.rgb;
 #ifdef PATTERNED
-    albedo = patterned(albedo, v_look.y, local, local_normal, v_scale.w);
+    albedo = patterned(albedo, v_look.y, v_local, rotate_back(v_orientation, v_normal), v_scale.w);
 #else
-    albedo *= 1.0 - crate_groove_depth * groove(half_size - abs(local));
+    albedo *= 1.0 - crate_groove_depth * groove(on_face);
 #endif
-    float open = texture(occlusion_atlas, clamp(v_atlas, v_rim.xy, v_rim.zw)).r;
-    pixel = vec4(shade(body_surface(rotate(v_orientation, local_normal), v_normal, albedo, open)), 1.0);
+    float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
+    pixel = vec4(shade(body_surface(normal, albedo, open)), v_look.w);
 }

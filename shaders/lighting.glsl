@@ -2,6 +2,7 @@
 #include "look.glsl"
 #include "sky.glsl"
 #if !defined(OPEN) && !defined(AWAY_FROM_SUN)
+#include "shadow_place.glsl"
 #include "shadow.glsl"
 #endif
 
@@ -9,7 +10,7 @@ struct Surface {
     vec3 position;      // relative to the eye
     vec3 to_eye;        // unit
     vec3 normal;        // unit, bent at bevels
-    vec3 face_normal;   // unit, of the geometry
+    vec4 shadow;        // its place in the shadow maps
     vec3 albedo;        // linear
     float roughness;
     float metallic;
@@ -53,10 +54,9 @@ vec3 shade(Surface s) {
     float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
 #ifndef AWAY_FROM_SUN
     float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
-#ifdef OPEN
-    float sun = n_l;
-#else
-    float sun = n_l * sun_visible(s.position, s.face_normal) * mix(1.0, s.open, occlusion_of_sun);
+    float sun = n_l * mix(1.0, s.open, occlusion_of_sun);
+#ifndef OPEN
+    sun *= sun_visible(s.shadow);
 #endif
     vec3 middle = normalize(to_light.xyz + s.to_eye);
     float n_h = clamp(dot(s.normal, middle), 0.0, 1.0);

@@ -21,6 +21,7 @@ const float occlusion_of_sun = 0.25;                      // share of that loss 
 const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 
 const float ground_contrast = 0.13;                       // of a checker's fields and a body's pattern
+const float pattern_blur = 1.4;                           // pixels that a pattern is averaged over: calmer than one
 const float grid_line_width = 0.022;                      // of a cell
 const float grid_line_contrast = 0.30;
 

@@ -12,5 +12,5 @@ void main() {
 #ifdef PATTERNED
     albedo = patterned(albedo, v_look.y, v_local, rotate_back(v_orientation, normal), v_scale.w);
 #endif
-    pixel = vec4(shade(body_surface(normal, normal, albedo, v_open)), 1.0);
+    pixel = vec4(shade(body_surface(normal, albedo, v_open)), v_look.w);
 }

@@ -2,14 +2,14 @@
 
 float checker(vec2 p, vec2 width) {
     // Quilez 2017, Box-filtered checkerboard: the product of two filtered square waves of period 2
-    width += 1e-4;
+    width = pattern_blur * width + 1e-4;
     vec2 i = 2.0 * (abs(fract((p - 0.5 * width) * 0.5) - 0.5) - abs(fract((p + 0.5 * width) * 0.5) - 0.5)) / width;
     return 0.5 - 0.5 * i.x * i.y;
 }
 
 float grid(vec2 p, vec2 width, float line) {
     // Quilez 2017, Box-filtered grid: the share of the pixel on a line of the given width around the integers
-    width += 1e-4;
+    width = pattern_blur * width + 1e-4;
     p += 0.5 * line;
     vec2 a = p + 0.5 * width, b = p - 0.5 * width;
     vec2 i = (line * (floor(a) - floor(b)) + min(fract(a), line) - min(fract(b), line)) / width;

@@ -9,7 +9,7 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic
+uniform vec4 plane_look;        // metallic, the surface's number as alpha
 #ifndef OPEN
 uniform sampler2D occlusion_atlas;
 uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
@@ -30,7 +30,7 @@ float openness(vec3 position) {
     float open = 1.0;
 #ifndef OPEN
     vec2 texel = vec2(dot(window_u.xyz, position), dot(window_v.xyz, position)) + vec2(window_u.w, window_v.w);
-    open = texture(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy).r;
+    open = textureLod(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy, 0.0).r;
 #endif
 #ifdef OTHER_PLANES
     for (int i = 0; i < OTHER_PLANES; ++i) {
@@ -64,12 +64,14 @@ void main() {
     surface.position = position;
     surface.to_eye = -normalize(ray);
     surface.normal = plane_normal.xyz;
-    surface.face_normal = plane_normal.xyz;
+#ifndef OPEN
+    surface.shadow = shadow_place(position, plane_normal.xyz, in_near_map(position));
+#endif
     surface.albedo = albedo;
     surface.roughness = plane_color.w;
     surface.metallic = plane_look.x;
     surface.open = openness(position);
     float share = haze_share(dot(position, position));
     surface.haze = vec4(share * sky(-surface.to_eye), 1.0 - share);
-    pixel = vec4(shade(surface), 1.0);
+    pixel = vec4(shade(surface), plane_look.y);
 }

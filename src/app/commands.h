@@ -2,6 +2,7 @@
 // errors leave them as InputError (exit code 2) or RunError (1).
 #pragma once
 
+#include "output/video_format.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 
@@ -16,7 +17,12 @@ struct RenderCommand {
     std::optional<std::filesystem::path> frames;   // folder
     SceneOverrides overrides;
     RenderOptions drawing;
-    int threads = 1;
+    FrameTimes times = FrameTimes::longer_frames;
+    double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
+    double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
+    int blur_samples = 8;   // moments of an open shutter
+    int threads = 1;      // of the simulation
+    int workers = 1;      // processes that draw
     bool quiet = false;
 };
 void run_render(const RenderCommand& command);

@@ -1,27 +1,161 @@
 #include "app/drawer.h"
 
+#include "app/frame_order.h"
+#include "core/error.h"
+
+#include <algorithm>
+#include <condition_variable>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace tumble {
+namespace {
 
-InProcessDrawer::InProcessDrawer(const SceneDescription& scene, const RenderOptions& options)
-    : scene_(scene), options_(options) {}
+// One is filled, one waits for its turn, one is read; those that the queues behind hold make the worker wait.
+constexpr int slots_of_worker = 4;
 
-void InProcessDrawer::run(BoundedQueue<Snapshot>& poses, const std::function<bool(Frame)>& hand_on, StageTime& time) {
-    std::optional<Renderer> renderer;
-    {
-        const StageTimer timer(time);
-        renderer.emplace(scene_, options_);
+}  // namespace
+
+/// The free slots of a worker. They come back from the outputs, whenever the last of those lets go.
+class Drawer::Slots : public std::enable_shared_from_this<Slots> {
+public:
+    explicit Slots(std::shared_ptr<WorkerMemory> memory) : memory_(std::move(memory)) {
+        for (int i = 0; i < slots_of_worker; ++i) free_.push_back(i);
     }
-    while (const std::optional<Snapshot> pose = poses.pop()) {
-        std::shared_ptr<Image> image = images_.take();
-        {
-            const StageTimer timer(time);
-            renderer->render(*pose, *image);
+
+    /// Waits for one; nothing: it was stopped. It is free again when the last copy of the pointer is gone.
+    std::shared_ptr<const int> take() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return stopped_ || !free_.empty(); });
+        if (stopped_) return nullptr;
+        const int* const slot = new int(free_.back());
+        free_.pop_back();
+        return {slot, [self = shared_from_this()](const int* back) { self->put_back(back); }};
+    }
+
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+        changed_.notify_all();
+    }
+
+    const WorkerMemory& memory() const { return *memory_; }
+
+private:
+    void put_back(const int* slot) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(*slot);
+        delete slot;
+        changed_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<int> free_;
+    bool stopped_ = false;
+    std::shared_ptr<WorkerMemory> memory_;   // lives as long as a slot of it is read
+};
+
+Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+               int most_moments)
+    : drawn_poses_(scene) {
+    for (int i = 0; i < workers; ++i) {
+        workers_.push_back(std::make_unique<DrawWorker>(scene, options, forms, slots_of_worker, most_moments));
+        slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
+    }
+}
+
+Drawer::~Drawer() = default;
+
+void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times) {
+    FrameOrder order(workers_.size());
+    std::vector<std::thread> threads;
+    const auto stop = [&] {
+        poses.cancel();
+        order.stop();
+        for (const auto& slots : slots_) slots->stop();
+        for (std::thread& thread : threads) thread.join();
+    };
+    try {
+        for (std::size_t i = 0; i < workers_.size(); ++i)
+            threads.emplace_back([&, i] {
+                try {
+                    tend(i, poses, order, times);
+                } catch (...) {
+                    order.fail(std::current_exception());
+                }
+                order.leave();
+            });
+        while (const std::optional<Frame> frame = order.next())
+            if (!hand_on(*frame)) break;
+    } catch (...) {
+        stop();
+        throw;
+    }
+    stop();
+}
+
+/// The poses to draw; false: the frame shows what the one before shows. Where nothing moves while the shutter is open,
+/// one moment is left.
+bool Drawer::follow(Exposure& exposure) {
+    bool first = false, later = false;
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i)
+        if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
+    if (!later) exposure.moments.resize(1);
+    const bool moved_before = std::exchange(moves_, later);
+    return first || later || moved_before;
+}
+
+/// The life of the thread that looks after one worker.
+void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times) {
+    Slots& slots = *slots_[worker];
+    const auto next_pose = [&]() -> std::optional<Exposure> {
+        const std::lock_guard lock(pose_mutex_);
+        while (std::optional<Exposure> pose = poses.pop()) {
+            if (follow(*pose)) {
+                ++drawn_;
+                return pose;
+            }
+            if (!order.add_repeated(pose->frame)) break;
         }
-        if (!hand_on({pose->frame, std::move(image)})) return;
+        return std::nullopt;
+    };
+    // The slot comes first: who has a pose can always finish it, and the frames behind it wait for no one else.
+    while (const std::shared_ptr<const int> slot = slots.take()) {
+        const std::optional<Exposure> pose = next_pose();
+        if (!pose) return;
+        const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
+        times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
+        times.conversion.add(drawn.conversion.wall, drawn.conversion.cpu);
+        times.png.add(drawn.png.wall, drawn.png.cpu);
+        Frame frame;
+        frame.number = pose->frame;
+        frame.slot = slot;
+        frame.video = {slot, slots.memory().video(*slot).data()};
+        frame.png = slots.memory().png(*slot).first(drawn.png_bytes);
+        order.add(std::move(frame), worker, drawn.unchanged);
     }
+}
+
+void Drawer::abandon() {
+    for (const auto& worker : workers_) worker->kill();
+}
+
+ProcessEnd Drawer::finish() {
+    ProcessEnd sum;
+    for (const auto& worker : workers_) {
+        const ProcessEnd end = worker->finish();
+        sum.cpu_seconds += end.cpu_seconds;
+        sum.peak_memory += end.peak_memory;
+    }
+    return sum;
+}
+
+std::vector<pid_t> Drawer::processes() const {
+    std::vector<pid_t> ids;
+    for (const auto& worker : workers_) ids.push_back(worker->id());
+    return ids;
 }
 
 }  // namespace tumble

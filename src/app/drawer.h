@@ -1,46 +1,76 @@
-// Poses in, finished frames out in order: all that the pipeline knows of drawing. How many processes or threads draw,
-// and where OpenGL lives, is the drawer's own affair.
+// Poses in, finished frames out in order: all that the pipeline knows of drawing. Behind it work one process a core
+// (draw_worker.h); whichever is free takes the next pose. The pixels do not depend on their number: every frame is what
+// a full redraw of its poses would be, and the poses are chosen (drawn_poses.h) before they are handed out.
+//
+// A frame in which nothing drawn has moved is not drawn: it repeats the one before.
 #pragma once
 
 #include "app/bounded_queue.h"
-#include "app/image_pool.h"
+#include "app/draw_worker.h"
+#include "app/exposure.h"
 #include "app/stage_time.h"
-#include "core/image.h"
-#include "render/renderer.h"
+#include "render/drawn_poses.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
 
 namespace tumble {
 
-/// One finished picture of the clip, shared by all outputs that read it.
+/// One finished frame of the clip in all its forms, shared by the outputs that read it.
 struct Frame {
     std::int64_t number = 0;
-    std::shared_ptr<const Image> image;
+    bool repeated = false;                   // the same picture as the frame before it
+    std::shared_ptr<const std::byte> video;  // as a VideoPixels has it; null where it is not asked for
+    std::span<const std::byte> png;          // the file; lives as long as `slot`
+    std::shared_ptr<const void> slot;
 };
+
+struct DrawingTimes {
+    StageTime drawing, conversion, png;
+};
+
+class FrameOrder;
 
 class Drawer {
 public:
-    virtual ~Drawer() = default;
+    /// Starts the processes: call it before the program has any other thread. Frames have so many moments at most.
+    /// The scene must outlive it. Throws RunError.
+    Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+           int most_moments = 1);
+    ~Drawer();
 
     /// Takes poses until their queue ends, and hands each finished frame on, in the order of the poses. Stops early
-    /// when `hand_on` says false. Throws RunError where drawing fails. Counts its work in `time`.
-    virtual void run(BoundedQueue<Snapshot>& poses, const std::function<bool(Frame)>& hand_on, StageTime& time) = 0;
-};
+    /// when `hand_on` says false. Throws RunError naming the frame where drawing fails or a process dies.
+    void run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times);
 
-/// Draws in the thread that calls run(), which makes and owns the OpenGL context. The scene must outlive it.
-class InProcessDrawer : public Drawer {
-public:
-    InProcessDrawer(const SceneDescription& scene, const RenderOptions& options);
-    void run(BoundedQueue<Snapshot>& poses, const std::function<bool(Frame)>& hand_on, StageTime& time) override;
+    /// Ends the processes at once, from any thread; run() then comes back.
+    void abandon();
+
+    /// Waits for the processes to end; the sum of what they used.
+    ProcessEnd finish();
+
+    std::vector<pid_t> processes() const;
+    std::int64_t drawn() const { return drawn_; }   // frames that were not repeated
 
 private:
-    const SceneDescription& scene_;
-    RenderOptions options_;
-    ImagePool images_;
+    class Slots;
+    bool follow(Exposure& exposure);
+    void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times);
+
+    std::vector<std::unique_ptr<DrawWorker>> workers_;
+    std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
+    std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time
+    DrawnPoses drawn_poses_;
+    bool moves_ = false;                          // while the shutter was open for the frame before
+    std::int64_t drawn_ = 0;
 };
 
 }  // namespace tumble

@@ -1,5 +1,5 @@
+#include "app/bounded_queue.h"
 #include "app/commands.h"
-#include "app/drawer.h"
 #include "app/frame_folder.h"
 #include "app/interrupt.h"
 #include "app/pipeline.h"

@@ -1,6 +1,8 @@
 #include "app/options.h"
 
 #include "app/commands.h"
+#include "app/exposure.h"
+#include "app/speed.h"
 #include "core/error.h"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +18,7 @@ namespace tumble {
 namespace {
 
 constexpr int most_threads = 256;
+constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder keep up with no more of them
 
 int machine_threads() { return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads); }
 
@@ -57,7 +60,7 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
 
 void add_run(CLI::App& command, int& threads, bool& quiet) {
     threads = machine_threads();
-    command.add_option("--threads", threads, "Threads to use; the result is the same for any number")
+    command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", threads));
     command.add_flag("--quiet", quiet, "Say nothing but errors");
 }
@@ -78,12 +81,26 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
     command->add_option("--gl", c.drawing.backend, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
         ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
+    command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
+                        "at the same frames per second), 2 twice as fast")
+        ->check(CLI::Range(slowest_speed, fastest_speed))->option_text("X [1]");
+    command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
+        ->check(CLI::Range(0.0, 360.0))->option_text("DEGREES [0]");
+    command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
+        ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
+    command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
+                               "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
+                               "else what stays is shown longer, which costs nothing");
+    c.workers = std::min(machine_threads(), enough_workers);
+    command->add_option("--workers", c.workers, "Processes that draw, one a core; the result is the same for any number")
+        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, c.quiet);
     command->footer(
         "Examples:\n"
         "  tumble render scene.toml                          writes scene.mp4\n"
         "  tumble render scene.toml -o clip.webm --size 640x360\n"
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
+        "  tumble render scene.toml --speed 0.25             slow motion\n"
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only");
     return command;
 }

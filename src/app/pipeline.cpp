@@ -3,7 +3,7 @@
 #include "app/interrupt.h"
 #include "app/stage_group.h"
 #include "core/error.h"
-#include "output/png_writer.h"
+#include "output/temporary_file.h"
 
 #include <algorithm>
 #include <optional>
@@ -13,7 +13,7 @@ namespace {
 
 // Enough to even out frames of different cost, few enough to be nothing beside one frame's pixels.
 constexpr std::size_t waiting_poses = 8;
-// A frame of 1280 x 720 is 3.5 MiB: two waiting at each output even out its pace, more would only fill memory.
+// Each holds a slot of the process that drew it: more waiting here than there are slots would not make it go on.
 constexpr std::size_t waiting_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
 
@@ -28,13 +28,13 @@ void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<voi
 }
 
 Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
-                   int png_threads)
+                   Shutter shutter)
     : world_(world),
       frames_(frames),
       drawer_(drawer),
       folder_(folder),
       video_(video),
-      png_threads_(png_threads),
+      shutter_(shutter),
       poses_(waiting_poses),
       for_png_(waiting_frames),
       for_video_(waiting_frames) {}
@@ -45,6 +45,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
         poses_.cancel();
         for_png_.cancel();
         for_video_.cancel();
+        drawer_.abandon();
         if (video_ != nullptr) video_->abandon();
     });
     stages.start([this] { simulate(); });
@@ -53,21 +54,25 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
         for_png_.close();
         for_video_.close();
     });
-    if (folder_ != nullptr)
-        for (int i = 0; i < png_threads_; ++i) stages.start([this] { write_frames(); });
+    if (folder_ != nullptr) stages.start([this] { write_frames(); });
     if (video_ != nullptr) stages.start([this] { write_video(); });
     supervise(stages, interrupt, [&] { report(finished()); });
 }
 
 void Pipeline::simulate() {
     for (std::int64_t n = 0; n < frames_; ++n) {
-        Snapshot pose;
+        Exposure exposure;
+        exposure.frame = n;
         {
             const StageTimer timer(times_.simulation);
-            if (n > 0) world_.advance_frame();
-            pose = world_.snapshot();
+            // What the shutter of the last frame does not see needs not be simulated.
+            const int parts = n + 1 < frames_ ? shutter_.parts : shutter_.moments;
+            for (int part = 0; part < parts; ++part) {
+                if (n > 0 || part > 0) world_.advance_frame();
+                if (part < shutter_.moments) exposure.moments.push_back(world_.snapshot());
+            }
         }
-        if (!poses_.push(std::move(pose))) return;
+        if (!poses_.push(std::move(exposure))) return;
     }
     poses_.close();
 }
@@ -78,10 +83,9 @@ bool Pipeline::hand_on(const Frame& frame) {
 }
 
 void Pipeline::write_frames() {
-    PngFile file;
     while (const std::optional<Frame> frame = for_png_.pop()) {
-        const StageTimer timer(times_.png);
-        file.write(frame_path(folder_->path(), frame->number), *frame->image);
+        const StageTimer timer(times_.files);
+        write_file(frame_path(folder_->path(), frame->number), frame->png);
         ++written_;
     }
 }
@@ -89,7 +93,8 @@ void Pipeline::write_frames() {
 void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
         const StageTimer timer(times_.video);
-        video_->write(*frame->image);
+        if (frame->repeated) video_->repeat();
+        else video_->write(frame->video);
         ++filmed_;
     }
     // After a stop the queue ends too, but the clip is not whole.

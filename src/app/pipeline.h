@@ -1,9 +1,9 @@
 // The whole street at work at once:
 //
-//   simulation ──poses──> drawing ──frames──┬──> PNG writers (a few threads)
-//                                           └──> video (ffmpeg)
+//   simulation ──poses──> drawing processes ──frames──┬──> PNG files
+//                                                     └──> video (ffmpeg)
 //
-// Each arrow is a bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the
+// What a frame becomes (planes for ffmpeg, a PNG file) is made where it is drawn; here it is only written. Each arrow is a bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the
 // clip is. The first error of any stage stops all of them.
 #pragma once
 
@@ -25,15 +25,17 @@ class StageGroup;
 
 /// What the stages used; they overlap, so that the sum is more than the run.
 struct PipelineTimes {
-    StageTime simulation, drawing, png, video;
+    StageTime simulation;
+    DrawingTimes drawing;
+    StageTime files, video;
 };
 
 class Pipeline {
 public:
     /// Simulates and draws `frames` frames; each goes to the outputs that are there (null: not asked for).
-    /// All are used while run() lasts. `png_threads` compress at most so many frames at a time.
+    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that the outputs want.
     Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
-             int png_threads);
+             Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
     /// Throws the first error of any stage; RunError when interrupted. Frames written by then are whole, and stay.
@@ -53,8 +55,8 @@ private:
     Drawer& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;
-    int png_threads_;
-    BoundedQueue<Snapshot> poses_;
+    Shutter shutter_;
+    BoundedQueue<Exposure> poses_;
     BoundedQueue<Frame> for_png_, for_video_;
     std::atomic<std::int64_t> written_{0}, filmed_{0};
     PipelineTimes times_;

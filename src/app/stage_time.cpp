@@ -19,8 +19,7 @@ StageTimer::StageTimer(StageTime& stage)
     : stage_(stage), wall_start_(wall_seconds()), cpu_start_(seconds_of(CLOCK_THREAD_CPUTIME_ID)) {}
 
 StageTimer::~StageTimer() {
-    stage_.wall.fetch_add(wall_seconds() - wall_start_, std::memory_order_relaxed);
-    stage_.cpu.fetch_add(seconds_of(CLOCK_THREAD_CPUTIME_ID) - cpu_start_, std::memory_order_relaxed);
+    stage_.add(wall_seconds() - wall_start_, seconds_of(CLOCK_THREAD_CPUTIME_ID) - cpu_start_);
 }
 
 }  // namespace tumble

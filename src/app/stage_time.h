@@ -8,6 +8,11 @@ namespace tumble {
 /// Sums of one stage over all its threads, in s. `cpu` leaves out threads that a library runs on its own.
 struct StageTime {
     std::atomic<double> wall{0.0}, cpu{0.0};
+
+    void add(double wall_seconds, double cpu_seconds) {
+        wall.fetch_add(wall_seconds, std::memory_order_relaxed);
+        cpu.fetch_add(cpu_seconds, std::memory_order_relaxed);
+    }
 };
 
 /// Seconds of a clock that only goes forward.

@@ -30,9 +30,11 @@ public:
         image_.version = PNG_IMAGE_VERSION;
         if (png_image_begin_read_from_stdio(&image_, file_.get()) == 0) fail();
         const std::int64_t pixels = std::int64_t(image_.width) * std::int64_t(image_.height);
-        if (pixels > max_picture_pixels)
+        if (pixels > max_picture_pixels) {
+            png_image_free(&image_);   // a constructor that throws is not followed by the destructor
             throw InputError(at(), fmt::format("the picture is too large ({} x {}; at most {} pixels)", image_.width,
                                                image_.height, max_picture_pixels));
+        }
     }
     ~Reader() { png_image_free(&image_); }
     Reader(const Reader&) = delete;

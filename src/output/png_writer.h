@@ -1,29 +1,51 @@
-// Frames as PNG files: 8-bit RGB, tagged sRGB (a rendered frame is opaque, so its fourth channel is left out).
+// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the file; the pixels are compressed by ISA-L (igzip) in bands
+// of rows that do not look at each other, so that of a frame that is like the one before only the changed bands are
+// compressed again. The bytes are those of compressing all of them.
 #pragma once
 
 #include "core/image.h"
+#include "core/rectangle.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace tumble {
 
-/// The bytes of the PNG file of `image`. `bytes` is replaced; hand the same vector in again to save its allocation.
-/// Throws RunError when libpng refuses the picture (an empty one, or one larger than the format allows).
-void encode_png(const Image& image, std::vector<std::byte>& bytes);
-
-/// Writes PNG files one after another, in one allocation.
-class PngFile {
+/// Makes PNG files in memory, one after the other; not for several threads at once.
+class PngEncoder {
 public:
-    /// Writes the file whole or not at all (see TemporaryFile). Throws RunError naming the file.
-    void write(const std::filesystem::path& path, const Image& image);
+    PngEncoder();
+    ~PngEncoder();
+
+    /// The whole file, valid until the next call. `changed` are the parts that may differ from the picture before; a
+    /// first picture, and one of another size, is taken as a whole. Alpha is left out. Throws RunError where the
+    /// picture is empty or memory runs out.
+    std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
+    std::span<const std::byte> encode(const Image& image);
 
 private:
-    std::vector<std::byte> bytes_;
+    struct Band {
+        std::vector<std::uint8_t> compressed;
+        std::uint32_t checksum = 0;   // Adler-32 of its rows
+    };
+    void compress(const Image& image, int first_row, Band& band);
+
+    struct Compressor;
+    std::unique_ptr<Compressor> compressor_;
+    int width_ = 0, height_ = 0;      // of the picture before
+    std::vector<Band> bands_;
+    std::vector<std::uint8_t> rows_;  // of one band, as they are compressed
+    std::vector<std::byte> file_;
 };
 
-/// The same for a single file.
+/// The most bytes that a PNG of this size takes.
+std::size_t png_bytes_bound(int width, int height);
+
+/// Writes through a temporary file. Throws RunError naming the path.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace tumble

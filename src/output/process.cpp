@@ -110,7 +110,9 @@ private:
     sigset_t set_, before_;
 };
 
-ProcessEnd wait_for(pid_t id) {
+}  // namespace
+
+ProcessEnd wait_for_process(pid_t id) {
     int status = 0;
     rusage used{};
     while (::wait4(id, &status, 0, &used) < 0 && errno == EINTR) {}
@@ -119,10 +121,9 @@ ProcessEnd wait_for(pid_t id) {
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
     const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
     end.cpu_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
+    end.peak_memory = std::int64_t(used.ru_maxrss) * 1024;
     return end;
 }
-
-}  // namespace
 
 std::optional<fs::path> find_program(const std::string& name) {
     const char* path = std::getenv("PATH");
@@ -182,7 +183,7 @@ ProcessEnd Process::finish() {
     words_reader_.join();   // ends when the program closes its standard error, which it does by ending
     ::close(std::exchange(words_pipe_, -1));
     const std::lock_guard lock(id_mutex_);
-    ProcessEnd end = wait_for(std::exchange(id_, -1));
+    ProcessEnd end = wait_for_process(std::exchange(id_, -1));
     while (!words_.empty() && (words_.back() == '\n' || words_.back() == '\r')) words_.pop_back();
     end.words = std::move(words_);
     return end;
@@ -208,7 +209,7 @@ std::optional<std::string> output_of(const fs::path& program, const std::vector<
         if (n < 0 && errno != EINTR) break;
         if (n > 0 && text.size() < (1 << 16)) text.append(part.data(), static_cast<std::size_t>(n));
     }
-    if (!wait_for(id).ok()) return std::nullopt;
+    if (!wait_for_process(id).ok()) return std::nullopt;
     return text;
 }
 

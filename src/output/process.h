@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -22,10 +23,14 @@ struct ProcessEnd {
     int exit_code = -1;          // 0 to 255; -1: ended by a signal
     int signal = 0;
     double cpu_seconds = 0.0;    // user and system
+    std::int64_t peak_memory = 0;   // bytes
     std::string words;           // the last of what it wrote to standard error, without trailing newlines
     bool ok() const { return exit_code == 0; }
     std::string describe() const;   // "exit code 1", "ended by signal 9 (Killed)"
 };
+
+/// Waits for the end of a child.
+ProcessEnd wait_for_process(pid_t id);
 
 /// A running program. It has its own process group, so that Ctrl-C reaches it only through us.
 class Process {

@@ -76,4 +76,10 @@ void TemporaryFile::commit() {
     done_ = true;
 }
 
+void write_file(const fs::path& path, std::span<const std::byte> bytes) {
+    TemporaryFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
 }  // namespace tumble

@@ -37,4 +37,7 @@ private:
     bool done_ = false;
 };
 
+/// All of a file at once. Throws RunError naming the path.
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
 }  // namespace tumble

@@ -5,6 +5,7 @@
 // .gif             256 colours chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -25,21 +26,35 @@ FrameRate to_frame_rate(double fps);
 
 enum class VideoKind { h264, vp9, gif };
 
+/// How ffmpeg gets the frames.
+enum class PixelForm {
+    yuv420,   // planes, see yuv420.h; an odd last column or row is there twice
+    rgba,     // R, G, B and a byte of 255, row by row from the top
+};
+
+/// Of one frame made from a picture of this size.
+std::size_t frame_bytes(PixelForm form, int width, int height);
+
+/// How a picture that stays is kept.
+enum class FrameTimes {
+    longer_frames,   // once, shown longer (for a second at most): costs nothing
+    constant_rate,   // again for every frame
+};
+
 struct VideoFormat {
     VideoKind kind = VideoKind::h264;
     FrameRate rate;          // of the clip
     int frame_step = 1;      // only every so manieth frame enters the clip, where the format cannot hold them all
-    bool even_size = true;   // chroma is kept for squares of 2 x 2 pixels: odd sizes grow by a repeated edge
+    PixelForm pixels = PixelForm::yuv420;
 };
 
 /// Throws InputError where the ending is unknown, or the format cannot keep so many or so few frames a second.
 VideoFormat video_format(const std::filesystem::path& clip, double fps);
 
-/// Arguments that make ffmpeg read raw frames (R, G, B and an unused byte) from its standard input into `output`.
+/// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`.
 /// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
 /// when all frames are, and reading them twice keeps memory flat.
-std::vector<std::string> encoding_arguments(const VideoFormat& format, int width, int height,
-                                            const std::filesystem::path& output);
+std::vector<std::string> encoding_arguments(const VideoFormat& format, const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
 
 }  // namespace tumble

@@ -2,19 +2,20 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "output/matroska_stream.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
-#include <span>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
 
-int even(int size) { return size + size % 2; }
+constexpr double longest_frame = 1.0;   // s: players jump to frames, and streams start with one
 
 fs::path with_ending(const fs::path& path, const char* ending) {
     fs::path other = path;
@@ -29,43 +30,62 @@ fs::path find_ffmpeg() {
                    "get it by: apt-get install ffmpeg");
 }
 
-VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps)
+VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, FrameTimes times)
     : clip_(clip),
       format_(video_format(clip, fps)),
-      width_(width),
-      height_(height),
-      clip_width_(format_.even_size ? even(width) : width),
-      clip_height_(format_.even_size ? even(height) : height),
+      pixels_(format_.pixels, width, height),
       program_(find_ffmpeg()),
-      file_(clip) {
+      file_(clip),
+      longest_(times == FrameTimes::constant_rate
+                   ? 1
+                   : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
     if (format_.kind == VideoKind::gif) lossless_.emplace(with_ending(clip, ".mkv"));
-    encoder_.emplace(program_, encoding_arguments(format_, clip_width_, clip_height_,
-                                                  lossless_ ? lossless_->path() : file_.path()));
+    encoder_.emplace(program_, encoding_arguments(format_, lossless_ ? lossless_->path() : file_.path()));
+    const bool even = format_.pixels == PixelForm::yuv420;
+    send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
+                       format_.rate));
 }
 
-void VideoWriter::write(const Image& frame) {
-    TUMBLE_CHECK_EQ(frame.width, width_);
-    TUMBLE_CHECK_EQ(frame.height, height_);
+void VideoWriter::write(const Image& picture) {
+    const Rectangle whole{0, 0, picture.width, picture.height};
+    pixels_.update(picture, {&whole, 1});
+    const std::span<const std::byte> bytes = pixels_.bytes();
+    const auto copy = std::make_shared<std::vector<std::byte>>(bytes.begin(), bytes.end());
+    write(std::shared_ptr<const std::byte>(copy, copy->data()));
+}
+
+void VideoWriter::write(std::shared_ptr<const std::byte> pixels) {
+    latest_ = std::move(pixels);
+    advance();
+}
+
+void VideoWriter::repeat() {
+    TUMBLE_CHECK_GT(frames_, 0);
+    advance();
+}
+
+void VideoWriter::advance() {
     if (frames_++ % format_.frame_step != 0) return;
-    if (!encoder_->write(std::as_bytes(std::span(padded(frame))))) fail(encoder_->finish());
-    ++frames_in_clip_;
+    const std::int64_t frame = frames_in_clip_++;
+    if (shown_ == latest_ && frame - last_sent_ < longest_) return;
+    shown_ = latest_;
+    send(frame);
 }
 
-/// The pixels as the clip has them: an odd last column and row is there twice.
-const std::vector<std::uint8_t>& VideoWriter::padded(const Image& frame) {
-    if (clip_width_ == width_ && clip_height_ == height_) return frame.pixels;
-    const std::size_t row = std::size_t(width_) * 4, padded_row = std::size_t(clip_width_) * 4;
-    padded_.resize(padded_row * std::size_t(clip_height_));
-    for (int y = 0; y < clip_height_; ++y) {
-        const std::uint8_t* from = frame.at(0, std::min(y, height_ - 1));
-        std::uint8_t* to = padded_.data() + padded_row * std::size_t(y);
-        std::memcpy(to, from, row);
-        if (padded_row > row) std::memcpy(to + row, from + row - 4, 4);
-    }
-    return padded_;
+void VideoWriter::send(std::int64_t frame) {
+    const std::size_t bytes = pixels_.bytes().size();
+    send(matroska_frame_head(frame, format_.rate, bytes));
+    send(std::span(shown_.get(), bytes));
+    last_sent_ = frame;
+    ++sent_;
+}
+
+void VideoWriter::send(std::span<const std::byte> bytes) {
+    if (!encoder_->write(bytes)) fail(encoder_->finish());
 }
 
 void VideoWriter::finish() {
+    if (frames_in_clip_ > 0 && last_sent_ + 1 < frames_in_clip_) send(frames_in_clip_ - 1);   // else it would end early
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);

@@ -1,17 +1,22 @@
 // A clip, made by the ffmpeg program while frames are still being drawn: each goes through a pipe as it is finished.
+//
+// A picture that stays goes there once: its time stamp says how long it is shown (FrameTimes), but for once a second,
+// so that players can jump, and at the end of the clip.
 #pragma once
 
 #include "core/image.h"
 #include "output/process.h"
 #include "output/temporary_file.h"
 #include "output/video_format.h"
+#include "output/video_pixels.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace tumble {
 
@@ -22,12 +27,17 @@ std::filesystem::path find_ffmpeg();
 /// but for abandon().
 class VideoWriter {
 public:
-    /// Starts ffmpeg. Throws InputError for an ending or a rate that cannot be (see video_format()), RunError where
-    /// ffmpeg is missing or the folder cannot be written.
-    VideoWriter(const std::filesystem::path& clip, int width, int height, double fps);
+    /// Of pictures of this size. Starts ffmpeg. Throws InputError for an ending or a rate that cannot be (see
+    /// video_format()), RunError where ffmpeg is missing or the folder cannot be written.
+    VideoWriter(const std::filesystem::path& clip, int width, int height, double fps,
+                FrameTimes times = FrameTimes::longer_frames);
 
-    /// The next frame, of the size above. Throws RunError with ffmpeg's words when it died.
-    void write(const Image& frame);
+    /// The next frame, as a picture. Throws RunError with ffmpeg's words when it died.
+    void write(const Image& picture);
+    /// The next frame, as the bytes of a VideoPixels; kept until the frame after it.
+    void write(std::shared_ptr<const std::byte> pixels);
+    /// The next frame is the same as the one before.
+    void repeat();
 
     /// Waits for ffmpeg and gives the clip its name. Throws RunError with ffmpeg's words where it failed.
     void finish();
@@ -37,23 +47,28 @@ public:
 
     /// What ffmpeg used, in s of CPU time; known after finish().
     double encoder_seconds() const { return encoder_seconds_; }
-    /// Frames that are in the clip (a GIF takes 50 a second at most).
+    /// Frames that the clip shows (a GIF takes 50 a second at most), and how many of them are stored.
     std::int64_t frames_in_clip() const { return frames_in_clip_; }
+    std::int64_t frames_stored() const { return sent_; }
 
 private:
     [[noreturn]] void fail(const ProcessEnd& end) const;
-    const std::vector<std::uint8_t>& padded(const Image& frame);
+    void advance();
+    void send(std::int64_t frame);
+    void send(std::span<const std::byte> bytes);
     void convert_to_gif();
 
     std::filesystem::path clip_;
     VideoFormat format_;
-    int width_, height_;                          // of the frames
-    int clip_width_, clip_height_;                // of the clip: even where it must be
+    VideoPixels pixels_;                          // of pictures that come as such
     std::filesystem::path program_;
     TemporaryFile file_;
     std::optional<TemporaryFile> lossless_;       // a GIF's first stage
-    std::vector<std::uint8_t> padded_;
-    std::int64_t frames_ = 0, frames_in_clip_ = 0;
+    std::shared_ptr<const std::byte> latest_;     // the frame written last,
+    std::shared_ptr<const std::byte> shown_;      // and the one sent last (a GIF takes fewer); null before the first
+    std::int64_t longest_;                        // frames that one is shown for, at most
+    std::int64_t frames_ = 0, frames_in_clip_ = 0, sent_ = 0;
+    std::int64_t last_sent_ = -1;                 // its number in the clip
     double encoder_seconds_ = 0.0;
     std::mutex abandon_mutex_;                    // abandon() against the change from encoder to GIF maker
     bool abandoned_ = false;

@@ -16,8 +16,8 @@ Vec3 most_across(const Vec3& direction) {
 
 }  // namespace
 
-CameraView::CameraView(const CameraDescription& camera, int width, int height)
-    : eye_(camera.eye), width_(width), height_(height) {
+CameraView::CameraView(const CameraDescription& camera, int width, int height, const Eigen::Vector2d& shift)
+    : eye_(camera.eye), width_(width), height_(height), shift_(shift) {
     const Vec3 to_target = camera.target - camera.eye;
     target_distance_ = to_target.norm();
     if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye in its own target looks along -z
@@ -37,12 +37,13 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height)
 
 Eigen::Vector2d CameraView::pixel(const Vec3& relative) const {
     const double depth = relative.dot(forward_);
-    return {0.5 * width_ * (1.0 + relative.dot(right_) / (tan_x_ * depth)),
-            0.5 * height_ * (1.0 - relative.dot(up_) / (tan_y_ * depth))};
+    return {0.5 * width_ * (1.0 + relative.dot(right_) / (tan_x_ * depth)) + shift_.x(),
+            0.5 * height_ * (1.0 - relative.dot(up_) / (tan_y_ * depth)) + shift_.y()};
 }
 
 Vec3 CameraView::ray(double x, double y) const {
-    return forward_ + right_ * (tan_x_ * (2.0 * x / width_ - 1.0)) + up_ * (tan_y_ * (1.0 - 2.0 * y / height_));
+    return forward_ + right_ * (tan_x_ * (2.0 * (x - shift_.x()) / width_ - 1.0)) +
+           up_ * (tan_y_ * (1.0 - 2.0 * (y - shift_.y()) / height_));
 }
 
 bool CameraView::sees(const Vec3& center, double radius) const {
@@ -62,8 +63,8 @@ glm::mat4 CameraView::clip_from_relative(double near_distance) const {
     // rows: r / tan_x, -u / tan_y, f w/ z = w - 2 near, f
     glm::mat4 m(0.0f);
     for (int i = 0; i < 3; ++i) {
-        m[i][0] = float(right_[i] / tan_x_);
-        m[i][1] = float(-up_[i] / tan_y_);
+        m[i][0] = float(right_[i] / tan_x_ + forward_[i] * 2.0 * shift_.x() / width_);
+        m[i][1] = float(-up_[i] / tan_y_ + forward_[i] * 2.0 * shift_.y() / height_);
         m[i][2] = float(forward_[i]);
         m[i][3] = float(forward_[i]);
     }

@@ -16,7 +16,9 @@ namespace tumble {
 
 class CameraView {
 public:
-    CameraView(const CameraDescription& camera, int width, int height);
+    /// `shift`, in pixels, moves the whole picture: averages of many small ones have smooth edges.
+    CameraView(const CameraDescription& camera, int width, int height,
+               const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
     const Vec3& eye() const { return eye_; }
     const Vec3& right() const { return right_; }
@@ -57,6 +59,7 @@ private:
     double target_distance_;
     int width_, height_;
     double tan_x_, tan_y_;
+    Eigen::Vector2d shift_;  // pixels
     std::array<Vec3, 4> sides_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "render/glm_conversion.h"
+#include "render/surface_ids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +19,16 @@ constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
 
 constexpr float cord_roughness = 0.7f;
 
+// Bodies are drawn in shells around the eye, the nearest first, and within a shell by mesh and shader: what is hidden is
+// mostly rejected, and there are few changes of shaders.
+constexpr double shells_per_doubling = 8.0;   // of the distance
+
 struct Item {
     std::size_t mesh;
     bool patterned, lit;
     double distance;
     Instance instance;
+    int shell() const { return int(std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30)))); }
 };
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
@@ -38,16 +44,17 @@ std::size_t ball_mesh_for(double radius, double distance, const CameraView& view
 }
 
 Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view,
-                     const OcclusionPlace& place) {
+                     const OcclusionPlace& place, std::size_t body, bool near_shadows) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
             to_glm(look.half_size, look.pattern_cell),
             glm::vec4(look.color, look.roughness),
             glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
-            glm::vec2(float(place.size), 0.0f)};
+            glm::vec4(float(place.size), 0.0f, surface_alpha(body, 0), near_shadows ? 1.0f : 0.0f)};
 }
 
-Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
+Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& snapshot, const CameraView& view,
+               const ShadowFit& shadows) {
     const BodyState& state = snapshot.bodies[cord.body];
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
@@ -62,11 +69,13 @@ Item cord_item(const CordDescription& cord, const Snapshot& snapshot, const Came
             true,
             middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
-             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f), glm::vec2(0.0f)}};
+             glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f),
+             glm::vec4(0.0f, 0.0f, surface_alpha(number, 0),
+                       shadows.near_holds(middle, 0.5 * length + cord.radius) ? 1.0f : 0.0f)}};
 }
 
 // The faces of a box that can be seen, those in the sun apart from the others.
-void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec3& light, std::vector<Item>& items) {
+void add_faces(Item item, std::size_t body, std::uint8_t faces, const Quat& orientation, const Vec3& light, std::vector<Item>& items) {
     const Mat3 axes = orientation.toRotationMatrix();
     item.mesh = face_mesh;
     for (int face = 0; face < 6; ++face) {
@@ -74,6 +83,7 @@ void add_faces(Item item, std::uint8_t faces, const Quat& orientation, const Vec
         const Vec3 normal = axes.col(face / 2) * (face % 2 == 0 ? -1.0 : 1.0);
         item.lit = normal.dot(light) < 0.0;
         item.instance.tile.y = float(face);
+        item.instance.tile.z = surface_alpha(body, std::size_t(face));
         items.push_back(item);
     }
 }
@@ -89,10 +99,11 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
     }
 }
 
-// Appends the items to the instances, one batch a mesh, nearest first; equal ones keep the scene's order.
-std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances) {
-    std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-        return std::tuple(a.mesh, a.patterned, a.lit, a.distance) < std::tuple(b.mesh, b.patterned, b.lit, b.distance);
+// Appends the items to the instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
+std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, bool in_shells) {
+    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
+        return std::tuple(in_shells ? a.shell() : 0, a.mesh, a.patterned, a.lit, a.distance) <
+               std::tuple(in_shells ? b.shell() : 0, b.mesh, b.patterned, b.lit, b.distance);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
@@ -108,7 +119,9 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 }  // namespace
 
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas) {
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const ShadowFit& shadows, const std::vector<char>& wanted,
+                        const std::vector<char>& casting) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
@@ -116,27 +129,28 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        const bool in_view = visibility.bodies[i];
-        const bool casts = scene.light.shadows && view.sees_swept(ball.center, ball.radius, light);
+        const bool in_view = visibility.bodies[i] && wanted[i] != 0;
+        const bool casts = scene.light.shadows && casting[i] != 0 && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
-                           instance_of(look, snapshot.bodies[i], view, atlas.places[i])};
+                           instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
+                                       shadows.near_holds(ball.center, ball.radius))};
         if (casts) casters.push_back(item);
         if (!in_view) continue;
         if (look.kind == DrawKind::box) {
-            add_faces(item, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);
+            add_faces(item, i, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);
         } else {
             visible.push_back(item);
         }
     }
-    for (const CordDescription& cord : scene.cords) {
-        const Item item = cord_item(cord, snapshot, view);
-        visible.push_back(item);
-        if (scene.light.shadows) casters.push_back(item);
+    for (std::size_t i = 0; i < scene.cords.size(); ++i) {
+        const Item item = cord_item(scene.cords[i], looks.bodies.size() + i, snapshot, view, shadows);
+        if (wanted[looks.bodies.size() + i] != 0) visible.push_back(item);
+        if (scene.light.shadows && casting[looks.bodies.size() + i] != 0) casters.push_back(item);
     }
     DrawList list;
-    list.visible = append_batches(visible, list.instances);
-    list.casters = append_batches(casters, list.instances);
+    list.visible = append_batches(visible, list.instances, true);
+    list.casters = append_batches(casters, list.instances, false);
     return list;
 }
 

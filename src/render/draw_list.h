@@ -5,6 +5,7 @@
 #include "render/body_looks.h"
 #include "render/camera_view.h"
 #include "render/occlusion_atlas.h"
+#include "render/shadow_fit.h"
 #include "sim/snapshot.h"
 
 #include <glm/vec2.hpp>
@@ -21,7 +22,8 @@ struct Instance {
     glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
     glm::vec4 color;        // linear; w: roughness
     glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec2 tile;         // the edge of its tiles there; and which face of a box this is, as in make_box()
+    glm::vec4 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its surface's
+                            // number as alpha; 1: wholly within the near shadow map
 };
 
 /// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.
@@ -41,7 +43,11 @@ struct DrawList {
     std::vector<Batch> casters;  // their shadows may be
 };
 
+/// `wanted`, `casting`: of each item of drawn_items.h, whether it is to be drawn where it is visible, and into the shadow
+/// maps where its shadow may be.
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas);
+                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const ShadowFit& shadows, const std::vector<char>& wanted,
+                        const std::vector<char>& casting);
 
 }  // namespace tumble

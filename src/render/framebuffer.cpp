@@ -27,6 +27,7 @@ Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int sampl
       width_(width),
       height_(height),
       samples_(supported_samples(gl, samples)),
+      background_(make_target(samples_, true)),
       drawn_(make_target(samples_, true)) {
     if (samples_ > 1) resolved_.emplace(make_target(1, false));
 }
@@ -55,24 +56,45 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const
     return target;
 }
 
-void Framebuffer::bind() const {
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, drawn_.framebuffer.name());
+void Framebuffer::bind(const Target& target) const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
     gl_->Viewport(0, 0, width_, height_);
     gl_->Disable(GL_FRAMEBUFFER_SRGB);
 }
 
-void Framebuffer::resolve() const {
-    if (!resolved_) return;
-    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, drawn_.framebuffer.name());
-    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_->framebuffer.name());
-    gl_->BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void Framebuffer::copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles,
+                       GLbitfield what) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer.name());
+    for (const Rectangle& r : rectangles)
+        gl_->BlitFramebuffer(r.x, r.y, r.x + r.width, r.y + r.height, r.x, r.y, r.x + r.width, r.y + r.height, what,
+                             GL_NEAREST);
 }
 
-void Framebuffer::read(Image& image) const {
-    if (image.width != width_ || image.height != height_) image = Image(width_, height_);
+void Framebuffer::begin_background() const {
+    bind(background_);
+    gl_->ClearDepth(1.0);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
+}
+
+void Framebuffer::begin(const std::vector<Rectangle>& rectangles) const {
+    bind(drawn_);
+    gl_->ClearDepth(0.0);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    bind(drawn_);
+}
+
+void Framebuffer::resolve(const std::vector<Rectangle>& rectangles) const {
+    if (resolved_) copy(drawn_, *resolved_, rectangles, GL_COLOR_BUFFER_BIT);
+}
+
+void Framebuffer::read(const std::vector<Rectangle>& rectangles, Image& image) const {
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer.name() : drawn_.framebuffer.name());
     gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
-    gl_->ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    gl_->PixelStorei(GL_PACK_ROW_LENGTH, width_);
+    for (const Rectangle& r : rectangles)
+        gl_->ReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, image.at(r.x, r.y));
 }
 
 }  // namespace tumble

@@ -1,13 +1,15 @@
-// The picture's own framebuffer: colour and depth with several samples a pixel, and the single-sample colour that they
-// are averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a
+// The picture's own framebuffers: colour and depth with several samples a pixel, the background that is put back where
+// something has moved, and the single-sample colour that the samples are averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a
 // frame), and edges are averaged as they are displayed, which keeps a bright edge before a dark ground from growing a
 // staircase.
 #pragma once
 
 #include "core/image.h"
+#include "core/rectangle.h"
 #include "render/gl_object.h"
 
 #include <optional>
+#include <vector>
 
 namespace tumble {
 
@@ -18,24 +20,30 @@ public:
 
     int samples() const { return samples_; }
 
-    /// Makes this the target of what is drawn next, over its whole area.
-    void bind() const;
+    /// Makes the background the target of what is drawn next, over its whole area, and clears its depths.
+    void begin_background() const;
 
-    /// Averages the samples.
-    void resolve() const;
+    /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
+    /// colours and depths; everywhere else depth is nearest.
+    void begin(const std::vector<Rectangle>& rectangles) const;
 
-    /// Copies the resolved picture. The drawing has its first row at the bottom, so rows arrive in the image's order.
-    void read(Image& image) const;
+    /// Averages the samples there.
+    void resolve(const std::vector<Rectangle>& rectangles) const;
+
+    /// Copies the resolved picture there. The drawing has its first row at the bottom, so rows arrive in the image's order.
+    void read(const std::vector<Rectangle>& rectangles, Image& image) const;
 
 private:
     struct Target {
         GlObject framebuffer, color, depth;
     };
     Target make_target(int samples, bool with_depth) const;
+    void bind(const Target& target) const;
+    void copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles, GLbitfield what) const;
 
     const GlFunctions* gl_;
     int width_, height_, samples_;
-    Target drawn_;
+    Target background_, drawn_;
     std::optional<Target> resolved_;  // only with several samples
 };
 

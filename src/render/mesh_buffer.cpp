@@ -13,7 +13,7 @@ struct Attribute {
 };
 constexpr Attribute instance_attributes[] = {{4, offsetof(Instance, position)}, {4, offsetof(Instance, orientation)},
                                              {4, offsetof(Instance, scale)},    {4, offsetof(Instance, color)},
-                                             {4, offsetof(Instance, look)},     {2, offsetof(Instance, tile)}};
+                                             {4, offsetof(Instance, look)},     {4, offsetof(Instance, tile)}};
 constexpr GLuint probe_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }

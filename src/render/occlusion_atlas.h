@@ -1,6 +1,7 @@
-// One small picture a frame that holds how open to the sky every visible surface is: a tile for each face of a box, one
+// One small picture that holds how open to the sky every visible surface is: a tile for each face of a box, one
 // for each ball (octahedral), a run of texels for a mesh's vertices, and a window on each plane around the bodies.
 // Sky light changes slowly, so a few texels a face look like a value for every pixel, at a twentieth of the cost.
+// A body's place is the same in every frame, and its texels are worked out anew only when it or a neighbour has moved.
 #pragma once
 
 #include "render/body_looks.h"
@@ -27,18 +28,56 @@ struct OcclusionWindow {
     int x = 0, y = 0, width = 0, height = 0;  // texels; the outermost are open
     double cell = 1.0;                        // m
     double low_a = 0.0, low_b = 0.0;          // in cells
+    friend bool operator==(const OcclusionWindow&, const OcclusionWindow&) = default;
 };
 
 struct OcclusionAtlas {
-    static constexpr int width = 1024;
+    static constexpr int width = 2048;
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height, 255: open
     std::vector<OcclusionPlace> places;  // of each body
     std::vector<OcclusionWindow> windows;
 };
 
-/// For the visible bodies; the others have no place.
-OcclusionAtlas make_occlusion_atlas(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
-                                    const Visibility& visibility);
+/// The size of a window's texels, m. A plane's darkening is blurred by one and a half of them.
+double window_cell(const SceneLooks& looks);
+
+/// What an update changed.
+struct OcclusionChanges {
+    struct Body {
+        std::size_t body;
+        std::uint8_t faces;   // of a box, as in Visibility; 0: any part of another body
+    };
+    std::vector<Body> bodies;
+    bool windows_moved = false;   // or appeared, or went: texels of planes are elsewhere
+    int first_row = 0, end_row = 0;   // of the texels
+};
+
+class OcclusionMaker {
+public:
+    /// Gives every body its place. The looks must outlive it.
+    explicit OcclusionMaker(const SceneLooks& looks);
+
+    /// Brings the places of visible bodies and the windows up to date; the others keep what they had.
+    const OcclusionChanges& update(const Snapshot& snapshot, const CameraView& view, const Visibility& visibility);
+
+    const OcclusionAtlas& atlas() const { return atlas_; }
+
+private:
+    struct Pose {
+        Vec3 origin;
+        Quat orientation;
+    };
+    void lay_out(int coarser);
+    void note_movements(const Snapshot& snapshot);
+
+    const SceneLooks* looks_;
+    OcclusionAtlas atlas_;
+    int body_rows_ = 1;                     // of the atlas; the windows come below
+    std::vector<Pose> poses_;               // of the last update
+    std::vector<std::uint32_t> versions_;   // of each body: counts its movements
+    std::vector<std::vector<std::uint64_t>> neighbours_;   // bodies and versions that a body's texels were made from
+    OcclusionChanges changes_;
+};
 
 }  // namespace tumble

@@ -10,7 +10,8 @@ class OcclusionTexture {
 public:
     explicit OcclusionTexture(const GlFunctions& gl);
 
-    void upload(const OcclusionAtlas& atlas);
+    /// Sends the rows that changed since the last time (all of them, when there are more rows than ever).
+    void upload(const OcclusionAtlas& atlas, int first_row, int end_row);
 
     GLuint name() const { return texture_.name(); }
 
@@ -20,7 +21,7 @@ public:
 private:
     const GlFunctions* gl_;
     GlObject texture_;
-    int height_ = 0;
+    int height_ = 0, filled_ = 0;  // rows
 };
 
 }  // namespace tumble

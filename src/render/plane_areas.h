@@ -1,22 +1,18 @@
-// Which shader a plane needs where: a dear one where shadows or the bodies' darkening may touch it, a cheap one that
-// looks for neither (to the same result) elsewhere, and none where boxes cover it. Decided for the cells of ScreenCover
-// and joined into rectangles.
+// Where a plane must be drawn over the background, which shows it without shadows and the bodies' darkening: in the cells
+// that these may touch. Not where boxes cover it. Cells are those of ScreenCover, joined into rectangles.
 #pragma once
 
-#include "render/plane_patch.h"
-#include "render/shadow_fit.h"
+#include "core/rectangle.h"
+#include "render/plane_marks.h"
 #include "render/visibility.h"
 
 #include <vector>
 
 namespace tumble {
 
-struct PlaneAreas {
-    std::vector<PixelArea> touched, open;
-};
-
-PlaneAreas find_plane_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
-                            const Snapshot& snapshot, const CameraView& view, const ShadowFit& shadows,
-                            const ScreenCover& cover);
+/// Within the marked tiles. `items`: what may throw shadows.
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
+                                          const std::vector<DrawnItem>& items, const CameraView& view,
+                                          const ShadowFit& shadows, const ScreenCover& cover, const TileMarks& marks);
 
 }  // namespace tumble

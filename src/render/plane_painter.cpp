@@ -2,6 +2,7 @@
 
 #include "render/glm_conversion.h"
 #include "render/plane_axes.h"
+#include "render/surface_ids.h"
 #include "render/surface_programs.h"
 
 #include <fmt/format.h>
@@ -61,40 +62,44 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-void PlanePainter::draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas,
-                        const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                        const CameraView& view) const {
+void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks,
+                                   const CameraView& view) const {
+    gl_->Disable(GL_CULL_FACE);
+    gl_->BindVertexArray(array_.name());
+    const auto draw = [&](const std::vector<glm::vec3>& corners) {
+        upload_polygon(corners);
+        gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
+    };
+    // The sky first: at the horizon a plane's depth rounds to the sky's, and the plane is drawn last in any case.
+    const std::vector<glm::vec3> sky = sky_polygon(planes, view);
+    sky_.use();
+    if (sky.size() >= 3) draw(sky);
+    for (const PlanePatch& plane : planes) {
+        set_uniforms(planes_[std::size_t(looks.bodies[plane.body].pattern)]->open, plane, planes, looks);
+        draw(plane.corners);
+    }
+    gl_->BindVertexArray(0);
+}
+
+void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
+                                const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                                const CameraView& view) const {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
+        const ShaderProgram& program = planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->touched;
+        if (areas[i].empty()) continue;
         upload_polygon(planes[i].corners);
-        const auto draw_in = [&](const std::vector<PixelArea>& rectangles) {
-            for (const PixelArea& area : rectangles) {
-                gl_->Scissor(area.x0, area.y0, area.x1 - area.x0, area.y1 - area.y0);
-                gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
-            }
-        };
-        set_uniforms(programs.open, planes[i], planes, looks);
-        draw_in(areas[i].open);
-        set_uniforms(programs.touched, planes[i], planes, looks);
-        set_window(programs.touched, planes[i], atlas, looks, snapshot, view);
-        draw_in(areas[i].touched);
+        set_uniforms(program, planes[i], planes, looks);
+        set_window(program, planes[i], atlas, looks, snapshot, view);
+        for (const Rectangle& area : areas[i]) {
+            gl_->Scissor(area.x, area.y, area.width, area.height);
+            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
+        }
     }
     gl_->BindVertexArray(0);
     gl_->Disable(GL_SCISSOR_TEST);
-}
-
-void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
-    const std::vector<glm::vec3> corners = sky_polygon(planes, view);
-    if (corners.size() < 3) return;
-    gl_->Disable(GL_CULL_FACE);
-    sky_.use();
-    gl_->BindVertexArray(array_.name());
-    upload_polygon(corners);
-    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
-    gl_->BindVertexArray(0);
 }
 
 void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
@@ -105,7 +110,7 @@ void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& 
     program.set("plane_u", plane.u);
     program.set("plane_v", plane.v);
     program.set("plane_color", glm::vec4(look.color, look.roughness));
-    program.set("plane_look", glm::vec4(look.metallic, 0.0f, 0.0f, 0.0f));
+    program.set("plane_look", glm::vec4(look.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // those that are not in view lie far below: nothing comes near them
     for (const PlanePatch& other : planes)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl_object.h"
+#include "render/occlusion_atlas.h"
 #include "render/plane_areas.h"
 #include "render/shader_program.h"
 
@@ -15,11 +16,13 @@ class PlanePainter {
 public:
     PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks);
 
-    /// `areas[i]` says where planes[i] is drawn and how.
-    void draw(const std::vector<PlanePatch>& planes, const std::vector<PlaneAreas>& areas, const SceneLooks& looks,
+    /// All planes without bodies and shadows, and the sky: what stays behind all frames.
+    void draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks, const CameraView& view) const;
+
+    /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
+    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas, const SceneLooks& looks,
               const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const;
 
-    void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
 
 private:
     struct Programs {

@@ -3,7 +3,9 @@
 
 #include "core/check.h"
 #include "render/camera_view.h"
+#include "render/change_finder.h"
 #include "render/draw_list.h"
+#include "render/edge_blender.h"
 #include "render/drawn_parts.h"
 #include "render/frame_uniforms.h"
 #include "render/framebuffer.h"
@@ -11,6 +13,7 @@
 #include "render/mesh_library.h"
 #include "render/occlusion_texture.h"
 #include "render/plane_painter.h"
+#include "render/render_times.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
 
@@ -25,6 +28,8 @@ std::string words(const GlFunctions& gl, GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
+std::vector<Rectangle> whole_picture(const CameraView& view) { return {{0, 0, view.width(), view.height()}}; }
+
 }  // namespace
 
 struct Renderer::State {
@@ -32,17 +37,24 @@ struct Renderer::State {
         : drawn(description),
           scene(drawn.scene()),
           looks(make_scene_looks(scene)),
-          view(scene.camera, scene.output.width, scene.output.height),
+          view(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y}),
           stage(scene, looks, view, shadow_map_texels),
+          occlusion(looks),
+          changes(scene, looks, view),
+          edges(looks, view),
+          drawn_image(scene.output.width, scene.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
-          framebuffer(gl, scene.output.width, scene.output.height, scene.output.samples),
+          smooth_edges(scene.output.samples > 1 && scene.cords.empty() && !options.multisample),
+          framebuffer(gl, scene.output.width, scene.output.height, smooth_edges ? 1 : scene.output.samples),
           uniforms(gl, GlKind::buffer),
           meshes(gl, looks),
-          occlusion(gl),
+          occlusion_texture(gl),
           shadow_map(gl, shaders, frame_block),
           programs(gl, shaders, looks, !scene.cords.empty()),
-          planes(gl, shaders, looks) {
+          planes(gl, shaders, looks),
+          full_redraw(options.full_redraw),
+          times(options.times) {
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
@@ -55,15 +67,24 @@ struct Renderer::State {
     SceneLooks looks;
     CameraView view;
     ShadowStage stage;
+    OcclusionMaker occlusion;
+    ChangeFinder changes;
+    EdgeFinder edges;
+    Image drawn_image;  // as it was drawn, with surface numbers in alpha
     std::unique_ptr<GlContext> context;
     GlFunctions gl;
+    // Cords can be thinner than a pixel: those scenes take several samples.
+    bool smooth_edges;
     Framebuffer framebuffer;
     GlObject uniforms;
     MeshLibrary meshes;
-    OcclusionTexture occlusion;
+    OcclusionTexture occlusion_texture;
     ShadowMap shadow_map;
     SurfacePrograms programs;
     PlanePainter planes;
+    std::vector<Rectangle> changed;
+    bool full_redraw;
+    RenderTimes* times;
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -75,41 +96,90 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
+    StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
-    const double near_distance = near_distance_for(s.looks, snapshot, s.view);
+    const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
+    if (follows && !s.full_redraw && s.changes.unmoved(snapshot)) {
+        s.changed.clear();
+        return;
+    }
+    FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
+                     near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view), {}};
+    state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
+    const std::vector<PlanePatch> planes = state.planes;
+    const std::vector<DrawnItem> items = state.items;
+    const double near_distance = state.near_distance;
+    const ShadowFit shadows = state.shadows;
     const Visibility visibility = find_visible(s.looks, snapshot, s.view);
-    const OcclusionAtlas atlas = make_occlusion_atlas(s.looks, snapshot, s.view, visibility);
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas);
-    const ShadowFit shadows = s.stage.fit(s.looks, snapshot, s.view);
-    const std::vector<PlanePatch> planes = make_plane_patches(s.looks, snapshot, s.view, near_distance);
-    std::vector<PlaneAreas> areas;
-    for (const PlanePatch& plane : planes)
-        areas.push_back(find_plane_areas(plane, s.scene, s.looks, snapshot, s.view, shadows, visibility.cover));
+    const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
+    TileMarks marks = s.changes.find(std::move(state), darkening, visibility);
+    if (s.full_redraw) marks.mark_all();
+    s.changed = marks.rectangles();
 
-    s.occlusion.upload(atlas);
+    ShadowMarks shadow_marks = s.changes.shadow_marks();
+    if (s.full_redraw) shadow_marks.mark_all();
+    std::vector<char> wanted, casting;
+    for (const DrawnItem& item : items) {
+        wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
+        casting.push_back(item.exists() && shadow_marks.touched_by(item) ? 1 : 0);
+    }
+    const OcclusionAtlas& atlas = s.occlusion.atlas();
+    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
+    std::vector<std::vector<Rectangle>> touched;
+    for (const PlanePatch& plane : planes)
+        touched.push_back(
+            find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, marks));
+    clock.ends(RenderStage::preparation);
+
+    s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
     s.meshes.upload(list.instances);
     const FrameUniforms uniforms =
-        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion.height());
+        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height());
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
+    clock.ends(RenderStage::upload);
 
-    if (s.scene.light.shadows) s.shadow_map.draw(s.meshes, list.casters, shadows.has_far);
+    if (s.scene.light.shadows && !shadow_marks.none())
+        s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
+    clock.ends(RenderStage::shadow);
 
-    s.framebuffer.bind();
-    s.gl.Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
+    if (s.changes.background_changed()) {
+        s.framebuffer.begin_background();
+        s.planes.draw_background(planes, s.looks, s.view);
+    }
+    s.framebuffer.begin(s.changed);
+    clock.ends(RenderStage::background);
+
     s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
-    s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion.name());
+    s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion_texture.name());
     s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
-    s.planes.draw(planes, areas, s.looks, atlas, snapshot, s.view);
-    s.planes.draw_sky(planes, s.view);
+    clock.ends(RenderStage::bodies);
+    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view);
+    clock.ends(RenderStage::planes);
 
-    s.framebuffer.resolve();
-    s.framebuffer.read(frame);
+    s.framebuffer.resolve(s.changed);
+    s.framebuffer.read(s.changed, s.drawn_image);
+    clock.ends(RenderStage::read);
+    std::vector<Rectangle> written = s.changed;
+    if (!follows) {
+        frame = Image(s.view.width(), s.view.height());
+        written = whole_picture(s.view);
+        if (!marks.all()) {
+            marks.mark_all();
+            wanted.assign(wanted.size(), 1);
+        }
+    }
+    copy_opaque(s.drawn_image, written, frame);
+    if (s.smooth_edges)
+        blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, visibility, planes), marks, frame);
+    clock.ends(RenderStage::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }
+
+const std::vector<Rectangle>& Renderer::changed() const { return state_->changed; }
 
 std::string Renderer::driver() const {
     const GlFunctions& gl = state_->gl;

@@ -2,20 +2,27 @@
 #pragma once
 
 #include "core/image.h"
+#include "core/rectangle.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
 enum class GlBackend { osmesa, egl };
+struct RenderTimes;
 
 struct RenderOptions {
     GlBackend backend = GlBackend::osmesa;
     std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
+    bool full_redraw = false;             // every frame anew, to the same bytes: for tests and comparisons
+    bool multisample = false;             // edges by several samples a pixel, as where cords are drawn: for comparisons
+    double shift_x = 0.0, shift_y = 0.0;  // pixels that the picture is moved by, under one: for averages of many
+    RenderTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer
 };
 
 /// One OpenGL context and what is uploaded to it. Use it from the thread that made it.
@@ -25,8 +32,15 @@ public:
     Renderer(const SceneDescription& scene, const RenderOptions& options);
     ~Renderer();
 
-    /// Draws the snapshot at the scene's output size into `frame` (resized as needed).
+    /// Draws the snapshot at the scene's output size. Only what changed since the last render() is drawn and written: a
+    /// `frame` of the right size must hold the picture that render() made before (any copy of it will do); another size,
+    /// an empty image for one, is replaced by the whole picture. Bodies that do not move cost little only when their
+    /// poses are the same to the bit: DrawnPoses sees to that.
     void render(const Snapshot& snapshot, Image& frame);
+
+    /// Where the last picture may differ from the one this renderer drew before it: rectangles that do not overlap. The
+    /// whole picture after the first render() and with full_redraw; none when nothing drawn has moved.
+    const std::vector<Rectangle>& changed() const;
 
     /// The OpenGL renderer and version, as the driver names itself.
     std::string driver() const;

@@ -51,6 +51,15 @@ double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log
 
 }  // namespace
 
+bool ShadowFit::near_holds(const Vec3& center, double radius) const {
+    // the filter's margin, and the offset along the normal
+    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * shadow_filter_texels / texels;
+    for (const glm::vec4& row : {x, y})
+        if (std::abs(row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w) - 0.5) > room)
+            return false;
+    return true;
+}
+
 ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels)
     : texels_(texels) {
     z_axis_ = scene.light.direction.normalized();
@@ -116,6 +125,7 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
     if (x.empty()) x.add(0.5, 0.5), y.add(0.5, 0.5), z.add(0.0, size_);
 
     ShadowFit fit;
+    fit.texels = texels_;
     fit.near_texel = size_ / texels_;
     const auto row = [&](const Vec3& axis, double low, double size) {
         return to_glm(axis / size, (axis.dot(view.eye()) - low) / size);

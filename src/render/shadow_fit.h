@@ -5,18 +5,27 @@
 // of it depends on the scene and the one snapshot only, never on frames drawn before.
 #pragma once
 
-#include "render/draw_list.h"
+#include "render/body_looks.h"
+#include "render/camera_view.h"
 
 #include <glm/vec4.hpp>
 
 namespace tumble {
 
 struct ShadowFit {
+    int texels = 1;  // across each map
     glm::vec4 x, y, z;  // rows: position relative to the eye -> [0, 1]^2 of the near map, depth in [0, 1]
     bool has_far = false;
     glm::vec4 far{1.0f, 0.0f, 0.0f, 0.0f};     // near map -> far map: scale, offset x, offset y; w: 1 with a far map
     double near_texel = 0.0, far_texel = 0.0;  // m
+    /// Is a ball (relative to the eye) within the near map, so that nothing of it has to look into the far one?
+    bool near_holds(const Vec3& center, double radius) const;
+
+    friend bool operator==(const ShadowFit&, const ShadowFit&) = default;
 };
+
+/// Texels from a shadow's outline that its filter and the offset along the normal may reach, with some to spare.
+inline constexpr double shadow_filter_texels = 6.0;
 
 class ShadowStage {
 public:

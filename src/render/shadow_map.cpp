@@ -27,12 +27,15 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
         throw RunError("the OpenGL driver refuses a shadow map");
 }
 
-void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, bool with_far) const {
+void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
+                     bool with_far) const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    // Clearing costs by the area: the far half only when it is used.
     gl_->Enable(GL_SCISSOR_TEST);
-    gl_->Scissor(0, 0, with_far ? 2 * shadow_map_texels : shadow_map_texels, shadow_map_texels);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    gl_->ClearDepth(1.0);
+    for (const Rectangle& part : parts) {
+        gl_->Scissor(part.x, part.y, part.width, part.height);
+        gl_->Clear(GL_DEPTH_BUFFER_BIT);
+    }
     program_.use();
     for (int far = 0; far <= (with_far ? 1 : 0); ++far) {
         gl_->Viewport(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);

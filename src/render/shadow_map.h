@@ -1,6 +1,7 @@
 // Depths as the sun sees them: the near and the far map of shadow_fit.h side by side in one texture.
 #pragma once
 
+#include "core/rectangle.h"
 #include "render/mesh_library.h"
 #include "render/shader_program.h"
 
@@ -8,15 +9,17 @@
 
 namespace tumble {
 
-/// Texels across one map. A finer one costs more (2048: +6 ms a frame on the reference machine) and looks harder.
-inline constexpr int shadow_map_texels = 1024;
+/// Texels across one map. A finer one costs more (1024: +1.3 ms a frame) and looks harder.
+inline constexpr int shadow_map_texels = 768;
 
 class ShadowMap {
 public:
     ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block);
 
-    /// Draws the casters into the near map, and into the far one when there is one.
-    void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, bool with_far) const;
+    /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map and
+    /// into the far one when there is one.
+    void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
+              bool with_far) const;
 
     GLuint texture() const { return texture_.name(); }
 

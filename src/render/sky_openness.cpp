@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+// Eight lanes where the processor has them, with the same bits (no fused operations; sanitizers do without).
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TUMBLE_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define TUMBLE_WIDE
+#endif
+
 namespace tumble {
 namespace {
 
@@ -31,7 +38,23 @@ void SurfacePoints::add(const Eigen::Vector3f& position, const Eigen::Vector3f& 
     open.push_back(1.0f);
 }
 
-void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
+void SurfacePoints::set_lattice(const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int columns, int rows) {
+    const std::size_t count = std::size_t(columns) * std::size_t(rows);
+    for (std::vector<float>* values : {&x, &y, &z}) values->resize(count);
+    nx.assign(count, normal.x());
+    ny.assign(count, normal.y());
+    nz.assign(count, normal.z());
+    open.assign(count, 1.0f);
+    for (int j = 0, k = 0; j < rows; ++j)
+        for (int i = 0; i < columns; ++i, ++k) {
+            x[std::size_t(k)] = corner.x() + float(i) * across.x() + float(j) * along.x();
+            y[std::size_t(k)] = corner.y() + float(i) * across.y() + float(j) * along.y();
+            z[std::size_t(k)] = corner.z() + float(i) * across.z() + float(j) * along.z();
+        }
+}
+
+TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
     const Eigen::Matrix3f& m = occluder.to_local;
     const Eigen::Vector3f c = occluder.center, half = occluder.half_size;
     const float m00 = m(0, 0), m01 = m(0, 1), m02 = m(0, 2), m10 = m(1, 0), m11 = m(1, 1), m12 = m(1, 2);

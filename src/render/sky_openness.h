@@ -22,6 +22,10 @@ struct SurfacePoints {
     std::size_t size() const { return x.size(); }
     void clear();
     void add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
+
+    /// In place of what was there: columns x rows points corner + i across + j along, row after row.
+    void set_lattice(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
+                     const Eigen::Vector3f& normal, int columns, int rows);
 };
 
 /// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller

@@ -1,5 +1,8 @@
 #include "render/visibility.h"
 
+#include "render/drawn_items.h"
+#include "render/screen_hull.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,32 +10,10 @@
 namespace tumble {
 namespace {
 
-using Point = Eigen::Vector2d;  // pixels
+using Point = ScreenPoint;
 
 // Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
 constexpr double margin = 1.0;  // pixels
-
-double cross(const Point& a, const Point& b, const Point& c) {
-    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-// Andrew 1979, Another Efficient Algorithm for Convex Hulls in Two Dimensions; anticlockwise for x right, y up.
-std::vector<Point> convex_hull(std::array<Point, 8> points) {
-    std::sort(points.begin(), points.end(),
-              [](const Point& a, const Point& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-    std::vector<Point> hull;
-    const auto half = [&](auto begin, auto end) {
-        const std::size_t base = hull.size();
-        for (auto at = begin; at != end; ++at) {
-            while (hull.size() >= base + 2 && cross(hull[hull.size() - 2], hull.back(), *at) <= 0.0) hull.pop_back();
-            hull.push_back(*at);
-        }
-        hull.pop_back();  // the next half begins with it
-    };
-    half(points.begin(), points.end());
-    half(points.rbegin(), points.rend());
-    return hull;
-}
 
 struct Projected {
     std::array<Point, 8> points;                                               // as many as were given
@@ -62,15 +43,6 @@ int last_cell(double pixel, int count) {
     return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell));
 }
 
-ScreenCover::Corners box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size) {
-    ScreenCover::Corners corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const Vec3 sides((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
-        corners[i] = center + axes * half_size.cwiseProduct(sides);
-    }
-    return corners;
-}
-
 // Those turned to the eye and not hidden.
 std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCover& cover) {
     std::uint8_t faces = 0;
@@ -98,22 +70,33 @@ ScreenCover::ScreenCover(const CameraView& view)
 void ScreenCover::add(const Corners& corners) {
     Projected box;
     if (!project(corners, *view_, box)) return;
-    const std::vector<Point> hull = convex_hull(box.points);
+    const std::vector<Point> hull = convex_hull({box.points.begin(), box.points.end()});
     if (hull.size() < 3) return;
-    const auto inside = [&](double x, double y) {
+    // On each line between rows of cells, the hull without its rim is an interval; a cell is covered within both of its.
+    const auto interval = [&](double y, double& left, double& right) {
+        left = -std::numeric_limits<double>::infinity();
+        right = -left;
         for (std::size_t i = 0; i < hull.size(); ++i) {
-            const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
-            if (cross(a, b, {x, y}) < margin * (b - a).norm()) return false;
+            const Point &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+            // turn(a, b, (x, y)) >= margin |edge|, solved for x
+            const double rest = edge.x() * (y - a.y()) + edge.y() * a.x() - margin * edge.norm();
+            if (edge.y() > 0.0) right = std::min(right, rest / edge.y());
+            if (edge.y() < 0.0) left = std::max(left, rest / edge.y());
+            if (edge.y() == 0.0 && rest < 0.0) left = std::numeric_limits<double>::infinity();
         }
-        return true;
     };
-    for (int row = first_cell(box.y0); row <= last_cell(box.y1, rows_); ++row)
-        for (int column = first_cell(box.x0); column <= last_cell(box.x1, columns_); ++column) {
-            const double x0 = column * cell, y0 = row * cell, x1 = x0 + cell, y1 = y0 + cell;
-            if (!inside(x0, y0) || !inside(x1, y0) || !inside(x0, y1) || !inside(x1, y1)) continue;
+    const int first = first_cell(box.y0);
+    double above_left, above_right, left, right;
+    interval(first * cell, above_left, above_right);
+    for (int row = first; row <= last_cell(box.y1, rows_); ++row, above_left = left, above_right = right) {
+        interval((row + 1) * cell, left, right);
+        const double from = std::max({above_left, left, 0.0}), to = std::min(above_right, right);
+        const double end = std::min(std::floor(to / cell), double(columns_));
+        for (int column = int(std::ceil(std::min(from, 1e9) / cell)); column < end; ++column) {
             double& depth = depths_[std::size_t(row * columns_ + column)];
             depth = std::min(depth, box.furthest);
         }
+    }
 }
 
 bool ScreenCover::hides(std::span<const Vec3> corners) const {

@@ -15,12 +15,6 @@
 
 namespace tumble {
 
-/// Pixels from x0 to before x1, y0 to before y1, from the top left corner. Empty when x0 >= x1 or y0 >= y1.
-struct PixelArea {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
-
 class ScreenCover {
 public:
     static constexpr int cell = 8;  // pixels: smaller ones hide little more and cost more to fill

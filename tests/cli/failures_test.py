@@ -122,6 +122,23 @@ class Failures(program.ProgramTest):
             for path in (self.folder / "out").iterdir():
                 path.unlink()
 
+    def processes_of(self, run):
+        """Its drawing processes: the children that are it again."""
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        return [int(c) for c in children if pathlib.Path(f"/proc/{c}/comm").read_text().strip() == "tumble"]
+
+    def test_a_drawing_process_dies(self):
+        run = self.started(*self.LONG, "--workers", "2")
+        workers = self.processes_of(run)
+        self.assertEqual(len(workers), 2)
+        os.kill(workers[1], signal.SIGSEGV)
+        error = run.communicate(timeout=60)[1]
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(error, r"error: cannot draw frame \d+: its process ended by signal 11 \(Segmentation fault\)")
+        self.check_whole_frames()
+        self.assertEqual([name for name in self.names() if "frame_0" not in name], ["out"])
+        self.assertFalse(pathlib.Path(f"/proc/{workers[0]}").exists())
+
     def test_an_interrupted_table_is_not_there(self):
         run = subprocess.Popen([program.TUMBLE, "simulate", "scene.toml", "--trajectory", "t.csv", "--duration", "1e5"],
                                cwd=self.folder, stderr=subprocess.PIPE, text=True)
@@ -140,13 +157,13 @@ class Failures(program.ProgramTest):
         run.communicate(timeout=60)
         self.check_whole_frames()
         self.assertFalse((self.folder / "a.mp4").exists())
-        # ffmpeg sees the end of its input and stops by itself; it must not outlive the test's folder.
+        # ffmpeg and the drawing processes see the end of their input and stop by themselves; they must not outlive the test's folder.
         deadline = time.monotonic() + 30
-        while self.ffmpeg_runs() and time.monotonic() < deadline:
+        while self.something_runs() and time.monotonic() < deadline:
             time.sleep(0.05)
         self.assertFalse((self.folder / "a.mp4").exists())
 
-    def ffmpeg_runs(self):
+    def something_runs(self):
         for path in pathlib.Path("/proc").glob("[0-9]*/cwd"):
             try:
                 if os.readlink(path) == str(self.folder):

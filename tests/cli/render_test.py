@@ -42,7 +42,7 @@ class Render(program.ProgramTest):
     def test_rates(self):
         for fps, rate, count in (("29.97", "2997/100", 3), ("0.5", "1/2", 1), ("1e6", "1000000/1", 100001)):
             duration = "0.1" if fps != "1e6" else "0.000003"
-            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration)
+            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration, "--constant-rate")
             expected = count if fps != "1e6" else 4
             self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), [rate, str(expected)])
 
@@ -51,14 +51,30 @@ class Render(program.ProgramTest):
         self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["1"])
         self.assertEqual(self.names(), ["a.mp4", "out", "out/frame_000000.png"])
 
+    RESTING = program.SCENE.replace("position = [0.0, 3.0, 0.0]", "position = [0.0, 0.5, 0.0]").replace(
+        "angular_velocity = [1.0, 2.0, 0.5]", "")
+
+    def test_what_rests_is_drawn_once_and_shown_longer(self):
+        self.write("resting.toml", self.RESTING)
+        run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3")
+        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (what does not change is shown longer)", run.stderr)
+        self.assertEqual(program.probe(self.folder / "a.mp4", "duration,nb_read_frames"),
+                         ["3.100000", "4"])
+        self.assertIn("frames/s; 1 drawn;", run.stderr)
+        frames = [(self.folder / "out" / name).read_bytes() for name in program.frame_names(31)]
+        self.assertEqual(len(set(frames)), 1)
+        self.check(0, "render", "resting.toml", "-o", "a.mp4", "--duration", "3", "--constant-rate")
+        self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), ["10/1", "31"])
+
     def test_odd_sizes(self):
         self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--size", "49x33", "--duration", "0")
         self.assertEqual(program.png_size(self.folder / "out/frame_000000.png"), (49, 33))
         self.assertEqual(program.probe(self.folder / "a.mp4", "width,height"), ["50", "34"])
 
-    def test_threads_and_repetition_change_no_byte(self):
-        for name, threads in (("a", 1), ("b", 4), ("c", 4)):
-            self.check(0, "render", "scene.toml", "-o", name + ".mp4", "--frames", name, "--threads", threads)
+    def test_threads_workers_and_repetition_change_no_byte(self):
+        for name, threads, workers in (("a", 1, 1), ("b", 4, 3), ("c", 4, 2)):
+            self.check(0, "render", "scene.toml", "-o", name + ".mp4", "--frames", name, "--threads", threads,
+                       "--workers", workers)
         for name in program.frame_names(6):
             a = (self.folder / "a" / name).read_bytes()
             self.assertEqual(a, (self.folder / "b" / name).read_bytes())
@@ -71,6 +87,28 @@ class Render(program.ProgramTest):
         self.write("fast.toml", program.SCENE.replace("fps = 10", "fps = 20").replace("per_frame = 4", "per_frame = 2"))
         self.check(0, "render", "fast.toml", "--frames", "b")
         self.assertEqual((self.folder / "a/frame_000002.png").read_bytes(), (self.folder / "b/frame_000004.png").read_bytes())
+
+    def test_slow_motion(self):
+        options = ("--size", "320x240", "--duration", "0.3")
+        self.check(0, "render", "scene.toml", "--frames", "a", *options)
+        run = self.check(0, "render", "scene.toml", "--frames", "b", "-o", "b.mp4", "--speed", "0.25", *options)
+        self.assertIn("wrote b.mp4: 13 frames", run.stderr)
+        self.assertEqual(program.probe(self.folder / "b.mp4", "r_frame_rate,nb_read_frames"), ["10/1", "13"])
+        for n in range(4):
+            self.assertEqual((self.folder / f"a/frame_{n:06}.png").read_bytes(),
+                             (self.folder / f"b/frame_{4 * n:06}.png").read_bytes())
+        for speed in ("0", "-1", "1e4", "fast"):
+            self.check(2, "render", "scene.toml", "--speed", speed)
+
+    def test_motion_blur(self):
+        options = ("--size", "64x48", "--duration", "0.2")
+        self.check(0, "render", "scene.toml", "--frames", "sharp", *options)
+        self.check(0, "render", "scene.toml", "--frames", "blurred", "--shutter", "180", "--workers", "2", *options)
+        self.check(0, "render", "scene.toml", "--frames", "again", "--shutter", "180", "--workers", "1", *options)
+        for name in program.frame_names(3):
+            blurred = (self.folder / "blurred" / name).read_bytes()
+            self.assertNotEqual((self.folder / "sharp" / name).read_bytes(), blurred)
+            self.assertEqual((self.folder / "again" / name).read_bytes(), blurred)
 
     def test_scenes_of_nearly_nothing(self):
         self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")

@@ -9,11 +9,18 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 
 namespace tumble {
 namespace {
+
+std::vector<std::byte> encoded(const Image& image) {
+    PngEncoder encoder;
+    const std::span<const std::byte> bytes = encoder.encode(image);
+    return {bytes.begin(), bytes.end()};
+}
 
 std::string message_of(const std::filesystem::path& path) {
     try {
@@ -44,8 +51,7 @@ TEST(Png, LeavesAlphaOut) {
 }
 
 TEST(Png, SaysItIsSrgbRgb8) {
-    std::vector<std::byte> bytes;
-    encode_png(colorful(9, 5), bytes);
+    const std::vector<std::byte> bytes = encoded(colorful(9, 5));
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     EXPECT_EQ(text.substr(1, 3), "PNG");
     EXPECT_EQ(text[24], 8);   // bits
@@ -54,15 +60,43 @@ TEST(Png, SaysItIsSrgbRgb8) {
 }
 
 TEST(Png, TheSamePictureIsTheSameBytes) {
-    std::vector<std::byte> first, second(100);
-    encode_png(colorful(64, 48), first);
-    encode_png(colorful(64, 48), second);
+    const std::vector<std::byte> first = encoded(colorful(64, 48));
+    const std::vector<std::byte> second = encoded(colorful(64, 48));
     EXPECT_EQ(first, second);
 }
 
+TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
+    PngEncoder encoder;
+    for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
+        Image image = colorful(width, height);
+        encoder.encode(image, {});   // of another size than before: all of it, whatever has changed
+        const std::vector<Rectangle> changes[] = {
+            {{3, 0, 1, 1}}, {{0, height - 1, width, 1}}, {}, {{1, 5, 4, 20}, {5, 25, 2, 6}}, {{0, 0, width, height}}};
+        int value = 0;
+        for (const std::vector<Rectangle>& changed : changes) {
+            for (const Rectangle& r : changed) fill(image, r.x, r.y, r.width, r.height, {++value, 9, 200});
+            const std::span<const std::byte> part = encoder.encode(image, changed);
+            EXPECT_TRUE(std::ranges::equal(part, encoded(image))) << width << " x " << height << ", " << value;
+        }
+    }
+}
+
+TEST(Png, WhatDoesNotCompressFits) {
+    const TestFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 1000}, {500, 333}}) {
+        Image image(width, height);
+        std::uint32_t random = 1;
+        for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) image.at(x, y)[3] = 255;
+        write_png(folder / "a.png", image);
+        EXPECT_EQ(read_png(folder / "a.png"), image);
+        EXPECT_LE(encoded(image).size(), png_bytes_bound(width, height));
+    }
+}
+
 TEST(Png, AnEmptyPictureIsRefused) {
-    std::vector<std::byte> bytes;
-    EXPECT_THROW(encode_png(Image(0, 5), bytes), RunError);
+    EXPECT_THROW(encoded(Image(0, 5)), RunError);
     const TestFolder folder;
     EXPECT_THROW(write_png(folder / "a.png", Image()), RunError);
     EXPECT_EQ(folder.files(), 0u);
@@ -115,8 +149,7 @@ TEST(Png, WhatIsNoPngIsNamed) {
 
 TEST(Png, EveryCutIsRefused) {
     const TestFolder folder;
-    std::vector<std::byte> bytes;
-    encode_png(colorful(20, 10), bytes);
+    const std::vector<std::byte> bytes = encoded(colorful(20, 10));
     const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (std::size_t n = 0; n < whole.size() - 12; n += 7) {   // the last 12 bytes are the end mark: nothing is lost
         write_text(folder / "cut.png", whole.substr(0, n));
@@ -126,8 +159,7 @@ TEST(Png, EveryCutIsRefused) {
 
 TEST(Png, NoChangedByteCrashes) {
     const TestFolder folder;
-    std::vector<std::byte> bytes;
-    encode_png(colorful(20, 10), bytes);
+    const std::vector<std::byte> bytes = encoded(colorful(20, 10));
     const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (std::size_t n = 0; n < whole.size(); ++n) {
         std::string broken = whole;
@@ -139,8 +171,7 @@ TEST(Png, NoChangedByteCrashes) {
 
 TEST(Png, AHostileSizeIsRefusedBeforeMemoryIsTaken) {
     const TestFolder folder;
-    std::vector<std::byte> bytes;
-    encode_png(colorful(1, 1), bytes);
+    const std::vector<std::byte> bytes = encoded(colorful(1, 1));
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const char huge[] = {0x00, 0x0f, 0x42, 0x40};   // 1,000,000, big end first
     std::memcpy(&text[16], huge, 4);

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace tumble {
 namespace {
@@ -138,6 +140,83 @@ TEST(VideoWriter, TheSameFramesAreTheSameBytes) {
         EXPECT_TRUE(read_text(folder / ("a" + std::string(ending))) == read_text(folder / ("b" + std::string(ending))))
             << ending;
     }
+}
+
+/// Which grey is shown at each of so many times n/fps: by the time stamps of the stored frames.
+std::vector<int> shown(const std::filesystem::path& clip, double fps, int frames) {
+    const std::filesystem::path raw = clip.string() + ".grey";
+    output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-fps_mode", "passthrough", "-f", "rawvideo",
+                                  "-pix_fmt", "gray", "-y", raw.string()});
+    const std::string bytes = read_text(raw);
+    std::istringstream times(*output_of("/usr/bin/ffprobe", {"-v", "error", "-select_streams", "v", "-show_entries",
+                                                             "frame=pts_time", "-of", "default=nw=1:nk=1", clip.string()}));
+    std::vector<int> greys;
+    double time = 0.0;
+    for (std::size_t at = 0; times >> time && at < bytes.size(); at += 64 * 48) {
+        const auto first = static_cast<std::size_t>(std::llround(time * fps));
+        EXPECT_NEAR(double(first), time * fps, 0.1);
+        if (!greys.empty()) greys.resize(first, greys.back());
+        greys.push_back(static_cast<std::uint8_t>(bytes[at]));
+    }
+    EXPECT_EQ(greys.size(), std::size_t(frames));
+    greys.resize(std::size_t(frames));
+    return greys;
+}
+
+TEST(VideoWriter, WhatStaysIsStoredOnceAndShownLonger) {
+    const TestFolder folder;
+    // What is drawn anew at which frame; the last one stays to the end.
+    const std::vector<std::pair<int, int>> changes{{0, 40}, {1, 60}, {5, 80}, {6, 100}, {7, 120}, {12, 140}, {45, 200}};
+    constexpr int frames = 60;
+    for (const char* name : {"a.mp4", "a.mkv", "a.webm", "a.gif"}) {
+        SCOPED_TRACE(name);
+        std::vector<int> expected;
+        for (const FrameTimes times : {FrameTimes::longer_frames, FrameTimes::constant_rate}) {
+            VideoWriter writer(folder / name, 64, 48, 25.0, times);
+            expected.clear();
+            std::size_t next = 0;
+            for (int n = 0; n < frames; ++n) {
+                if (next < changes.size() && changes[next].first == n) {
+                    const int grey = changes[next++].second;
+                    writer.write(plain(64, 48, {grey, grey, grey}));
+                    expected.push_back(grey);
+                } else {
+                    writer.repeat();
+                    expected.push_back(expected.back());
+                }
+            }
+            writer.finish();
+            // Frame 37 is sent again after a second, frame 59 is the last.
+            const std::int64_t stored = times == FrameTimes::longer_frames ? 9 : frames;
+            EXPECT_EQ(writer.frames_in_clip(), frames);
+            EXPECT_EQ(writer.frames_stored(), stored);
+            if (times == FrameTimes::longer_frames || std::string(name) != "a.gif") {
+                EXPECT_EQ(probe(folder / name, "nb_read_frames"), std::to_string(stored));
+            }
+            const std::vector<int> greys = shown(folder / name, 25.0, frames);
+            for (std::size_t n = 0; n < greys.size(); ++n) EXPECT_NEAR(greys[n], expected[n], 3) << n;
+            if (std::string(name) == "a.mp4") {
+                EXPECT_EQ(probe(folder / name, "r_frame_rate,duration"), "25/1 2.400000");
+            }
+        }
+    }
+}
+
+TEST(VideoWriter, AFastGifKeepsWhatItShowed) {
+    // Of 100 frames/s it takes every second one: what only the others show must not come into it.
+    const TestFolder folder;
+    VideoWriter writer(folder / "a.gif", 64, 48, 100.0);
+    const Image dark = plain(64, 48, {40, 40, 40}), bright = plain(64, 48, {200, 200, 200});
+    for (int n = 0; n < 6; ++n) {   // clip frames 0 to 5: dark, dark, bright, bright, dark, dark
+        writer.write(n / 2 == 1 ? bright : dark);
+        writer.repeat();
+    }
+    writer.write(dark);
+    writer.write(bright);   // frame 13: not in the clip
+    writer.finish();
+    EXPECT_EQ(writer.frames_in_clip(), 7);
+    const std::vector<int> greys = shown(folder / "a.gif", 50.0, 7);
+    for (std::size_t n = 0; n < 7; ++n) EXPECT_NEAR(greys[n], n == 2 || n == 3 ? 200 : 40, 6) << n;
 }
 
 TEST(VideoWriter, StrangeNamesAreNames) {

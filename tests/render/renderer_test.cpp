@@ -177,7 +177,9 @@ TEST(Renderer, AveragesTheSamplesOfAPixel) {
                              Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
     for (const int samples : {1, 4}) {  // llvmpipe has no other numbers: 2 are drawn as 4
         scene.output.samples = samples;
-        const Image image = drawn(scene, shaders.options());
+        RenderOptions options = shaders.options();
+        options.multisample = true;
+        const Image image = drawn(scene, options);
         std::set<int> values;
         for (std::size_t i = 0; i < image.pixels.size(); i += 4) values.insert(image.pixels[i]);
         EXPECT_EQ(int(values.size()), samples + 1);

@@ -70,19 +70,21 @@ TEST(Visibility, FacesLeftOutAreBehindOtherBoxesOrTurnedAway) {
     EXPECT_GT(checked, 1000);
 }
 
-TEST(Visibility, GroundLeftOutIsBehindBoxesAndTheRestIsDrawnOnce) {
+TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
     const Heap heap;
     const ShadowStage stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
-    const PlaneAreas areas = find_plane_areas(planes[0], heap.scene, heap.looks, heap.snapshot, heap.view,
-                                              stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover);
+    TileMarks everything(heap.view);
+    everything.mark_all();
+    const std::vector<Rectangle> areas = find_touched_areas(
+        planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view), heap.view,
+        stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, everything);
     std::vector<int> times(1280 * 720, 0);
-    for (const auto* list : {&areas.touched, &areas.open})
-        for (const PixelArea& area : *list)
-            for (int y = area.y0; y < area.y1; ++y)
-                for (int x = area.x0; x < area.x1; ++x) ++times[std::size_t(y * 1280 + x)];
-    int left_out = 0;
+    for (const Rectangle& area : areas)
+        for (int y = area.y; y < area.y + area.height; ++y)
+            for (int x = area.x; x < area.x + area.width; ++x) ++times[std::size_t(y * 1280 + x)];
+    int left_out = 0, hidden = 0;
     for (int y = 0; y < 720; ++y)
         for (int x = 0; x < 1280; ++x) {
             const int drawn = times[std::size_t(y * 1280 + x)];
@@ -91,10 +93,23 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesAndTheRestIsDrawnOnce) {
             const Vec3 ray = heap.view.ray(x + 0.5, y + 0.5);
             if (ray.y() >= 0.0) continue;
             ++left_out;
-            EXPECT_TRUE(heap.hidden(heap.scene.camera.eye - ray * (heap.scene.camera.eye.y() / ray.y()), 0))
-                << x << ", " << y;
+            const Vec3 point = heap.scene.camera.eye - ray * (heap.scene.camera.eye.y() / ray.y());
+            if (heap.hidden(point, 0)) {
+                ++hidden;
+                continue;
+            }
+            for (std::size_t i = 1; i < heap.scene.bodies.size(); ++i) {
+                const BodyDescription& box = heap.scene.bodies[i];
+                EXPECT_FALSE(blocks(box, point - heap.scene.light.direction.normalized() * 100.0, point))
+                    << "a shadow at " << x << ", " << y;
+                const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
+                const Vec3 outside = ((box.rotation.conjugate() * (point - box.position)).cwiseAbs() - half).cwiseMax(0.0);
+                EXPECT_GT(outside.norm(), heap.looks.bodies[i].reach) << "darkening at " << x << ", " << y;
+            }
         }
-    EXPECT_GT(left_out, 500);
+    EXPECT_GT(left_out, 5000);
+    EXPECT_GT(hidden, 500);
+    EXPECT_LT(left_out, 24000) << "of 26400: some ground is touched";
 }
 
 TEST(Visibility, ABoxAroundTheEyeHidesNothing) {

@@ -1,0 +1,14 @@
+// The poses of a clip, simulated beforehand, so that drawing is measured alone.
+#pragma once
+
+#include "scene/description.h"
+#include "sim/snapshot.h"
+
+#include <vector>
+
+namespace tumble::bench {
+
+/// Frames `first` to before `end` of the scene, as they are drawn (render/drawn_poses.h).
+std::vector<Snapshot> drawn_clip(const SceneDescription& scene, int first, int end);
+
+}  // namespace tumble::bench

@@ -1,0 +1,33 @@
+// How far a picture is from a reference, where the eye looks.
+#pragma once
+
+#include "core/image.h"
+
+#include <vector>
+
+namespace tumble::bench {
+
+/// Mean and spread of many pictures of one scene that were moved by parts of a pixel.
+class PictureMean {
+public:
+    void add(const Image& image);
+
+    /// The mean, rounded.
+    Image mean() const;
+
+    /// Pixels on an edge: the brightness' standard deviation over the pictures is over 8 levels.
+    std::vector<bool> edges() const;
+
+private:
+    int width_ = 0, height_ = 0, count_ = 0;
+    std::vector<double> sum_, squares_;   // of the four channels; of the brightness
+};
+
+/// Root of the mean squared difference over red, green and blue of the pixels chosen, levels.
+double rms_difference(const Image& a, const Image& b, const std::vector<bool>& chosen);
+
+/// Wang, Bovik, Sheikh, Simoncelli 2004, Image quality assessment: mean structural similarity of the brightness, over
+/// 8 x 8 windows.
+double structural_similarity(const Image& a, const Image& b);
+
+}  // namespace tumble::bench

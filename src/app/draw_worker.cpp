@@ -1,0 +1,199 @@
+#include "app/draw_worker.h"
+
+#include "app/stage_time.h"
+#include "core/error.h"
+#include "core/image_mean.h"
+#include "output/png_writer.h"
+#include "output/video_pixels.h"
+
+#include <fmt/format.h>
+
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+struct Job {
+    std::int64_t frame = 0;
+    int slot = 0;
+    std::size_t moments = 1;
+};
+
+/// Messages are whole or not there (SOCK_SEQPACKET). False: nobody is at the other end.
+template <typename T>
+bool send_message(int socket, const T& message) {
+    ssize_t n = 0;
+    while ((n = ::send(socket, &message, sizeof message, MSG_NOSIGNAL)) < 0 && errno == EINTR) {}
+    return n == ssize_t(sizeof message);
+}
+
+template <typename T>
+bool receive_message(int socket, T& message) {
+    ssize_t n = 0;
+    while ((n = ::recv(socket, &message, sizeof message, 0)) < 0 && errno == EINTR) {}
+    return n == ssize_t(sizeof message);
+}
+
+template <typename Work>
+WorkTime timed(const Work& work) {
+    StageTime time;
+    {
+        const StageTimer timer(time);
+        work();
+    }
+    return {time.wall.load(), time.cpu.load()};
+}
+
+/// The child's whole life: its OpenGL, and its last frame in all forms.
+class FrameMaker {
+public:
+    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, WorkerMemory& memory)
+        : memory_(memory), renderer_(scene, options) {
+        if (forms.video) video_.emplace(*forms.video, scene.output.width, scene.output.height);
+        if (forms.png) png_.emplace();
+    }
+
+    DrawnFrame make(const Job& job) {
+        DrawnFrame drawn;
+        drawn.frame = snapshot_.frame = job.frame;
+        drawn.drawing = timed([&] { expose(job); });
+        const bool partly = !blurred_before_ && job.moments == 1;   // else another picture came before
+        const std::vector<Rectangle> changed =
+            partly ? renderer_.changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
+        const Image& picture = job.moments == 1 ? image_ : blurred_;
+        blurred_before_ = job.moments > 1;
+        drawn.unchanged = changed.empty();
+        if (video_)
+            drawn.conversion = timed([&] {
+                video_->update(picture, changed);
+                std::ranges::copy(video_->bytes(), memory_.video(job.slot).data());
+            });
+        if (png_)
+            drawn.png = timed([&] {
+                if (!changed.empty()) file_ = png_->encode(picture, changed);
+                std::ranges::copy(file_, memory_.png(job.slot).data());
+            });
+        drawn.png_bytes = file_.size();
+        return drawn;
+    }
+
+private:
+    void expose(const Job& job) {
+        for (std::size_t i = 0; i < job.moments; ++i) {
+            memory_.read_poses(job.slot, i, snapshot_);
+            renderer_.render(snapshot_, image_);
+            if (job.moments > 1) mean_.add(image_);
+        }
+        if (job.moments > 1) mean_.take(blurred_);
+    }
+
+    WorkerMemory& memory_;
+    Renderer renderer_;
+    Snapshot snapshot_;
+    Image image_;          // the last moment that was drawn
+    ImageMean mean_;
+    Image blurred_;
+    bool blurred_before_ = false;
+    std::optional<VideoPixels> video_;
+    std::optional<PngEncoder> png_;
+    std::span<const std::byte> file_;
+};
+
+/// What went wrong, without the "error: " that the program puts before it again.
+std::string reason(const std::exception& error) {
+    std::string_view text = error.what();
+    constexpr std::string_view prefix = "error: ";
+    if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
+    return std::string(text);
+}
+
+[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms,
+                       WorkerMemory& memory, int socket) {
+    // Another worker's socket, kept open here, would hide the program's end from it.
+    ::close_range(STDERR_FILENO + 1, static_cast<unsigned>(socket) - 1, 0);
+    ::close_range(static_cast<unsigned>(socket) + 1, ~0u, 0);
+    ::setpgid(0, 0);   // Ctrl-C reaches it only through us
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: a core for each worker
+
+    Job job;
+    bool asked = false;
+    try {
+        FrameMaker maker(scene, options, forms, memory);
+        while ((asked = receive_message(socket, job)))
+            if (!send_message(socket, maker.make(job))) break;
+    } catch (const std::exception& error) {
+        const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        memory.write_words(out_of_memory ? "out of memory" : reason(error));
+        DrawnFrame failure;
+        failure.failed = true;
+        // Where OpenGL could not be opened, no frame has been asked for yet.
+        if (asked || receive_message(socket, job)) send_message(socket, failure);
+    }
+    ::_exit(0);   // no destructors of the parent's objects, no second flush of its streams
+}
+
+}  // namespace
+
+DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+                       int most_moments)
+    : memory_(std::make_shared<WorkerMemory>(scene, forms, slots, most_moments)) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+        throw RunError("cannot make a socket: " + std::generic_category().message(errno));
+    std::fflush(nullptr);
+    id_ = ::fork();
+    if (id_ == 0) work(scene, options, forms, *memory_, ends[1]);
+    const int error = errno;
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (id_ < 0) {
+        ::close(socket_);
+        throw RunError("cannot start a process for drawing: " + std::generic_category().message(error));
+    }
+}
+
+DrawWorker::~DrawWorker() {
+    kill();
+    finish();
+}
+
+DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(slot, i, exposure.moments[i]);
+    DrawnFrame drawn;
+    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size()}) || !receive_message(socket_, drawn))
+        died(exposure.frame);
+    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
+    return drawn;
+}
+
+void DrawWorker::died(std::int64_t frame) {
+    throw RunError(fmt::format("cannot draw frame {}: its process {}", frame, finish().describe()));
+}
+
+void DrawWorker::kill() {
+    const std::lock_guard lock(id_mutex_);
+    if (id_ >= 0) ::kill(id_, SIGKILL);
+}
+
+ProcessEnd DrawWorker::finish() {
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes it for its last job
+    const std::lock_guard lock(id_mutex_);
+    if (id_ < 0) return {};
+    return wait_for_process(std::exchange(id_, -1));
+}
+
+}  // namespace tumble

@@ -1,0 +1,29 @@
+// Motion blur: a frame as the mean, in linear light, of pictures at several moments while the shutter is open.
+#pragma once
+
+#include "sim/snapshot.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// What one frame shows: its moments, in order; a single one without motion blur.
+struct Exposure {
+    std::int64_t frame = 0;
+    std::vector<Snapshot> moments;
+};
+
+/// Each frame is simulated in so many equal parts; the first `moments` of them begin while the shutter is open.
+struct Shutter {
+    int parts = 1, moments = 1;
+
+    /// A shutter of so many degrees (of 360, a whole frame) sampled so often; 0 degrees: a moment. The parts are a
+    /// whole number, so that time stays a whole number of steps: the shutter is open for the nearest that can be (a half or a
+    /// whole frame exactly).
+    static Shutter of(double degrees, int samples);
+};
+
+inline constexpr int most_blur_samples = 64;
+
+}  // namespace tumble

@@ -1,0 +1,75 @@
+#include "app/worker_memory.h"
+
+#include "core/check.h"
+#include "core/error.h"
+#include "output/png_writer.h"
+
+#include <fmt/format.h>
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t page = 4096;                 // bytes: parts of different writers on pages of their own
+constexpr std::size_t words_size = page;
+constexpr std::size_t numbers_of_body = 7;         // x, y, z; x, y, z, w
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
+
+}  // namespace
+
+WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
+    : bodies_(scene.bodies.size()),
+      poses_size_(bodies_ * numbers_of_body * sizeof(double)),
+      video_at_(whole_pages(std::size_t(most_moments) * poses_size_)),
+      video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
+      png_at_(video_at_ + whole_pages(video_size_)),
+      png_size_(forms.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
+      slot_size_(png_at_ + whole_pages(png_size_)),
+      words_at_(slot_size_ * std::size_t(slots)),
+      size_(words_at_ + words_size) {
+    // Pages that are never written take no memory: a PNG file is far smaller than the room for it.
+    void* const memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED)
+        throw RunError(fmt::format("no memory for frames ({} MiB): {}", size_ >> 20,
+                                   std::generic_category().message(errno)));
+    memory_ = static_cast<std::byte*>(memory);
+}
+
+WorkerMemory::~WorkerMemory() { munmap(memory_, size_); }
+
+void WorkerMemory::write_poses(int slot, std::size_t moment, const Snapshot& snapshot) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
+    auto* to = reinterpret_cast<double*>(part(slot, moment * poses_size_, poses_size_).data());
+    for (const BodyState& body : snapshot.bodies) {
+        std::copy_n(body.origin.data(), 3, to);
+        std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
+        to += numbers_of_body;
+    }
+}
+
+void WorkerMemory::read_poses(int slot, std::size_t moment, Snapshot& snapshot) const {
+    snapshot.bodies.resize(bodies_);
+    const auto* from = reinterpret_cast<const double*>(part(slot, moment * poses_size_, poses_size_).data());
+    for (BodyState& body : snapshot.bodies) {
+        std::copy_n(from, 3, body.origin.data());
+        std::copy_n(from + 3, 4, body.orientation.coeffs().data());
+        from += numbers_of_body;
+    }
+}
+
+void WorkerMemory::write_words(const std::string& words) {
+    const std::size_t size = std::min(words.size(), words_size - 1);
+    std::memcpy(memory_ + words_at_, words.data(), size);
+    memory_[words_at_ + size] = std::byte{0};
+}
+
+std::string WorkerMemory::words() const { return reinterpret_cast<const char*>(memory_ + words_at_); }
+
+}  // namespace tumble

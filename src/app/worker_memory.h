@@ -1,0 +1,51 @@
+// What a drawing process and the program share: slots, one for each frame on its way. Poses go in; what is made of the
+// frame comes out: its pixels as ffmpeg takes them, its PNG file. The memory has no name, so that none is left behind
+// however the processes end.
+#pragma once
+
+#include "output/video_format.h"
+#include "scene/description.h"
+#include "sim/snapshot.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tumble {
+
+/// What is made of every frame.
+struct FrameForms {
+    std::optional<PixelForm> video;
+    bool png = false;
+};
+
+class WorkerMemory {
+public:
+    /// Before the fork, for frames of so many moments. Throws RunError when there is not enough memory.
+    WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments);
+    ~WorkerMemory();
+    WorkerMemory(const WorkerMemory&) = delete;
+    WorkerMemory& operator=(const WorkerMemory&) = delete;
+
+    /// Of one moment of the frame: origins and orientations, which is all that drawing needs.
+    void write_poses(int slot, std::size_t moment, const Snapshot& snapshot);
+    void read_poses(int slot, std::size_t moment, Snapshot& snapshot) const;
+
+    std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
+    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // room for the largest
+
+    /// Why a frame failed; cut short where it is long.
+    void write_words(const std::string& words);
+    std::string words() const;
+
+private:
+    std::span<std::byte> part(int slot, std::size_t at, std::size_t size) const {
+        return {memory_ + std::size_t(slot) * slot_size_ + at, size};
+    }
+
+    std::size_t bodies_, poses_size_, video_at_, video_size_, png_at_, png_size_, slot_size_, words_at_, size_;
+    std::byte* memory_;
+};
+
+}  // namespace tumble

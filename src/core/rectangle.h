@@ -1,0 +1,13 @@
+// Part of a picture.
+#pragma once
+
+namespace tumble {
+
+/// Pixels, from the top left corner of the picture.
+struct Rectangle {
+    int x = 0, y = 0;
+    int width = 0, height = 0;
+    friend bool operator==(const Rectangle&, const Rectangle&) = default;
+};
+
+}  // namespace tumble

@@ -1,0 +1,153 @@
+#include "render/change_finder.h"
+
+#include "render/plane_marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The shadow maps' square in coarse cells: how near to the sun a moved body begins in each. What lies outside of the
+// square counts as in the cells at its rim.
+class LightCells {
+public:
+    explicit LightCells(const ShadowLight& light) : light_(light) {
+        depths_.fill(std::numeric_limits<double>::infinity());
+    }
+
+    void add(const DrawnItem& caster) {
+        const double depth = light_.direction.dot(caster.center) - caster.radius;
+        visit(caster, light_.margin(caster), [&](double& cell) { cell = std::min(cell, depth); });
+    }
+    bool shadows(const DrawnItem& receiver) {
+        const double depth = light_.direction.dot(receiver.center) + receiver.radius;
+        bool found = false;
+        visit(receiver, 0.0, [&](const double& cell) { found = found || cell < depth; });
+        return found;
+    }
+
+private:
+    static constexpr int count = 128;   // to a side
+
+    template <class Visit>
+    void visit(const DrawnItem& item, double more, Visit see) {
+        const double radius = (item.radius + more) * length(light_.fit.x);
+        const auto [x0, x1] = range(light_.fit.x, item.center, radius);
+        const auto [y0, y1] = range(light_.fit.y, item.center, radius);
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x) see(depths_[std::size_t(y * count + x)]);
+    }
+    static double length(const glm::vec4& row) {
+        return std::sqrt(double(row.x) * row.x + double(row.y) * row.y + double(row.z) * row.z);
+    }
+    static std::pair<int, int> range(const glm::vec4& row, const Vec3& center, double radius) {
+        const double at = row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w);
+        const auto cell = [](double u) { return int(std::clamp(std::floor(u * count), 0.0, double(count - 1))); };
+        return {cell(at - radius), cell(at + radius)};
+    }
+
+    ShadowLight light_;
+    std::array<double, std::size_t(count* count)> depths_;
+};
+
+std::array<Vec3, 4> face_corners(const DrawnItem& box, int face) {
+    std::array<Vec3, 4> points;
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < 8; ++i)
+        if ((i >> (face / 2) & 1) == std::size_t(face % 2)) points[found++] = box.corners[i];
+    return points;
+}
+
+}  // namespace
+
+ChangeFinder::ChangeFinder(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view)
+    : scene_(&scene), looks_(&looks), view_(&view) {}
+
+bool ChangeFinder::moved(const Snapshot& snapshot, std::size_t body) const {
+    const BodyState& state = snapshot.bodies[body];
+    return poses_[body].origin != state.origin || poses_[body].orientation.coeffs() != state.orientation.coeffs();
+}
+
+bool ChangeFinder::unmoved(const Snapshot& snapshot) const {
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+        if (first_ || moved(snapshot, i)) return false;
+    return !first_;
+}
+
+TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
+    TileMarks marks(*view_);
+    const std::size_t bodies = looks_->bodies.size();
+    background_changed_ = first_ || now.near_distance != near_distance_;
+    shadow_marks_ = ShadowMarks(now.shadows);
+    if (first_ || now.shadows != shadows_) shadow_marks_.mark_all();
+    if (first_) poses_.resize(bodies);
+    std::vector<char> item_moved(now.items.size(), 0);
+    for (std::size_t i = 0; i < now.items.size(); ++i) {
+        const std::size_t body = i < bodies ? i : scene_->cords[i - bodies].body;
+        item_moved[i] = first_ || moved(now.snapshot, body) ? 1 : 0;
+        if (item_moved[i] == 0) continue;
+        if (i < bodies && looks_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
+        if (!now.items[i].exists()) continue;
+        if (!first_) shadow_marks_.mark(items_[i]);
+        shadow_marks_.mark(now.items[i]);
+    }
+    // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
+    const bool too_near = std::any_of(now.items.begin(), now.items.end(), [&](const DrawnItem& item) {
+        return item.exists() && view_->sees(item.center, item.radius) &&
+               item.center.dot(view_->forward()) - item.radius < 1.01 * now.near_distance;
+    });
+    shadow_marks_.settle();
+    if (too_near || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
+        marks.mark_all();
+    } else {
+        for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
+            if (item_moved[i] == 0 || !now.items[i].exists()) continue;
+            for (const DrawnItem* item : {&items_[i], &now.items[i]}) {
+                marks.mark_hull(item->corners);
+                mark_on_planes(*item, i, now, marks);
+            }
+        }
+        if (scene_->light.shadows) mark_shadowed(item_moved, now, visibility, marks);
+        for (const OcclusionChanges::Body& changed : occlusion.bodies) {
+            const DrawnItem& item = now.items[changed.body];
+            if (item_moved[changed.body] != 0) continue;
+            if (changed.faces == 0) marks.mark_hull(item.corners);
+            for (int face = 0; face < 6; ++face)
+                if ((changed.faces >> face & 1) != 0) marks.mark_hull(face_corners(item, face));
+        }
+    }
+    for (std::size_t i = 0; i < bodies; ++i)
+        poses_[i] = {now.snapshot.bodies[i].origin, now.snapshot.bodies[i].orientation};
+    items_ = std::move(now.items);
+    near_distance_ = now.near_distance;
+    shadows_ = now.shadows;
+    first_ = false;
+    return marks;
+}
+
+void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now,
+                                  TileMarks& marks) const {
+    const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
+    const ShadowLight light(scene_->light, now.shadows);
+    const double blur = 1.5 * window_cell(*looks_);
+    for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, reach, blur, light, *view_, marks);
+}
+
+// Whatever stood still behind something that moved, as the sun sees it.
+void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
+                                 const Visibility& visibility, TileMarks& marks) const {
+    LightCells cells{ShadowLight(scene_->light, now.shadows)};
+    for (std::size_t i = 0; i < now.items.size(); ++i) {
+        if (item_moved[i] == 0 || !now.items[i].exists()) continue;
+        cells.add(items_[i]);
+        cells.add(now.items[i]);
+    }
+    for (std::size_t i = 0; i < now.items.size(); ++i) {
+        if (item_moved[i] != 0 || !now.items[i].exists()) continue;
+        if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
+        if (cells.shadows(now.items[i])) marks.mark_hull(now.items[i].corners);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,107 @@
+#include "render/edge_blender.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tumble {
+namespace {
+
+// The integral of clamp(x, 0, 1).
+double ramp_area(double x) { return x <= 0.0 ? 0.0 : x >= 1.0 ? x - 0.5 : 0.5 * x * x; }
+
+// An edge in a picture seen along its main direction: m counts along, n across.
+class Walk {
+public:
+    Walk(const Image& drawn, const TileMarks& marks, Image& frame) : drawn_(drawn), marks_(marks), frame_(frame) {}
+
+    void blend(ScreenEdge e) {
+        const double dx = e.x1 - e.x0, dy = e.y1 - e.y0;
+        across_ = std::abs(dy) > std::abs(dx);
+        inner_ = e.inner;
+        outer_ = e.outer;
+        double m0 = across_ ? e.y0 : e.x0, n0 = across_ ? e.x0 : e.y0;
+        double m1 = across_ ? e.y1 : e.x1, n1 = across_ ? e.x1 : e.y1;
+        side_ = across_ ? -1 : 1;   // of n, where the inner surface is
+        if (m1 < m0) {
+            std::swap(m0, m1);
+            std::swap(n0, n1);
+            side_ = -side_;
+        }
+        if (!(m1 > m0)) return;
+        count_m_ = across_ ? drawn_.height : drawn_.width;
+        count_n_ = across_ ? drawn_.width : drawn_.height;
+        const double slope = (n1 - n0) / (m1 - m0);
+        const int first = int(std::floor(std::max(m0, 0.0))), last = int(std::floor(std::min(m1, count_m_ - 0.5)));
+        for (int m = first; m <= last; ++m) {
+            const double from = std::max(double(m), m0), to = std::min(m + 1.0, m1), length = to - from;
+            if (length <= 0.0) continue;
+            const double line = n0 + (0.5 * (from + to) - m0) * slope, half = 0.5 * std::abs(slope) * length;
+            const int end = int(std::floor(std::clamp(line + half, -1.0, double(count_n_))));
+            for (int n = int(std::floor(std::clamp(line - half, -1.0, double(count_n_)))); n <= end; ++n)
+                pixel(m, n, line, half, length);
+        }
+    }
+
+private:
+    const std::uint8_t* at(int m, int n) const { return across_ ? drawn_.at(n, m) : drawn_.at(m, n); }
+
+    // The pixel that the edge passes, over `length` of it, at height `line`. A share of its colour comes from the neighbour
+    // over the edge, or the one behind it where the edge runs aslant. An edge that something hides meets other surfaces.
+    void pixel(int m, int n, double line, double half, double length) {
+        if (n < 0 || n >= count_n_) return;
+        const std::uint8_t here = at(m, n)[3];
+        bool is_inner = here == inner_;
+        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - line) * side_ > 0.0;   // the number does not tell
+        if (!is_inner && outer_ != 0 && here != outer_) return;
+        const int step = is_inner ? -side_ : side_;
+        for (int other = n + step; other != n + 3 * step && other >= 0 && other < count_n_; other += step) {
+            const std::uint8_t* from = at(m, other);
+            if (is_inner ? (outer_ == 0 ? from[3] == inner_ : from[3] != outer_) : from[3] != inner_) continue;
+            const int x = across_ ? n : m, y = across_ ? m : n;
+            if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
+            const double after = share_before(n + 1.0 - line, half);   // of the strip, on the side of greater n
+            // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
+            const double share = std::min(length * (step > 0 ? after : 1.0 - after), 0.5);
+            const int weight = int(256.0 * share + 0.5);
+            std::uint8_t* to = frame_.at(x, y);
+            for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
+            return;
+        }
+    }
+
+    const Image& drawn_;
+    const TileMarks& marks_;
+    Image& frame_;
+    bool across_ = false;   // the edge is steep: m is y
+    int side_ = 1, count_m_ = 0, count_n_ = 0;
+    std::uint8_t inner_ = 0, outer_ = 0;
+};
+
+}  // namespace
+
+double share_before(double t, double half) {
+    if (half < 1e-6) return std::clamp(t, 0.0, 1.0);
+    return (ramp_area(t + half) - ramp_area(t - half)) / (2.0 * half);
+}
+
+void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
+    for (const Rectangle& r : rectangles)
+        for (int y = r.y; y < r.y + r.height; ++y) {
+            const std::uint8_t* from = drawn.at(r.x, y);
+            std::uint8_t* to = frame.at(r.x, y);
+            for (int x = 0; x < r.width; ++x) {
+                std::uint32_t pixel;
+                std::memcpy(&pixel, from + 4 * x, 4);
+                pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all that we run on
+                std::memcpy(to + 4 * x, &pixel, 4);
+            }
+        }
+}
+
+void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const TileMarks& marks, Image& frame) {
+    Walk walk(drawn, marks, frame);
+    for (const ScreenEdge& edge : edges) walk.blend(edge);
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#include "render/plane_marks.h"
+
+#include "render/plane_axes.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+// A lower sun throws shadows without end.
+constexpr double least_approach = 0.02;   // sine of the elevation
+
+// The corners of the rectangle along the plane's axes around the feet of all corners, and `margin` (m) more.
+std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, double margin) {
+    const PlaneAxes axes = plane_axes(plane.normal);
+    double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
+    for (const Vec3& corner : item.corners) {
+        const double u = axes.u.dot(corner), v = axes.v.dot(corner);
+        low_u = std::min(low_u, u - margin);
+        high_u = std::max(high_u, u + margin);
+        low_v = std::min(low_v, v - margin);
+        high_v = std::max(high_v, v + margin);
+    }
+    std::array<Vec3, 4> points;
+    for (std::size_t i = 0; i < 4; ++i)
+        points[i] = axes.u * ((i & 1) != 0 ? high_u : low_u) + axes.v * ((i & 2) != 0 ? high_v : low_v) -
+                    plane.normal * plane.height;
+    return points;
+}
+
+}  // namespace
+
+ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit)
+    : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
+
+double ShadowLight::margin(const DrawnItem& item) const {
+    const double near = shadow_filter_texels * fit.near_texel;
+    if (!fit.has_far || fit.near_holds(item.center, item.radius + near)) return near;   // so is its shadow
+    return shadow_filter_texels * fit.far_texel;
+}
+
+void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
+                   const CameraView& view, TileMarks& marks) {
+    const double height = plane.normal.dot(item.center) + plane.height;
+    if (height < -item.radius) return;
+    if (reach > 0.0 && height < item.radius + 2.0 * reach && view.sees(item.center, item.radius + 2.0 * reach))
+        marks.mark_hull(foot_print(plane, item, reach + blur));
+    const double approach = -plane.normal.dot(light.direction);
+    if (!light.shadows || approach <= 0.0 || !view.sees_swept(item.center, item.radius, light.direction)) return;
+    if (approach < least_approach) return marks.mark_all();
+    std::array<Vec3, 8> feet;
+    for (std::size_t i = 0; i < 8; ++i)
+        feet[i] = item.corners[i] +
+                  light.direction * ((plane.normal.dot(item.corners[i]) + plane.height) / approach);
+    marks.mark_hull(feet, light.margin(item) / approach);
+}
+
+}  // namespace tumble

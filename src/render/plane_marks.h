@@ -1,0 +1,28 @@
+// Where on the screen a body changes the look of a plane.
+#pragma once
+
+#include "render/drawn_items.h"
+#include "render/plane_patch.h"
+#include "render/shadow_fit.h"
+#include "render/tile_marks.h"
+
+namespace tumble {
+
+/// The sun, as far as shadows on planes need it.
+struct ShadowLight {
+    bool shadows = true;
+    Vec3 direction = Vec3::Zero();   // unit, the way the light travels
+    ShadowFit fit;
+
+    ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit);
+
+    /// How far the filter reaches around the outline of this item's shadow, across the light, m.
+    double margin(const DrawnItem& item) const;
+};
+
+/// Marks the item's shadow on the plane, and its darkening of it within `reach` (m; 0: it has none), which is blurred
+/// by `blur` (m).
+void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
+                   const CameraView& view, TileMarks& marks);
+
+}  // namespace tumble

@@ -1,0 +1,53 @@
+// The edges that can be seen in a picture: where a surface ends before another one. They are known exactly, from the
+// bodies' shapes: edges and outlines of boxes, circles of balls, outlines and creases of meshes, where planes meet.
+#pragma once
+
+#include "render/drawn_items.h"
+#include "render/plane_patch.h"
+#include "render/visibility.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+struct ScreenEdge {
+    double x0, y0, x1, y1;   // pixels from the top left corner
+    std::uint8_t inner;      // the surface (surface_ids.h) on the side to which the way from 0 to 1 turns from x to y
+    std::uint8_t outer;      // the one on the other side; 0: anything that is not `inner`
+};
+
+/// A mesh's edges with the triangles on both sides; made once.
+struct MeshEdges {
+    struct Edge {
+        std::uint32_t from, to;         // vertices
+        std::int32_t left, right;       // triangles; -1: none
+        bool crease;                    // sharp enough to be seen where both sides are
+    };
+    explicit MeshEdges(const TriangleMesh& mesh);
+    std::vector<Edge> edges;
+};
+
+class EdgeFinder {
+public:
+    EdgeFinder(const SceneLooks& looks, const CameraView& view);
+
+    /// Of the items that are wanted, in scene order. Valid until the next call. What comes beside the eye has none.
+    const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
+                                        const std::vector<char>& wanted, const Visibility& visibility,
+                                        const std::vector<PlanePatch>& planes);
+
+private:
+    void add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces);
+    void add_ball(std::size_t body, const DrawnItem& item);
+    void add_mesh(std::size_t body, const BodyState& state, const MeshLook& mesh, const MeshEdges& edges);
+    void add_corner(const PlanePatch& a, const PlanePatch& b);
+
+    const SceneLooks* looks_;
+    const CameraView* view_;
+    std::vector<MeshEdges> meshes_;
+    std::vector<ScreenEdge> found_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,27 @@
+#include "render/screen_hull.h"
+
+#include <algorithm>
+
+namespace tumble {
+
+// Andrew 1979, Another Efficient Algorithm for Convex Hulls in Two Dimensions.
+std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
+    std::sort(points.begin(), points.end(), [](const ScreenPoint& a, const ScreenPoint& b) {
+        return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    });
+    std::vector<ScreenPoint> hull;
+    const auto half = [&](auto begin, auto end) {
+        const std::size_t base = hull.size();
+        for (auto at = begin; at != end; ++at) {
+            while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), *at) <= 0.0) hull.pop_back();
+            hull.push_back(*at);
+        }
+        hull.pop_back();  // the next half begins with it
+    };
+    if (points.empty()) return hull;
+    half(points.begin(), points.end());
+    half(points.rbegin(), points.rend());
+    return hull;
+}
+
+}  // namespace tumble

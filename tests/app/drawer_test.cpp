@@ -1,0 +1,256 @@
+// The drawing processes: the same bytes from any number of them, an error for each that dies, and none left behind.
+#include "app/drawer.h"
+#include "core/error.h"
+#include "core/image_mean.h"
+#include "output/png_writer.h"
+#include "output/video_pixels.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <thread>
+
+namespace tumble {
+namespace {
+
+constexpr FrameForms both{PixelForm::yuv420, true};
+
+SceneDescription two_boxes() {
+    SceneDescription scene;
+    scene.output.width = 240;
+    scene.output.height = 160;
+    scene.output.samples = 1;
+    scene.camera.eye = {1.0, 3.0, 9.0};
+    scene.camera.target = {0.0, 1.5, 0.0};
+    for (int i = 0; i < 3; ++i) {
+        BodyDescription body;
+        if (i == 0) body.shape = PlaneShape{};
+        else body.shape = BoxShape{{1.0, 1.0, 1.0}};
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+/// One box rests; the other moves in frames 0 to 7 and 12 to 14, and rests in between and afterwards.
+Snapshot at_frame(std::int64_t n) {
+    const std::int64_t moves = n < 8 ? n : n < 12 ? 7 : n < 15 ? n - 4 : 10;
+    Snapshot snapshot;
+    snapshot.frame = n;
+    snapshot.bodies.resize(3);
+    for (BodyState& body : snapshot.bodies) {
+        body.origin = {0.0, 0.0, 0.0};
+        body.orientation = Quat::Identity();
+    }
+    snapshot.bodies[1].origin = {-1.0, 0.5, 0.0};
+    snapshot.bodies[2].origin = {1.0, 0.5 + 0.3 * double(moves), 0.0};
+    return snapshot;
+}
+
+Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}}; }
+
+/// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
+Exposure blurred(std::int64_t n) {
+    Exposure exposure = sharp(n);
+    const Snapshot next = at_frame(n + 1);
+    for (int i = 1; i < 4; ++i) {
+        Snapshot between = at_frame(n);
+        between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
+        exposure.moments.push_back(between);
+    }
+    return exposure;
+}
+
+struct Seen {
+    std::int64_t number;
+    bool repeated;
+    std::vector<std::byte> video, png;
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+/// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
+std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64_t frames,
+                       const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
+                       const std::function<Exposure(std::int64_t)>& exposure = sharp) {
+    BoundedQueue<Exposure> poses(4);
+    std::thread simulation([&] {
+        for (std::int64_t n = 0; n < frames; ++n)
+            if (!poses.push(exposure(n))) return;
+        poses.close();
+    });
+    std::vector<Seen> seen;
+    DrawingTimes times;
+    const std::size_t video_bytes = frame_bytes(PixelForm::yuv420, scene.output.width, scene.output.height);
+    try {
+        drawer.run(
+            poses,
+            [&](const Frame& frame) {
+                seen.push_back({frame.number, frame.repeated, {}, {frame.png.begin(), frame.png.end()}});
+                seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
+                meanwhile(frame.number);
+                return true;
+            },
+            times);
+    } catch (...) {
+        simulation.join();
+        throw;
+    }
+    simulation.join();
+    return seen;
+}
+
+TEST(Drawer, TheNumberOfProcessesChangesNoByte) {
+    const SceneDescription scene = two_boxes();
+    std::vector<Seen> first;
+    for (const int workers : {1, 2, 3}) {
+        Drawer drawer(scene, {}, both, workers);
+        const std::vector<Seen> seen = draw(drawer, scene, 24);
+        ASSERT_EQ(seen.size(), 24u);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+        EXPECT_EQ(drawer.drawn(), 11);
+    }
+    for (std::size_t n = 0; n < first.size(); ++n) {
+        EXPECT_EQ(first[n].number, std::int64_t(n));
+        EXPECT_EQ(first[n].repeated, (n >= 8 && n < 12) || n >= 15) << n;
+    }
+    EXPECT_NE(first[0].video, first[7].video);
+    EXPECT_NE(first[7].png, first[14].png);
+}
+
+TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
+    const SceneDescription scene = two_boxes();
+    Drawer drawer(scene, {}, both, 2);
+    const std::vector<Seen> seen = draw(drawer, scene, 16);
+    const auto expect = [&] {
+        RenderOptions options;
+        options.full_redraw = true;
+        Renderer renderer(scene, options);
+        PngEncoder png;
+        for (const Seen& s : seen) {
+            Image image;
+            renderer.render(at_frame(s.number), image);
+            const Rectangle whole{0, 0, image.width, image.height};
+            VideoPixels pixels(PixelForm::yuv420, image.width, image.height);
+            pixels.update(image, {&whole, 1});
+            if (!std::ranges::equal(pixels.bytes(), s.video) || !std::ranges::equal(png.encode(image), s.png)) return 1;
+        }
+        return 0;
+    };
+    // In a process of its own: this one must stay without OpenGL, so that the next tests can fork.
+    const pid_t id = fork();
+    if (id == 0) _exit(expect());
+    int status = -1;
+    waitpid(id, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
+    const SceneDescription scene = two_boxes();
+    std::vector<Seen> first;
+    for (const int workers : {1, 3}) {
+        Drawer drawer(scene, {}, both, workers, 4);
+        const std::vector<Seen> seen = draw(drawer, scene, 20, [](std::int64_t) {}, blurred);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+    }
+    // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
+    for (std::size_t n = 0; n < first.size(); ++n)
+        EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
+    const auto expect = [&] {
+        Renderer renderer(scene, {});
+        PngEncoder png;
+        for (const Seen& s : first) {
+            ImageMean mean;
+            Image image, expected;
+            for (const Snapshot& moment : blurred(s.number).moments) {
+                renderer.render(moment, image);
+                mean.add(image);
+            }
+            mean.take(expected);
+            if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
+        }
+        return 0;
+    };
+    const pid_t id = fork();
+    if (id == 0) _exit(expect());
+    int status = -1;
+    waitpid(id, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+std::string error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
+    const SceneDescription scene = two_boxes();
+    for (const int workers : {1, 2}) {
+        Drawer drawer(scene, {}, both, workers);
+        std::int64_t last = -1;
+        const std::string error = error_of([&] {
+            // Frames without end: the run can only end by the error.
+            draw(drawer, scene, std::int64_t(1) << 40, [&](std::int64_t n) {
+                if (n == 3) kill(drawer.processes().back(), SIGKILL);
+                last = n;
+            });
+        });
+        // Frames 0 to 7 and 12 to 14 are drawn: one of those is the one that was lost.
+        EXPECT_EQ(error.find("error: cannot draw frame "), 0u) << error;
+        EXPECT_NE(error.find("its process ended by signal 9"), std::string::npos) << error;
+        EXPECT_LT(last, 15);
+    }
+}
+
+TEST(Drawer, WhatOpenGlSaysIsReported) {
+    const SceneDescription scene = two_boxes();
+    RenderOptions options;
+    options.shader_folder = "/nowhere";
+    Drawer drawer(scene, options, both, 2);
+    const std::string error = error_of([&] { draw(drawer, scene, 4); });
+    EXPECT_EQ(error.find("error: cannot draw frame "), 0u) << error;
+    EXPECT_NE(error.find("/nowhere"), std::string::npos) << error;
+    EXPECT_EQ(error.find("error:", 1), std::string::npos) << error;
+}
+
+TEST(Drawer, AbandonedItComesBack) {
+    const SceneDescription scene = two_boxes();
+    Drawer drawer(scene, {}, both, 2);
+    EXPECT_NE(error_of([&] {
+                  draw(drawer, scene, 15, [&](std::int64_t n) {
+                      if (n == 2) drawer.abandon();
+                  });
+              }),
+              "no error");
+}
+
+TEST(Drawer, LeavesNoProcessBehind) {
+    const SceneDescription scene = two_boxes();
+    std::vector<pid_t> ids;
+    {
+        Drawer unused(scene, {}, both, 2);
+        ids = unused.processes();
+    }
+    {
+        Drawer drawer(scene, {}, both, 2);
+        draw(drawer, scene, 3);
+        for (const pid_t id : drawer.processes()) ids.push_back(id);
+        const ProcessEnd end = drawer.finish();
+        EXPECT_GT(end.cpu_seconds, 0.0);
+        EXPECT_GT(end.peak_memory, std::int64_t(1) << 20);
+    }
+    ASSERT_EQ(ids.size(), 4u);
+    for (const pid_t id : ids) EXPECT_EQ(kill(id, 0), -1) << "process " << id << " is there, or was never waited for";
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,47 @@
+// Means of pictures, against the same in doubles.
+#include "core/color.h"
+#include "core/image_mean.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+Image of_values(const std::vector<int>& values) {
+    Image image(int(values.size()), 1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) image.pixels[4 * i + c] = static_cast<std::uint8_t>(values[i]);
+        image.pixels[4 * i + 3] = 255;
+    }
+    return image;
+}
+
+TEST(ImageMean, WhatIsTheSameStays) {
+    std::vector<int> all(256);
+    for (int i = 0; i < 256; ++i) all[std::size_t(i)] = i;
+    const Image image = of_values(all);
+    ImageMean mean;
+    Image result;
+    for (const int count : {1, 2, 3, 8, 64}) {
+        for (int i = 0; i < count; ++i) mean.add(image);
+        mean.take(result);
+        EXPECT_EQ(result, image) << count;
+    }
+}
+
+TEST(ImageMean, AddsLightNotNumbers) {
+    ImageMean mean;
+    Image result;
+    mean.add(of_values({0, 255, 10}));
+    mean.add(of_values({255, 255, 200}));
+    mean.take(result);
+    EXPECT_EQ(result.pixels[0], 188);   // half the light of white
+    EXPECT_EQ(result.pixels[4], 255);
+    const double half = 0.5 * (srgb_to_linear(10 / 255.0) + srgb_to_linear(200 / 255.0));
+    EXPECT_EQ(result.pixels[8], std::lround(255.0 * linear_to_srgb(half)));
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,45 @@
+// The demo scenes, drawn partly and wholly: the same bytes.
+#include "render/drawn_poses.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace tumble {
+namespace {
+
+class DemoRedraw : public testing::TestWithParam<const char*> {};
+
+TEST_P(DemoRedraw, HasTheBytesOfAFullRedraw) {
+    SceneOverrides small;
+    small.width = 160;
+    small.height = 90;
+    const SceneDescription scene =
+        load_scene(std::filesystem::path(TUMBLE_SOURCE_DIR) / "assets" / "scenes" / (std::string(GetParam()) + ".toml"), small);
+    const bool large = scene.bodies.size() > 500;
+    World world(scene);
+    DrawnPoses poses(scene);
+    RenderOptions everything;
+    everything.full_redraw = true;
+    Renderer partial(scene, {}), full(scene, everything);
+    Image frame, truth;
+    for (int i = 0; i < (large ? 12 : 36); ++i) {
+        for (int skipped = 0; i > 0 && skipped < (large ? 1 : 3); ++skipped) world.advance_frame();
+        Snapshot snapshot = world.snapshot();
+        poses.follow(snapshot);
+        partial.render(snapshot, frame);
+        full.render(snapshot, truth);
+        ASSERT_EQ(frame, truth) << "frame " << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, DemoRedraw,
+                         testing::Values("bouncing_balls", "dominoes", "falling_boxes", "furniture", "mixed_heap",
+                                         "newtons_cradle", "paddle", "tennis_racket", "thousand_boxes", "tower_hit"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace tumble

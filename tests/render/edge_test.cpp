@@ -1,0 +1,185 @@
+// Smooth edges against exact areas.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include "render/edge_blender.h"
+#include "render/screen_hull.h"
+#include "render/surface_ids.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr std::uint8_t inner = 7, outer = 9;
+
+TEST(ShareBefore, IsTheMeanOfAClampedRamp) {
+    for (const double half : {0.0, 0.1, 0.35, 0.5})
+        for (double t = -0.8; t < 1.8; t += 0.07) {
+            double sum = 0.0;
+            for (int i = 0; i < 1000; ++i) sum += std::clamp(t - half * ((i + 0.5) / 500.0 - 1.0), 0.0, 1.0);
+            EXPECT_NEAR(share_before(t, half), sum / 1000.0, 1e-3) << t << ", " << half;
+        }
+}
+
+// White below the line through the middle at this angle, black above: as one sample a pixel draws it.
+struct HalfPlane {
+    static constexpr int size = 48;
+    Vec3 normal;   // in pixels: inside where normal . (x, y, 1) > 0
+    Image drawn{size, size};
+    ScreenEdge edge;
+
+    explicit HalfPlane(double angle)
+        : normal(-std::sin(angle), std::cos(angle), 24.3 * std::sin(angle) - 23.9 * std::cos(angle)),
+          edge{24.3 - 60.0 * std::cos(angle), 23.9 - 60.0 * std::sin(angle), 24.3 + 60.0 * std::cos(angle),
+               23.9 + 60.0 * std::sin(angle), inner, outer} {
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const bool inside = normal.dot(Vec3(x + 0.5, y + 0.5, 1.0)) > 0.0;
+                std::uint8_t* p = drawn.at(x, y);
+                p[0] = p[1] = p[2] = inside ? 255 : 0;
+                p[3] = inside ? inner : outer;
+            }
+    }
+    double area(int x, int y) const {   // of the pixel that is inside
+        int count = 0;
+        for (int i = 0; i < 32; ++i)
+            for (int j = 0; j < 32; ++j)
+                count += normal.dot(Vec3(x + (i + 0.5) / 32.0, y + (j + 0.5) / 32.0, 1.0)) > 0.0 ? 1 : 0;
+        return count / 1024.0;
+    }
+};
+
+TileMarks all_marked(const CameraView& view) {
+    TileMarks marks(view);
+    marks.mark_all();
+    return marks;
+}
+
+Image blended(const Image& drawn, const ScreenEdge& edge) {
+    const CameraView view(empty_scene().camera, drawn.width, drawn.height);
+    Image frame(drawn.width, drawn.height);
+    copy_opaque(drawn, {{0, 0, drawn.width, drawn.height}}, frame);
+    blend_edges(drawn, {edge}, all_marked(view), frame);
+    return frame;
+}
+
+TEST(BlendEdges, GivesEveryPixelOfALineItsArea) {
+    for (double angle = 0.0; angle < 6.28; angle += 0.13) {
+        const HalfPlane half(angle);
+        for (const bool outline : {false, true}) {
+            ScreenEdge edge = half.edge;
+            if (outline) edge.outer = 0;
+            const Image frame = blended(half.drawn, edge);
+            for (int y = 2; y < HalfPlane::size - 2; ++y)
+                for (int x = 2; x < HalfPlane::size - 2; ++x) {
+                    EXPECT_NEAR(frame.at(x, y)[1] / 255.0, half.area(x, y), 0.016) << angle << ": " << x << ", " << y;
+                    EXPECT_EQ(frame.at(x, y)[3], 255);
+                }
+        }
+    }
+}
+
+TEST(BlendEdges, LeavesHiddenEdgesAlone) {
+    const HalfPlane half(0.4);
+    for (const ScreenEdge& edge :
+         {ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 4},
+          ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 0},
+          ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, inner, 4}}) {
+        const Image frame = blended(half.drawn, edge);
+        for (int y = 0; y < HalfPlane::size; ++y)
+            for (int x = 0; x < HalfPlane::size; ++x) EXPECT_EQ(frame.at(x, y)[0], half.drawn.at(x, y)[0]);
+    }
+}
+
+// White bodies before a black sky: a pixel is the share of it that is covered.
+class Silhouettes {
+public:
+    Silhouettes() {
+        for (const char* file : {"box.frag", "ball.frag", "mesh.frag"}) shaders_.replace(file, "pixel = vec4(", "pixel = vec4(vec3(1.0), v_look.w); // ");
+        shaders_.replace("sky.frag", "pixel = ", "pixel = vec4(0.0, 0.0, 0.0, 1.0); // ");
+    }
+    // Root of the mean squared error over the pixels that are partly covered. `inside`: whether a point is covered.
+    template <class Inside>
+    double error(const SceneDescription& scene, bool multisample, Inside inside) const {
+        RenderOptions options = shaders_.options();
+        options.multisample = multisample;
+        const Image image = drawn(scene, options);
+        double sum = 0.0;
+        int count = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                int covered = 0;
+                for (int i = 0; i < 64; ++i) covered += inside(ScreenPoint(x + (i % 8 + 0.5) / 8.0, y + (i / 8 + 0.5) / 8.0));
+                if (covered == 0 || covered == 64) continue;
+                const double off = image.at(x, y)[0] / 255.0 - covered / 64.0;
+                sum += off * off;
+                ++count;
+            }
+        EXPECT_GT(count, 50);
+        return std::sqrt(sum / count);
+    }
+
+private:
+    ShaderCopy shaders_;
+};
+
+TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
+    const Silhouettes silhouettes;
+    SceneDescription scene = empty_scene();
+    scene.light.shadows = false;
+    const CameraView view(scene.camera, 320, 180);
+    for (double angle = 0.1; angle < 1.5; angle += 0.45) {
+        const Quat turned(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, 0.5).normalized()));
+        scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), Vec3(2.0, 1.4, 1.0), {255, 255, 255}, turned)};
+        std::vector<ScreenPoint> corners;
+        for (const Vec3& p : box_corners(view.relative(scene.bodies[0].position), turned.toRotationMatrix(),
+                                         Vec3(1.0, 0.7, 0.5)))
+            corners.push_back(view.pixel(p));
+        corners = convex_hull(corners);
+        const auto inside = [&](const ScreenPoint& p) {
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
+            return true;
+        };
+        EXPECT_LT(silhouettes.error(scene, false, inside), 0.055);   // corners have several edges
+        EXPECT_GT(silhouettes.error(scene, true, inside), 0.06) << "four samples know five shades";
+    }
+    scene.bodies = {ball_body(Vec3(0.3, 1.1, 0.0), 1.2, {255, 255, 255})};
+    const Vec3 center = view.relative(scene.bodies[0].position);
+    const auto inside = [&](const ScreenPoint& p) {
+        const Vec3 ray = view.ray(p.x(), p.y()).normalized();
+        return center.cross(ray).norm() < 1.2;
+    };
+    EXPECT_LT(silhouettes.error(scene, false, inside), 0.06);   // the ball is drawn as a mesh within 0.15 pixels
+}
+
+// One colour inside and out: only the outline of the ring can be seen, with its hole.
+TEST(SmoothEdges, OfAMeshHaveManyShades) {
+    const Silhouettes silhouettes;
+    SceneDescription scene = empty_scene();
+    scene.bodies = {mesh_body(Vec3(0.0, 1.0, 0.0), torus_asset(1.2, 0.4), {255, 255, 255},
+                              Quat(Eigen::AngleAxisd(1.1, Vec3::UnitX())))};
+    const CameraView view(scene.camera, 320, 180);
+    const Quat back = scene.bodies[0].rotation.conjugate();
+    const Vec3 eye = back * (scene.camera.eye - scene.bodies[0].position);
+    const auto inside = [&](const ScreenPoint& p) {   // march along the ray to the exact torus
+        const Vec3 ray = back * view.ray(p.x(), p.y()).normalized();
+        double at = 4.0;
+        for (int i = 0; i < 100 && at < 12.0; ++i) {
+            const Vec3 q = eye + at * ray;
+            const double distance = std::hypot(std::hypot(q.x(), q.z()) - 1.2, q.y()) - 0.4;
+            if (distance < 1e-3) return true;
+            at += distance;
+        }
+        return false;
+    };
+    const double smooth = silhouettes.error(scene, false, inside);
+    EXPECT_LT(smooth, 0.1);   // the mesh itself is a little thinner than the torus
+    EXPECT_LT(smooth, silhouettes.error(scene, true, inside) + 0.02);
+}
+
+}  // namespace
+}  // namespace tumble

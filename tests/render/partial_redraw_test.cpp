@@ -1,0 +1,190 @@
+// Drawing only what changed gives the bytes of drawing everything.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include "render/drawn_poses.h"
+#include "render/tile_marks.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace tumble {
+namespace {
+
+class Random {
+public:
+    explicit Random(unsigned seed) : engine_(seed) {}
+    double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
+    bool chance(double share) { return between(0.0, 1.0) < share; }
+    Vec3 vector(double size) {
+        const double x = between(-size, size), y = between(-size, size);
+        return {x, y, between(-size, size)};
+    }
+    Quat turn() {
+        const Vec3 v = vector(1.0);
+        return Quat(between(-1.0, 1.0), v.x(), v.y(), v.z()).normalized();
+    }
+    Color color() { return {channel(), channel(), channel()}; }
+
+private:
+    std::uint8_t channel() { return std::uint8_t(between(40.0, 250.0)); }
+    std::mt19937 engine_;
+};
+
+// Boxes, balls, a mesh, perhaps a wall, a cord, a low sun, a mirror.
+SceneDescription random_scene(unsigned seed) {
+    Random random(seed);
+    SceneDescription scene = empty_scene();
+    scene.output.width = 232;   // not a whole number of tiles
+    scene.output.height = 152;
+    scene.output.samples = seed % 2 == 0 ? 4 : 1;
+    scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 5.0), random.between(5.0, 9.0));
+    scene.camera.target = Vec3(0.0, 0.8, 0.0);
+    scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.15, 1.0), random.between(-1.0, 0.6));
+    scene.light.shadows = seed % 4 != 2;   // without, nothing hides what darkening alone changes
+    scene.bodies.push_back(ground_plane({176, 180, 184}, seed % 3 == 0 ? Pattern::checker : Pattern::grid));
+    if (seed % 4 == 1) {
+        BodyDescription wall = ground_plane({190, 150, 140}, Pattern::plain);
+        wall.shape = PlaneShape{Vec3(0.0, 0.0, 1.0), -2.5};
+        scene.bodies.push_back(wall);
+    }
+    for (int i = 0; i < 9; ++i) {
+        const Vec3 size(random.between(0.2, 1.2), random.between(0.2, 1.2), random.between(0.2, 1.2));
+        scene.bodies.push_back(box_body(Vec3::Zero(), size, random.color()));
+        scene.bodies.back().surface.metallic = i == 3 ? 1.0 : 0.0;
+        if (i == 4) scene.bodies.back().surface.pattern = Pattern::checker;
+    }
+    for (int i = 0; i < 3; ++i) scene.bodies.push_back(ball_body(Vec3::Zero(), random.between(0.15, 0.6), random.color()));
+    if (seed % 5 < 2) scene.bodies.push_back(mesh_body(Vec3::Zero(), torus_asset(0.5, 0.2), random.color()));
+    if (seed % 10 == 8)
+        scene.cords.push_back({2, Vec3(0.1, 0.2, 0.0), Vec3(0.5, 3.0, 0.0), 0.03, {60, 60, 60}});
+    return scene;
+}
+
+bool is_plane(const SceneDescription& scene, std::size_t body) {
+    return std::holds_alternative<PlaneShape>(scene.bodies[body].shape);
+}
+
+void place(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
+    const double spread = random.between(0.6, 3.0);   // close together they darken each other
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+        if (is_plane(scene, i)) continue;
+        snapshot.bodies[i].origin =
+            Vec3(random.between(-spread, spread), random.between(-0.1, spread), random.between(-spread, spread));
+        if (random.chance(0.1)) snapshot.bodies[i].origin *= 6.0;   // out of view, its shadow perhaps not
+        if (random.chance(0.05)) snapshot.bodies[i].origin = scene.camera.eye + random.vector(1.0);
+        snapshot.bodies[i].orientation = random.turn();
+        if (random.chance(0.3)) {   // on the ground
+            snapshot.bodies[i].orientation = Quat::Identity();
+            if (const auto* box = std::get_if<BoxShape>(&scene.bodies[i].shape))
+                snapshot.bodies[i].origin.y() = 0.5 * box->size.y();
+        }
+    }
+}
+
+void move(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
+    const double share = random.between(0.0, 0.6), way = std::pow(10.0, random.between(-4.0, -0.5));
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+        if (is_plane(scene, i) ? !random.chance(0.01) : !random.chance(share)) continue;
+        snapshot.bodies[i].origin += random.vector(way);
+        const Vec3 spin = random.vector(way);
+        if (!is_plane(scene, i))
+            snapshot.bodies[i].orientation =
+                (snapshot.bodies[i].orientation * Quat(1.0, spin.x(), spin.y(), spin.z())).normalized();
+    }
+}
+
+std::size_t different_pixels(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 4)
+        count += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
+    return count;
+}
+
+// Nothing differs outside of what the renderer says that it has changed.
+void expect_unchanged_elsewhere(const Image& before, const Image& after, const std::vector<Rectangle>& changed) {
+    Image painted = before;
+    for (const Rectangle& r : changed)
+        for (int y = r.y; y < r.y + r.height; ++y) std::copy_n(after.at(r.x, y), 4 * r.width, painted.at(r.x, y));
+    EXPECT_EQ(painted, after);
+}
+
+TEST(PartialRedraw, HasTheBytesOfAFullRedrawInRandomScenes) {
+    RenderOptions everything;
+    everything.full_redraw = true;
+    double redrawn = 0.0;
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const SceneDescription scene = random_scene(seed);
+        Renderer partial(scene, {}), full(scene, everything);
+        Image frame, truth, before;
+        Random random(1000 + seed);
+        Snapshot snapshot = first_snapshot(scene);
+        for (int arrangement = 0; arrangement < 10; ++arrangement) {
+            place(scene, random, snapshot);
+            for (int step = 0; step < 3; ++step) {
+                before = frame;
+                partial.render(snapshot, frame);
+                full.render(snapshot, truth);
+                ASSERT_EQ(different_pixels(frame, truth), 0u)
+                    << "scene " << seed << ", arrangement " << arrangement << ", step " << step;
+                if (!before.pixels.empty()) expect_unchanged_elsewhere(before, frame, partial.changed());
+                for (const Rectangle& r : partial.changed()) redrawn += double(r.width) * r.height;
+                move(scene, random, snapshot);
+            }
+        }
+    }
+    redrawn /= 20.0 * 10.0 * 3.0 * 232.0 * 152.0;
+    EXPECT_LT(redrawn, 0.8) << "of the pictures: the test must have something to leave out";
+}
+
+TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
+    const SceneDescription scene = random_scene(1);
+    Renderer renderer(scene, {});
+    Random random(5);
+    Snapshot snapshot = first_snapshot(scene);
+    place(scene, random, snapshot);
+    Image frame, copy;
+    renderer.render(snapshot, frame);
+    EXPECT_EQ(renderer.changed(), (std::vector<Rectangle>{{0, 0, 232, 152}}));
+    copy = frame;
+    renderer.render(snapshot, frame);
+    EXPECT_TRUE(renderer.changed().empty());
+    EXPECT_EQ(frame, copy);
+}
+
+TEST(PartialRedraw, FillsAnImageOfAnotherSizeWhollyAndLeavesTheRestOfOneThatFits) {
+    const SceneDescription scene = random_scene(1);
+    Renderer renderer(scene, {});
+    Snapshot snapshot = first_snapshot(scene);
+    Image frame, fresh, touched(232, 152);
+    renderer.render(snapshot, frame);
+    renderer.render(snapshot, fresh);
+    EXPECT_EQ(fresh, frame);
+    renderer.render(snapshot, touched);
+    EXPECT_EQ(touched, Image(232, 152)) << "nothing had changed";
+}
+
+TEST(TileMarks, MarksTheTilesOfAHull) {
+    const SceneDescription scene = empty_scene();   // 320 x 180: 20 x 12 tiles
+    const CameraView view(scene.camera, 320, 180);
+    TileMarks marks(view);
+    EXPECT_TRUE(marks.none());
+    const auto at = [&](double x, double y) { return Vec3(7.0 * view.ray(x, y)); };
+    const std::array<Vec3, 3> triangle = {at(40.0, 40.0), at(120.0, 40.0), at(40.0, 120.0)};
+    marks.mark_hull(triangle);
+    EXPECT_TRUE(marks.at(2, 2));
+    EXPECT_TRUE(marks.at(7, 2));    // the corner at the right
+    EXPECT_TRUE(marks.at(2, 7));
+    EXPECT_TRUE(marks.at(4, 4));
+    EXPECT_FALSE(marks.at(7, 5));   // beyond the long side
+    EXPECT_FALSE(marks.at(8, 2));
+    EXPECT_FALSE(marks.at(1, 1));
+    EXPECT_FALSE(marks.all());
+    const std::array<Vec3, 2> behind = {at(0.0, 0.0), Vec3(-at(0.0, 0.0))};
+    marks.mark_hull(behind);
+    EXPECT_TRUE(marks.all()) << "what goes past the eye may be anywhere";
+}
+
+}  // namespace
+}  // namespace tumble
