@@ -17,7 +17,7 @@ struct RenderCommand {
     std::optional<std::filesystem::path> frames;   // folder
     SceneOverrides overrides;
     RenderOptions drawing;
-    FrameTimes times = FrameTimes::longer_frames;
+    FrameTimes times = FrameTimes::constant_rate;
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
     int blur_samples = 8;   // moments of an open shutter

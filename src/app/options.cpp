@@ -88,9 +88,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(CLI::Range(0.0, 360.0))->option_text("DEGREES [0]");
     command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
         ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
-    command->add_flag_callback("--constant-rate", [&c] { c.times = FrameTimes::constant_rate; },
-                               "Store a frame of the clip even where nothing changes, for tools that count frames;\n"
-                               "else what stays is shown longer, which costs nothing");
+    command->add_flag_callback("--variable-rate", [&c] { c.times = FrameTimes::longer_frames; },
+                               "Store what does not change once and show it longer, which costs nothing; players show\n"
+                               "the same, but tools that count stored frames find fewer");
     c.workers = std::min(machine_threads(), enough_workers);
     command->add_option("--workers", c.workers, "Processes that draw, one a core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));

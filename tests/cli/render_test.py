@@ -42,7 +42,7 @@ class Render(program.ProgramTest):
     def test_rates(self):
         for fps, rate, count in (("29.97", "2997/100", 3), ("0.5", "1/2", 1), ("1e6", "1000000/1", 100001)):
             duration = "0.1" if fps != "1e6" else "0.000003"
-            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration, "--constant-rate")
+            self.check(0, "render", "scene.toml", "-o", "a.mp4", "--fps", fps, "--duration", duration)
             expected = count if fps != "1e6" else 4
             self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), [rate, str(expected)])
 
@@ -56,14 +56,14 @@ class Render(program.ProgramTest):
 
     def test_what_rests_is_drawn_once_and_shown_longer(self):
         self.write("resting.toml", self.RESTING)
-        run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3")
+        run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3", "--variable-rate")
         self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (what does not change is shown longer)", run.stderr)
         self.assertEqual(program.probe(self.folder / "a.mp4", "duration,nb_read_frames"),
                          ["3.100000", "4"])
         self.assertIn("frames/s; 1 drawn;", run.stderr)
         frames = [(self.folder / "out" / name).read_bytes() for name in program.frame_names(31)]
         self.assertEqual(len(set(frames)), 1)
-        self.check(0, "render", "resting.toml", "-o", "a.mp4", "--duration", "3", "--constant-rate")
+        self.check(0, "render", "resting.toml", "-o", "a.mp4", "--duration", "3")
         self.assertEqual(program.probe(self.folder / "a.mp4", "avg_frame_rate,nb_read_frames"), ["10/1", "31"])
 
     def test_odd_sizes(self):
