@@ -1,7 +1,8 @@
 // Draws falling boxes by MuJoCo, the way its own sample `record` does: OSMesa, mjr_render, mjr_readPixels, and a pipe
 // into ffmpeg. Boxes, camera, light, shadows, samples and the encoder's settings are those of the scenes in bench/render;
 // MuJoCo draws them with everything at its defaults but for those.
-//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [POSES]
+//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [ORBIT [POSES]]
+// ORBIT: degrees a second that the camera turns about the target, counter-clockwise seen from above.
 // With POSES nothing is simulated: the file has 7 doubles (position, quaternion w x y z; z up) for each box and frame.
 // MuJoCo 2.2 needs memory as the square of its contacts: a thousand boxes in a heap are beyond it.
 #include <GL/osmesa.h>
@@ -29,6 +30,7 @@ struct Arguments {
     int width, height_pixels, frames;
     std::string clip, poses;
     double eye[3], target[3];       // m, y up as in the scenes
+    double orbit;                   // degrees/s
 };
 
 /// y up becomes z up: (x, y, z) to (x, -z, y).
@@ -116,6 +118,7 @@ void run(const Arguments& a) {
     mjr_setBuffer(mjFB_OFFSCREEN, &context);
     if (context.currentBuffer != mjFB_OFFSCREEN) throw std::runtime_error("no offscreen buffer");
     mjvCamera camera = camera_of(a, *model);
+    const double azimuth = camera.azimuth;
 
     std::ostringstream command;
     command << "ffmpeg -v error -y -f rawvideo -pix_fmt rgb24 -video_size " << a.width << 'x' << a.height_pixels
@@ -140,6 +143,7 @@ void run(const Arguments& a) {
         } else {
             for (int i = 0; i < steps_per_frame; ++i) mj_step(model, data);
         }
+        camera.azimuth = azimuth + a.orbit * n / fps;   // of the view, which turns as the eye does
         mjv_updateScene(model, data, &option, nullptr, &camera, mjCAT_ALL, &scene);
         mjr_render(view, &scene, &context);
         mjr_readPixels(rgb.data(), depth.data(), view, &context);
@@ -158,7 +162,7 @@ void run(const Arguments& a) {
 
 int main(int argc, char** argv) {
     Arguments a{};
-    if (argc != 16 && argc != 17) {
+    if (argc < 16 || argc > 18) {
         std::fprintf(stderr, "usage: see the head of bench/render_peers/mujoco.cpp\n");
         return 2;
     }
@@ -173,7 +177,8 @@ int main(int argc, char** argv) {
         a.eye[i] = std::atof(argv[10 + i]);
         a.target[i] = std::atof(argv[13 + i]);
     }
-    if (argc == 17) a.poses = argv[16];
+    if (argc > 16) a.orbit = std::atof(argv[16]);
+    if (argc > 17) a.poses = argv[17];
     try {
         run(a);
     } catch (const std::exception& error) {

@@ -50,6 +50,14 @@ ShapeText shape_text(const Shape& shape) {
 
 std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }
 
+std::string camera_motion(const SceneDescription& scene) {
+    std::string text;
+    if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
+    if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
+    if (scene.camera.follow) text += fmt::format(", following {}", scene.bodies[*scene.camera.follow].name);
+    return text;
+}
+
 void print_head(const SceneDescription& scene) {
     fmt::print("{}{}\n", scene.title.empty() ? scene.file : scene.title,
                scene.title.empty() ? "" : " (" + scene.file + ")");
@@ -59,8 +67,8 @@ void print_head(const SceneDescription& scene) {
                scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
     fmt::print("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
                scene.output.samples, scene.light.shadows ? "on" : "off");
-    fmt::print("  camera    from {} to {}, {:.4g} degrees high\n", vector_text(scene.camera.eye),
-               vector_text(scene.camera.target), scene.camera.vertical_fov);
+    fmt::print("  camera    from {} to {}, {:.4g} degrees high{}\n", vector_text(scene.camera.eye),
+               vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
     fmt::print("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
     if (scene.wind)
         fmt::print("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),

@@ -26,7 +26,7 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 
 WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
     : bodies_(scene.bodies.size()),
-      poses_size_(bodies_ * numbers_of_body * sizeof(double)),
+      poses_size_((1 + bodies_ * numbers_of_body) * sizeof(double)),
       video_at_(whole_pages(std::size_t(most_moments) * poses_size_)),
       video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
       png_at_(video_at_ + whole_pages(video_size_)),
@@ -47,6 +47,7 @@ WorkerMemory::~WorkerMemory() { munmap(memory_, size_); }
 void WorkerMemory::write_poses(int slot, std::size_t moment, const Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
     auto* to = reinterpret_cast<double*>(part(slot, moment * poses_size_, poses_size_).data());
+    *to++ = snapshot.time;
     for (const BodyState& body : snapshot.bodies) {
         std::copy_n(body.origin.data(), 3, to);
         std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
@@ -57,6 +58,7 @@ void WorkerMemory::write_poses(int slot, std::size_t moment, const Snapshot& sna
 void WorkerMemory::read_poses(int slot, std::size_t moment, Snapshot& snapshot) const {
     snapshot.bodies.resize(bodies_);
     const auto* from = reinterpret_cast<const double*>(part(slot, moment * poses_size_, poses_size_).data());
+    snapshot.time = *from++;
     for (BodyState& body : snapshot.bodies) {
         std::copy_n(from, 3, body.origin.data());
         std::copy_n(from + 3, 4, body.orientation.coeffs().data());

@@ -28,7 +28,7 @@ public:
     WorkerMemory(const WorkerMemory&) = delete;
     WorkerMemory& operator=(const WorkerMemory&) = delete;
 
-    /// Of one moment of the frame: origins and orientations, which is all that drawing needs.
+    /// Of one moment of the frame: its time, origins and orientations, which is all that drawing needs.
     void write_poses(int slot, std::size_t moment, const Snapshot& snapshot);
     void read_poses(int slot, std::size_t moment, Snapshot& snapshot) const;
 

@@ -23,6 +23,7 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
     if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye in its own target looks along -z
     forward_ = to_target.norm() > 0.0 ? Vec3(to_target / target_distance_) : Vec3(0.0, 0.0, -1.0);
     right_ = forward_.cross(camera.up);
+    start_distance_ = target_distance_;
     // An up that is parallel to the view (a camera straight from above) leaves the turn open: any axis across will do.
     if (!(right_.norm() > 1e-9 * camera.up.norm())) right_ = forward_.cross(most_across(forward_));
     right_.normalize();
@@ -33,6 +34,12 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
     tan_x_ = tan_y_ * width / height;
     sides_ = {(right_ + tan_x_ * forward_).normalized(), (-right_ + tan_x_ * forward_).normalized(),
               (up_ + tan_y_ * forward_).normalized(), (-up_ + tan_y_ * forward_).normalized()};
+}
+
+CameraView CameraView::from(const CameraDescription& camera) const {
+    CameraView view(camera, width_, height_, shift_);
+    view.start_distance_ = start_distance_;
+    return view;
 }
 
 Eigen::Vector2d CameraView::pixel(const Vec3& relative) const {

@@ -20,6 +20,9 @@ public:
     CameraView(const CameraDescription& camera, int width, int height,
                const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
+    /// The same picture's view from another place. Patterns and haze keep theirs.
+    CameraView from(const CameraDescription& camera) const;
+
     const Vec3& eye() const { return eye_; }
     const Vec3& right() const { return right_; }
     const Vec3& up() const { return up_; }
@@ -29,6 +32,9 @@ public:
 
     /// Distance from eye to target, m: the scale of what is looked at.
     double target_distance() const { return target_distance_; }
+
+    /// The same at the clip's start, m: what patterns and haze fit, so that they never jump.
+    double start_distance() const { return start_distance_; }
 
     /// The width of a pixel at distance 1 along the axis.
     double pixel_size() const { return 2.0 * tan_y_ / height_; }
@@ -56,7 +62,7 @@ public:
 
 private:
     Vec3 eye_, right_, up_, forward_;
-    double target_distance_;
+    double target_distance_, start_distance_;
     int width_, height_;
     double tan_x_, tan_y_;
     Eigen::Vector2d shift_;  // pixels

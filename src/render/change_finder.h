@@ -32,6 +32,9 @@ public:
     /// Are all poses those of the last find()? Then the picture is the same.
     bool unmoved(const Snapshot& snapshot) const;
 
+    /// The next find() finds everything changed, as the first one does: the view is another.
+    void forget() { first_ = true; }
+
     /// Compares with the state of the call before, and remembers this one.
     TileMarks find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 

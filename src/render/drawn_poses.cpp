@@ -34,9 +34,13 @@ double radius_of(const Shape& shape) {
 }  // namespace
 
 DrawnPoses::DrawnPoses(const SceneDescription& scene)
-    : view_(scene.camera, scene.output.width, scene.output.height) {
+    : path_(scene.camera),
+      camera_(scene.camera),
+      followed_(scene.camera.follow),
+      view_(scene.camera, scene.output.width, scene.output.height) {
     for (const BodyDescription& body : scene.bodies)
         radii_.push_back(body.surface.visible ? radius_of(body.shape) : 0.0);
+    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);   // it moves all that is drawn
     for (const CordDescription& cord : scene.cords)
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
 }
@@ -52,23 +56,33 @@ bool DrawnPoses::may_stay(std::size_t body, const Pose& drawn, const BodyState& 
     return way + 2.0 * radius * turn <= drawn_tolerance * view_.pixel_size() * nearest;
 }
 
+bool DrawnPoses::settle(std::size_t body, BodyState& state) {
+    Pose& drawn = drawn_[body];
+    if (may_stay(body, drawn, state)) {
+        state.origin = drawn.origin;
+        state.orientation = drawn.orientation;
+        return false;
+    }
+    drawn = {state.origin, state.orientation};
+    return true;
+}
+
 bool DrawnPoses::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
-    const bool first = drawn_.empty();
-    bool moved = first;
-    if (first)
+    bool moved = drawn_.empty();
+    if (moved)
         for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation});
-    for (std::size_t i = 0; i < drawn_.size(); ++i) {
-        Pose& drawn = drawn_[i];
-        BodyState& state = snapshot.bodies[i];
-        if (may_stay(i, drawn, state)) {
-            state.origin = drawn.origin;
-            state.orientation = drawn.orientation;
-        } else {
-            drawn = {state.origin, state.orientation};
-            moved = true;
-        }
+    if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;
+    CameraDescription camera = path_.at(snapshot);
+    if (!same_place(camera, camera_)) {
+        camera_ = std::move(camera);
+        view_ = view_.from(camera_);
+        for (std::size_t i = 0; i < drawn_.size(); ++i)
+            if (i != followed_) drawn_[i] = {snapshot.bodies[i].origin, snapshot.bodies[i].orientation};
+        return true;
     }
+    for (std::size_t i = 0; i < drawn_.size(); ++i)
+        if (settle(i, snapshot.bodies[i])) moved = true;
     return moved;
 }
 

@@ -4,10 +4,14 @@
 // where dp is the way of its origin, r the radius around the origin that holds it all, dq the difference of the unit
 // quaternions (of the two signs the smaller; a turn by a moves a point r away by at most 2 r sin(a / 2) <= 2 r |dq|).
 //
+// Where the camera moves, every pose is the true one (of a body that the camera follows, too, unless it only trembles:
+// then the camera rests with it).
+//
 // Every frame of a clip goes through one DrawnPoses, in order, before any is drawn: then all workers, and a full redraw,
 // see the same drawn poses. Needs no OpenGL.
 #pragma once
 
+#include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
@@ -23,7 +27,8 @@ public:
     explicit DrawnPoses(const SceneDescription& scene);
 
     /// Replaces the poses by those to draw (origin and orientation; the rest is left as it is). False when they are
-    /// those of the call before: the picture is the same to the last byte. The first call says true.
+    /// those of the call before: the picture is the same to the last byte; never when the
+    /// camera has moved. The first call says true.
     bool follow(Snapshot& snapshot);
 
 private:
@@ -33,6 +38,12 @@ private:
     };
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 
+    /// The pose to draw of one body; false: that of before.
+    bool settle(std::size_t body, BodyState& state);
+
+    CameraPath path_;
+    CameraDescription camera_;
+    std::optional<std::size_t> followed_;
     CameraView view_;
     std::vector<double> radii_;   // m, of each body around its origin; 0 where nothing of it is drawn; infinite: a plane
     std::vector<Pose> drawn_;     // empty before the first call

@@ -15,7 +15,8 @@ float influence(const Occluder& o) { return o.bound_radius + 2.0f * o.reach; }
 
 }  // namespace
 
-std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                     const Vec3& reference) {
     std::vector<Occluder> all;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
@@ -25,7 +26,7 @@ std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& sn
         if (!view.sees(ball.center, ball.radius + 2.0 * look.reach)) continue;
         const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
         const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
-            all.push_back({view.relative(state.origin + state.orientation * center).cast<float>(), to_local,
+            all.push_back({Vec3(state.origin + state.orientation * center - reference).cast<float>(), to_local,
                            half_size.cast<float>(), float(radius), float(look.reach), float(half_size.norm() + radius),
                            i});
         };

@@ -12,7 +12,7 @@ namespace tumble {
 
 /// A ball is a box of no size with a radius. Float: what is darkened is a picture.
 struct Occluder {
-    Eigen::Vector3f center;     // relative to the eye, m
+    Eigen::Vector3f center;     // relative to `reference`, m
     Eigen::Matrix3f to_local;   // world axes -> the occluder's
     Eigen::Vector3f half_size;  // m
     float radius;               // m
@@ -21,8 +21,11 @@ struct Occluder {
     std::size_t body;
 };
 
-/// The boxes and balls of all bodies that may darken something in the picture, in scene order.
-std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+/// The boxes and balls of all bodies that may darken something in the picture, in scene order. `reference`: a point by the
+/// scene that all positions are relative to, m. It stays where it is when the camera moves, so that what the bodies take
+/// from each other is then the same to the bit.
+std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                     const Vec3& reference);
 
 /// Finds what is near: cells of a regular lattice, kept sorted. What spans too many cells is a candidate everywhere.
 class OccluderFinder {

@@ -20,7 +20,7 @@ constexpr int most_rows = 8192;       // OpenGL 4.1 grants 16384
 struct PlaneInView {
     std::size_t body;
     Eigen::Vector3f normal;
-    float height;  // of the eye above it, m
+    float height;  // of the point that positions are relative to, above it, m
 };
 
 // The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
@@ -63,13 +63,13 @@ private:
 
 class AtlasMaker {
 public:
-    AtlasMaker(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, OcclusionAtlas& atlas,
-               const std::vector<std::uint32_t>& versions, std::vector<std::vector<std::uint64_t>>& neighbours,
-               OcclusionChanges& changes)
+    AtlasMaker(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, const Vec3& reference,
+               OcclusionAtlas& atlas, const std::vector<std::uint32_t>& versions,
+               std::vector<std::vector<std::uint64_t>>& neighbours, OcclusionChanges& changes)
         : looks_(looks),
           snapshot_(snapshot),
-          view_(view),
-          occluders_(make_occluders(looks, snapshot, view)),
+          reference_(reference),
+          occluders_(make_occluders(looks, snapshot, view, reference)),
           finder_(occluders_),
           atlas_(atlas),
           versions_(versions),
@@ -78,8 +78,8 @@ public:
         for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
             if (looks.bodies[i].kind != DrawKind::plane) continue;
             const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
-            const double height = plane.normal.dot(view.eye()) - plane.offset;
-            if (height > 0.0) planes_.push_back({i, plane.normal.cast<float>(), float(height)});
+            if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
+                planes_.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
         }
     }
 
@@ -89,7 +89,7 @@ public:
         for (const PlaneInView& plane : planes_) add_window(plane, shelves);
         for (std::size_t i = 0; i < looks_.bodies.size(); ++i)
             if (visibility.bodies[i] && atlas_.places[i].size > 0)
-                add_body(i, bounding_ball(looks_.bodies[i], snapshot_.bodies[i], view_), visibility.faces[i]);
+                add_body(i, center_of(i), visibility.faces[i]);
     }
 
 private:
@@ -109,6 +109,11 @@ private:
         }
     }
     std::uint8_t& texel(int x, int y) { return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)]; }
+    /// Of the ball around a body.
+    Vec3 center_of(std::size_t body) const {
+        const BodyState& state = snapshot_.bodies[body];
+        return Vec3(state.origin - reference_) + state.orientation * looks_.bodies[body].bound_center;
+    }
     // Are the body's neighbours those of the last time, in the same poses? Notes them down.
     bool as_before(std::size_t body, std::uint8_t visible) {
         key_.assign(1, visible);
@@ -117,7 +122,7 @@ private:
             if (key_.empty() || key_.back() != entry) key_.push_back(entry);
         };
         add(body);
-        for (const std::size_t i : near_) add(occluders_[i].body);
+        for (const std::size_t i : found_) add(occluders_[i].body);
         for (const PlaneInView& plane : near_planes_) add(plane.body);
         if (neighbours_[body] == key_) return true;
         neighbours_[body] = key_;
@@ -128,18 +133,18 @@ private:
         for (const PlaneInView& plane : near_planes_) darken(points_, plane.normal, plane.height, float(reach));
     }
 
-    void add_body(std::size_t body, const BoundingBall& ball, std::uint8_t visible) {
+    void add_body(std::size_t body, const Vec3& ball_center, std::uint8_t visible) {
         const BodyLook& look = looks_.bodies[body];
-        const Eigen::Vector3f center = ball.center.cast<float>();
-        finder_.find(center, float(ball.radius), near_);
-        std::erase_if(near_, [&](std::size_t i) { return occluders_[i].body == body; });  // not by itself
+        const Eigen::Vector3f center = ball_center.cast<float>();
+        finder_.find(center, float(look.bound_radius), found_);
+        std::erase_if(found_, [&](std::size_t i) { return occluders_[i].body == body; });  // not by itself
         near_planes_.clear();
         for (const PlaneInView& plane : planes_)
-            if (plane.normal.dot(center) + plane.height < ball.radius + 2.0 * look.reach) near_planes_.push_back(plane);
+            if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes_.push_back(plane);
         if (as_before(body, visible)) return;
         changed_ = false;
         std::uint8_t faces = 0;
-        if (look.kind == DrawKind::box) faces = add_box(body, ball.center, visible);
+        if (look.kind == DrawKind::box) faces = add_box(body, ball_center, visible);
         if (look.kind == DrawKind::ball) add_ball(body, center);
         if (look.kind == DrawKind::mesh) add_mesh(body);
         if (changed_) changes_.bodies.push_back({body, faces});
@@ -165,7 +170,7 @@ private:
                                 (2.0 * v / (size - 1)).cast<float>(), normal.cast<float>(), size, size);
             const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
             near_face_.clear();
-            for (const std::size_t i : near_)
+            for (const std::size_t i : found_)
                 if (may_darken(occluders_[i], middle.cast<float>(), normal.cast<float>(), radius, float(look.reach)))
                     near_face_.push_back(i);
             darken_by(near_face_, look.reach);
@@ -188,7 +193,7 @@ private:
                 const Eigen::Vector3f normal = axes * octahedral(s, t);
                 points_.add(center + normal * float(look.half_size.x()), normal);
             }
-        darken_by(near_, look.reach);
+        darken_by(found_, look.reach);
         for (int j = 0; j < ball_tile; ++j) store(place.x, place.y + j, ball_tile, j * ball_tile);
     }
 
@@ -200,11 +205,11 @@ private:
         const OcclusionPlace& place = atlas_.places[body];
         const BodyState& state = snapshot_.bodies[body];
         const Mat3 axes = state.orientation.toRotationMatrix();
-        const Vec3 origin = view_.relative(state.origin);
+        const Vec3 origin = state.origin - reference_;
         points_.clear();
         for (const MeshProbe& probe : probes)
             points_.add((origin + axes * probe.position).cast<float>(), (axes * probe.normal).cast<float>());
-        darken_by(near_, look.reach);
+        darken_by(found_, look.reach);
         for (int row = 0; row < rows; ++row)
             store(place.x, place.y + row, std::min(OcclusionAtlas::width, count - row * OcclusionAtlas::width),
                   row * OcclusionAtlas::width);
@@ -214,7 +219,7 @@ private:
 
     const SceneLooks& looks_;
     const Snapshot& snapshot_;
-    const CameraView& view_;
+    const Vec3 reference_;
     std::vector<Occluder> occluders_;
     OccluderFinder finder_;
     std::vector<PlaneInView> planes_, near_planes_;
@@ -225,7 +230,7 @@ private:
     bool changed_ = false;                       // some texel of the tile at hand
     std::vector<std::uint64_t> key_;
     SurfacePoints points_;                       // of the tile at hand
-    std::vector<std::size_t> near_, near_face_;  // what may darken it
+    std::vector<std::size_t> found_, near_face_;  // what may darken it
 };
 
 // Every occluder near the plane darkens the texels around its foot; they multiply, as everywhere.
@@ -233,7 +238,7 @@ void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
     const BodyState& state = snapshot_.bodies[plane.body];
     const PlaneAxes axes = plane_axes(looks_.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
-    const Vec3 origin = view_.relative(state.origin);  // the plane's coordinates count from here
+    const Vec3 origin = state.origin - reference_;  // the plane's coordinates count from here
     OcclusionWindow window;
     window.body = plane.body;
     // A power of two, and the window on whole cells: texels stay where they are while bodies move.
@@ -306,8 +311,8 @@ double window_cell(const SceneLooks& looks) {
     return std::exp2(std::floor(std::log2(looks.typical_reach / texels_per_reach)));
 }
 
-OcclusionMaker::OcclusionMaker(const SceneLooks& looks)
-    : looks_(&looks), versions_(looks.bodies.size(), 0), neighbours_(looks.bodies.size()) {
+OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)
+    : looks_(&looks), reference_(reference), versions_(looks.bodies.size(), 0), neighbours_(looks.bodies.size()) {
     for (int coarser = 1; coarser <= 64; coarser *= 2) {
         lay_out(coarser);
         if (2 * body_rows_ <= most_rows) break;   // else coarser: the windows need room as well
@@ -359,7 +364,7 @@ const OcclusionChanges& OcclusionMaker::update(const Snapshot& snapshot, const C
     changes_ = {};
     changes_.first_row = most_rows;
     note_movements(snapshot);
-    AtlasMaker(*looks_, snapshot, view, atlas_, versions_, neighbours_, changes_).make(visibility, body_rows_);
+    AtlasMaker(*looks_, snapshot, view, reference_, atlas_, versions_, neighbours_, changes_).make(visibility, body_rows_);
     changes_.windows_moved = windows != atlas_.windows;
     return changes_;
 }

@@ -55,8 +55,8 @@ struct OcclusionChanges {
 
 class OcclusionMaker {
 public:
-    /// Gives every body its place. The looks must outlive it.
-    explicit OcclusionMaker(const SceneLooks& looks);
+    /// Gives every body its place. The looks must outlive it. `reference`: as in make_occluders().
+    OcclusionMaker(const SceneLooks& looks, const Vec3& reference);
 
     /// Brings the places of visible bodies and the windows up to date; the others keep what they had.
     const OcclusionChanges& update(const Snapshot& snapshot, const CameraView& view, const Visibility& visibility);
@@ -72,6 +72,7 @@ private:
     void note_movements(const Snapshot& snapshot);
 
     const SceneLooks* looks_;
+    Vec3 reference_;
     OcclusionAtlas atlas_;
     int body_rows_ = 1;                     // of the atlas; the windows come below
     std::vector<Pose> poses_;               // of the last update

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "core/check.h"
+#include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "render/change_finder.h"
 #include "render/draw_list.h"
@@ -37,9 +38,11 @@ struct Renderer::State {
         : drawn(description),
           scene(drawn.scene()),
           looks(make_scene_looks(scene)),
+          path(description.camera),
+          camera(scene.camera),
           view(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y}),
           stage(scene, looks, view, shadow_map_texels),
-          occlusion(looks),
+          occlusion(looks, view.eye()),
           changes(scene, looks, view),
           edges(looks, view),
           drawn_image(scene.output.width, scene.output.height),
@@ -62,9 +65,19 @@ struct Renderer::State {
         gl.DepthFunc(GL_LEQUAL);
     }
 
+    void move_camera(const Snapshot& snapshot) {
+        CameraDescription now = path.at(snapshot);
+        if (same_place(now, camera)) return;
+        camera = std::move(now);
+        view = view.from(camera);
+        changes.forget();
+    }
+
     DrawnParts drawn;
     const SceneDescription& scene;
     SceneLooks looks;
+    CameraPath path;
+    CameraDescription camera;   // as it was for the last picture
     CameraView view;
     ShadowStage stage;
     OcclusionMaker occlusion;
@@ -98,13 +111,14 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
     StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
+    s.move_camera(whole);
     const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
     if (follows && !s.full_redraw && s.changes.unmoved(snapshot)) {
         s.changed.clear();
         return;
     }
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
-                     near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view), {}};
+                     near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch> planes = state.planes;
     const std::vector<DrawnItem> items = state.items;

@@ -74,11 +74,12 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
         double radius, distance;
     };
     std::vector<Place> places;
+    const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
     const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
         const Vec3 landed = center + down * (falls ? fall_to_plane(center, down, scene, looks) : 0.0);
         for (const Vec3& p : {center, landed})
-            if (view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
+            if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
                 places.push_back({p, look.bound_radius, view.relative(p).norm()});
     };
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
@@ -110,7 +111,11 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }
 
-ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
+ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                           const Vec3& carried) const {
+    const double texel = size_ / texels_;
+    const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
+    const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
     Extent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
@@ -118,8 +123,8 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;
-        x.add((x_axis_.dot(center) - low_x_) / size_, ball.radius / size_);
-        y.add((y_axis_.dot(center) - low_y_) / size_, ball.radius / size_);
+        x.add((x_axis_.dot(center) - low_x) / size_, ball.radius / size_);
+        y.add((y_axis_.dot(center) - low_y) / size_, ball.radius / size_);
         z.add(z_axis_.dot(center), ball.radius);
     }
     if (x.empty()) x.add(0.5, 0.5), y.add(0.5, 0.5), z.add(0.0, size_);
@@ -130,8 +135,8 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
     const auto row = [&](const Vec3& axis, double low, double size) {
         return to_glm(axis / size, (axis.dot(view.eye()) - low) / size);
     };
-    fit.x = row(x_axis_, low_x_, size_);
-    fit.y = row(y_axis_, low_y_, size_);
+    fit.x = row(x_axis_, low_x, size_);
+    fit.y = row(y_axis_, low_y, size_);
 
     // The depths' range keeps to powers of two as well, so that a moving body does not round the others' depths anew.
     const double depth_step = power_of_two_at_least(z.size());

@@ -1,6 +1,6 @@
 // Which part of the world the shadow maps cover. Two square maps lie across the light: the near one is fixed for a clip
 // (the bodies' first poses and where they will land, as far as they are in view), so that resting shadows are drawn
-// alike in every frame. The far one appears around it when a body or its shadow leaves it, in powers of two of its
+// alike in every frame. Where the camera turns, all of them; where it follows a body, the map does. The far one appears around it when a body or its shadow leaves it, in powers of two of its
 // size, and what leaves even that throws no shadow. The maps' texels keep to one grid in the world: nothing crawls. All
 // of it depends on the scene and the one snapshot only, never on frames drawn before.
 #pragma once
@@ -29,10 +29,12 @@ inline constexpr double shadow_filter_texels = 6.0;
 
 class ShadowStage {
 public:
-    /// `texels` across each map.
+    /// `texels` across each map; `view` at the start.
     ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels);
 
-    ShadowFit fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
+    /// `carried`: how far a followed body has taken the camera, m; the near map goes along, by whole texels.
+    ShadowFit fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                  const Vec3& carried = Vec3::Zero()) const;
 
 private:
     Vec3 x_axis_, y_axis_, z_axis_;  // z: the way the light travels

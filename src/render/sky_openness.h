@@ -15,7 +15,7 @@ namespace tumble {
 /// Surface points and what is left of their sky light, component by component so that the compiler makes vectors of
 /// them.
 struct SurfacePoints {
-    std::vector<float> x, y, z;     // relative to the eye, m
+    std::vector<float> x, y, z;     // relative to the same point as occluders, m
     std::vector<float> nx, ny, nz;  // unit normals
     std::vector<float> open;        // 1: all of the sky's light
 

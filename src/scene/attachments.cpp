@@ -1,45 +1,16 @@
 #include "scene/attachments.h"
 
+#include "scene/body_index.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
-#include <string>
 
 namespace tumble {
 namespace {
 
 constexpr Choice<bool> force_frames[] = {{"world", false}, {"body", true}};
-
-/// Bodies by name. A body without a name has its index for one; a given name of that text comes first.
-class BodyIndex {
-public:
-    explicit BodyIndex(const std::vector<BodyDescription>& bodies) {
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            const bool is_own_index = bodies[i].name == std::to_string(i);
-            if (!is_own_index) index_[bodies[i].name] = i;
-            else index_.try_emplace(bodies[i].name, i);
-        }
-    }
-
-    std::size_t find(const TomlValue& value) const {
-        const std::string name = value.text();
-        if (const auto found = index_.find(name); found != index_.end()) return found->second;
-        if (index_.count(name + ".0")) {
-            value.origin().fail(
-                fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", name));
-        }
-        std::vector<std::string_view> known;
-        for (const auto& [other, i] : index_) known.push_back(other);
-        value.origin().fail(fmt::format("\"{}\" is not the name of a body{}", name, suggestion(name, known)));
-    }
-
-private:
-    std::map<std::string, std::size_t> index_;
-};
 
 }  // namespace
 

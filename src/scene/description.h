@@ -46,9 +46,27 @@ struct OutputSettings {
     int samples = 4;                  // samples per pixel
 };
 
+/// How to go from one keyframe to the next.
+enum class Interpolation { smooth, linear };
+
+struct CameraKeyframe {
+    double time = 0.0;            // s, increasing
+    Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
+    double vertical_fov = 40.0;   // degrees
+};
+
+/// A camera, at the start where it moves: first along its keyframes, then in a circle about its target, then along with
+/// a body (render/camera_path.h).
 struct CameraDescription {
     Vec3 eye, target, up{0.0, 1.0, 0.0};
     double vertical_fov = 40.0;   // degrees
+    std::vector<CameraKeyframe> keyframes;   // empty: it stands still
+    Interpolation interpolation = Interpolation::smooth;
+    double orbit = 0.0;           // degrees/s about the target, counter-clockwise seen from the tip of `up`
+    std::optional<std::size_t> follow;       // index into bodies
+    Vec3 follow_start = Vec3::Zero();        // where that body is at the start
+
+    bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
 };
 
 struct LightDescription {
@@ -133,7 +151,6 @@ struct Keyframe {
     Vec3 position = Vec3::Zero();
     Quat rotation = Quat::Identity();
 };
-enum class Interpolation { smooth, linear };
 
 struct BodyDescription {
     std::string name;             // given, or the index in the expanded list

@@ -60,6 +60,7 @@ inline constexpr Range fraction{0.0, 1.0, ""};            // roughness, metallic
 
 // -- Angles and directions
 inline constexpr Range angle{-1e6, 1e6, "degrees"};       // the reduction of sincos keeps all its digits far beyond
+inline constexpr Range orbit{-1e6, 1e6, "degrees/s"};     // three thousand turns a second: more is a slip
 inline constexpr Range tilt{0.0, 180.0, "degrees"};
 inline constexpr Range field_of_view{1.0, 170.0, "degrees"};   // beyond, a picture is a dot or all edge
 inline constexpr Range direction{-1e30, 1e30, ""};        // only the ratio of its components counts

@@ -2,6 +2,7 @@
 
 #include "scene/attachments.h"
 #include "scene/bodies.h"
+#include "scene/camera.h"
 #include "scene/limits.h"
 #include "scene/materials.h"
 #include "scene/run_settings.h"

@@ -10,11 +10,6 @@
 namespace tumble {
 namespace {
 
-constexpr Choice<Interpolation> interpolations[] = {
-    {"smooth", Interpolation::smooth},
-    {"linear", Interpolation::linear},
-};
-
 Quat rotation_about_axis(const TomlTable& table) {
     table.expect_keys({"axis", "angle"});
     const Vec3 axis = table.require("axis").direction();

@@ -6,6 +6,12 @@
 
 namespace tumble {
 
+/// Of keyframes, of bodies and of the camera.
+inline constexpr Choice<Interpolation> interpolations[] = {
+    {"smooth", Interpolation::smooth},
+    {"linear", Interpolation::linear},
+};
+
 /// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
 /// With keyframes, its pose is that of the first.
 void read_motion(const TomlTable& table, BodyDescription& body);

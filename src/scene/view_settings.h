@@ -1,4 +1,4 @@
-// [camera], [light] and [wind]: what surrounds the bodies.
+// [light] and [wind]: what surrounds the bodies.
 #pragma once
 
 #include "scene/description.h"
@@ -8,9 +8,5 @@ namespace tumble {
 
 LightDescription read_light(const TomlTable& root);
 std::optional<WindDescription> read_wind(const TomlTable& root);
-
-/// The camera of the file. What it leaves out is chosen so that the bodies are in view;
-/// call it when `scene` has its bodies and its output size.
-CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene);
 
 }  // namespace tumble

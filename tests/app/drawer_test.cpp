@@ -41,6 +41,7 @@ Snapshot at_frame(std::int64_t n) {
     const std::int64_t moves = n < 8 ? n : n < 12 ? 7 : n < 15 ? n - 4 : 10;
     Snapshot snapshot;
     snapshot.frame = n;
+    snapshot.time = double(n) / 60.0;
     snapshot.bodies.resize(3);
     for (BodyState& body : snapshot.bodies) {
         body.origin = {0.0, 0.0, 0.0};
@@ -59,6 +60,7 @@ Exposure blurred(std::int64_t n) {
     const Snapshot next = at_frame(n + 1);
     for (int i = 1; i < 4; ++i) {
         Snapshot between = at_frame(n);
+        between.time += double(i) / (4 * 60.0);
         between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
         exposure.moments.push_back(between);
     }
@@ -120,6 +122,25 @@ TEST(Drawer, TheNumberOfProcessesChangesNoByte) {
     }
     EXPECT_NE(first[0].video, first[7].video);
     EXPECT_NE(first[7].png, first[14].png);
+}
+
+TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
+    SceneDescription scene = two_boxes();
+    scene.camera.orbit = 360.0;
+    for (const bool blur : {false, true}) {
+        std::vector<Seen> first;
+        for (const int workers : {1, 2}) {
+            Drawer drawer(scene, {}, both, workers, 4);
+            const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
+            if (first.empty()) first = seen;
+            EXPECT_TRUE(seen == first) << workers;
+            EXPECT_EQ(drawer.drawn(), 24);
+        }
+        for (std::size_t n = 1; n < first.size(); ++n) {
+            EXPECT_FALSE(first[n].repeated) << n;
+            EXPECT_NE(first[n].png, first[n - 1].png) << n;
+        }
+    }
 }
 
 TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {

@@ -38,7 +38,8 @@ TEST_P(DemoRedraw, HasTheBytesOfAFullRedraw) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DemoRedraw,
                          testing::Values("bouncing_balls", "dominoes", "falling_boxes", "furniture", "mixed_heap",
-                                         "newtons_cradle", "paddle", "tennis_racket", "thousand_boxes", "tower_hit"),
+                                         "newtons_cradle", "paddle", "tennis_racket", "thousand_boxes", "tower_hit",
+                                         "turntable"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

@@ -247,6 +247,48 @@ TEST(SceneValues, AStepThatDividesTheFrameBecomesItsNumberOfSteps) {
     EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 1e-6\n[output]\nfps = 1e6").simulation.steps_per_frame, 1);
 }
 
+TEST(SceneValues, AMovingCamera) {
+    const auto camera = parse(R"(
+format = 1
+[camera]
+eye = [1, 2, 3]
+target = [0, 1, 0]
+vertical_fov = 50
+orbit = -36
+follow = "ball"
+interpolation = "linear"
+keyframes = [{ time = 1 }, { time = 2.5, eye = [4, 5, 6], vertical_fov = 20 }, { time = 3, target = [0, 0, 1] }]
+[[body]]
+shape = { type = "plane" }
+type = "fixed"
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 1 }
+position = [7, 8, 9]
+)").camera;
+    EXPECT_TRUE(camera.moves());
+    EXPECT_EQ(camera.orbit, -36.0);
+    EXPECT_EQ(camera.follow, 1u);
+    EXPECT_EQ(camera.follow_start, Vec3(7, 8, 9));
+    EXPECT_EQ(camera.interpolation, Interpolation::linear);
+    ASSERT_EQ(camera.keyframes.size(), 3u);
+    EXPECT_EQ(camera.keyframes[0].time, 1.0);
+    EXPECT_EQ(camera.keyframes[0].eye, Vec3(1, 2, 3));
+    EXPECT_EQ(camera.keyframes[1].eye, Vec3(4, 5, 6));
+    EXPECT_EQ(camera.keyframes[1].target, Vec3(0, 1, 0));
+    EXPECT_EQ(camera.keyframes[1].vertical_fov, 20.0);
+    EXPECT_EQ(camera.keyframes[2].target, Vec3(0, 0, 1));
+    EXPECT_EQ(camera.keyframes[2].vertical_fov, 50.0);
+}
+
+TEST(SceneValues, ACameraThatFollowsLooksAtItsBody) {
+    const std::string scene =
+        "format = 1\n[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 1 }\nposition = [7, 8, 9]\n[camera]\n";
+    EXPECT_FALSE(parse(scene).camera.moves());
+    EXPECT_EQ(parse(scene + "follow = \"ball\"").camera.target, Vec3(7, 8, 9));
+    EXPECT_EQ(parse(scene + "follow = \"ball\"\ntarget = [1, 1, 1]").camera.target, Vec3(1, 1, 1));
+}
+
 TEST(SceneValues, FrameCount) {
     const auto frames = [](double duration, double fps) {
         SceneDescription scene;

@@ -1,0 +1,65 @@
+#include "render/camera_path.h"
+
+#include "core/elementary.h"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+std::optional<NumberTrack> track_of(const CameraDescription& camera) {
+    if (camera.keyframes.empty()) return std::nullopt;
+    std::vector<double> times;
+    std::vector<Eigen::VectorXd> values;
+    for (const CameraKeyframe& key : camera.keyframes) {
+        times.push_back(key.time);
+        values.emplace_back(7);
+        values.back() << key.eye, key.target, key.vertical_fov;
+    }
+    return NumberTrack(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
+}
+
+// Rodrigues' formula.
+Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
+    const SinCos turn = sincos(degrees * pi / 180.0);
+    const Vec3 along = axis * axis.dot(v);
+    return along + turn.cos * (v - along) + turn.sin * axis.cross(v);
+}
+
+}  // namespace
+
+CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), keys_(track_of(camera)) {}
+
+Vec3 CameraPath::carried(const Snapshot& snapshot) const {
+    if (!camera_.follow) return Vec3::Zero();
+    return snapshot.bodies.at(*camera_.follow).origin - camera_.follow_start;
+}
+
+CameraDescription CameraPath::at(const Snapshot& snapshot) const {
+    CameraDescription now;
+    now.eye = camera_.eye;
+    now.target = camera_.target;
+    now.up = camera_.up;
+    now.vertical_fov = camera_.vertical_fov;
+    if (keys_) {
+        const Eigen::VectorXd key = keys_->at(snapshot.time);
+        now.eye = key.head<3>();
+        now.target = key.segment<3>(3);
+        now.vertical_fov = key[6];
+    }
+    // Whole turns go first, in degrees, where they are exact.
+    const double angle = std::remainder(camera_.orbit * snapshot.time, 360.0);
+    if (angle != 0.0) now.eye = now.target + turned(now.eye - now.target, camera_.up.normalized(), angle);
+    if (camera_.follow) {
+        const Vec3 way = carried(snapshot);
+        now.eye += way;
+        now.target += way;
+    }
+    return now;
+}
+
+bool same_place(const CameraDescription& a, const CameraDescription& b) {
+    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.vertical_fov == b.vertical_fov;
+}
+
+}  // namespace tumble

@@ -1,0 +1,32 @@
+// Where a moving camera is: a function of the scene and one snapshot alone, so that every process that draws finds the
+// same place. Three movements, one after the other: along the keyframes; in a circle about the target, by
+// orbit * t around `up`; along with a body, eye and target by the way that its origin has gone.
+#pragma once
+
+#include "core/number_track.h"
+#include "scene/description.h"
+#include "sim/snapshot.h"
+
+#include <optional>
+
+namespace tumble {
+
+class CameraPath {
+public:
+    explicit CameraPath(const CameraDescription& camera);
+
+    /// Eye, target, up and field of view at the snapshot's time. A whole turn comes back to the last bit.
+    CameraDescription at(const Snapshot& snapshot) const;
+
+    /// How far the followed body has carried the camera; zero without one, m.
+    Vec3 carried(const Snapshot& snapshot) const;
+
+private:
+    CameraDescription camera_;
+    std::optional<NumberTrack> keys_;   // eye, target, field of view
+};
+
+/// Do both show the same picture?
+bool same_place(const CameraDescription& a, const CameraDescription& b);
+
+}  // namespace tumble

@@ -1,0 +1,201 @@
+// Where a moving camera is, against closed forms; and its pictures.
+#include "drawing.h"
+#include "example_scenes.h"
+
+#include "render/camera_path.h"
+#include "render/drawn_poses.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double rounding = 1e-12;   // m, at the distances of these scenes
+
+Snapshot at_time(const SceneDescription& scene, double time) {
+    Snapshot snapshot = first_snapshot(scene);
+    snapshot.time = time;
+    return snapshot;
+}
+
+/// Ground, a heap of boxes, and the camera of empty_scene(): at (0, 1, 8), to (0, 1, 0).
+SceneDescription small_heap() {
+    SceneDescription scene = heap_scene(12);
+    scene.output.width = 232;
+    scene.output.height = 152;
+    return scene;
+}
+
+TEST(CameraPath, StandsStillWhereNothingMovesIt) {
+    const SceneDescription scene = empty_scene();
+    EXPECT_TRUE(same_place(CameraPath(scene.camera).at(at_time(scene, 3.0)), scene.camera));
+}
+
+TEST(CameraPath, TurnsAboutTheTargetCounterClockwiseFromAbove) {
+    SceneDescription scene = empty_scene();
+    scene.camera.orbit = 30.0;
+    const CameraPath path(scene.camera);
+    for (const double time : {0.0, 1.0, 3.0, 4.5, 10.0}) {
+        const double angle = M_PI / 6.0 * time;
+        const CameraDescription now = path.at(at_time(scene, time));
+        EXPECT_LT((now.eye - Vec3(8.0 * std::sin(angle), 1.0, 8.0 * std::cos(angle))).norm(), rounding) << time;
+        EXPECT_EQ(now.target, scene.camera.target);
+    }
+    EXPECT_EQ(path.at(at_time(scene, 12.0)).eye, scene.camera.eye) << "to the last bit";
+}
+
+TEST(CameraPath, AnOrbitKeepsItsHeightAboutATiltedUp) {
+    SceneDescription scene = empty_scene();
+    scene.camera.up = Vec3(1.0, 2.0, 0.5);   // not of unit length
+    scene.camera.orbit = -77.0;
+    const Vec3 arm = scene.camera.eye - scene.camera.target;
+    const CameraDescription now = CameraPath(scene.camera).at(at_time(scene, 1.3));
+    EXPECT_NEAR((now.eye - now.target).norm(), arm.norm(), rounding);
+    EXPECT_NEAR((now.eye - now.target).dot(scene.camera.up), arm.dot(scene.camera.up), rounding);
+}
+
+TEST(CameraPath, GoesThroughItsKeyframes) {
+    SceneDescription scene = empty_scene();
+    scene.camera.keyframes = {{1.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {2.0, {4, 0, 8}, {0, 2, 0}, 20.0}, {4.0, {4, 6, 8}, {0, 2, 2}, 30.0}};
+    for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
+        scene.camera.interpolation = way;
+        const CameraPath path(scene.camera);
+        for (const CameraKeyframe& key : scene.camera.keyframes) {
+            const CameraDescription now = path.at(at_time(scene, key.time));
+            EXPECT_LT((now.eye - key.eye).norm() + (now.target - key.target).norm(), rounding);
+            EXPECT_NEAR(now.vertical_fov, key.vertical_fov, rounding);
+        }
+        EXPECT_EQ(path.at(at_time(scene, 0.2)).eye, Vec3(0, 0, 8)) << "still before the first";
+        EXPECT_EQ(path.at(at_time(scene, 9.0)).eye, Vec3(4, 6, 8)) << "and after the last";
+        const CameraDescription between = path.at(at_time(scene, 1.5));
+        // Smooth: half of the way, less an eighth of the second key's velocity: (2 * 4 + 0, 0 + 6 / 2, 0) / 3.
+        const bool smooth = way == Interpolation::smooth;
+        EXPECT_LT((between.eye - (smooth ? Vec3(2.0 - 8.0 / 24.0, -1.0 / 8.0, 8.0) : Vec3(2, 0, 8))).norm(), rounding);
+    }
+}
+
+TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {ground_plane(), ball_body(Vec3(1.0, 1.0, 0.0), 0.5, {200, 60, 50})};
+    scene.camera.follow = 1;
+    scene.camera.follow_start = scene.bodies[1].position;
+    scene.camera.orbit = 90.0;
+    Snapshot snapshot = at_time(scene, 1.0);
+    snapshot.bodies[1].origin = Vec3(4.0, 3.0, -2.0);
+    const CameraDescription now = CameraPath(scene.camera).at(snapshot);
+    EXPECT_LT((now.eye - Vec3(8.0 + 3.0, 1.0 + 2.0, -2.0)).norm(), rounding);
+    EXPECT_LT((now.target - Vec3(3.0, 3.0, -2.0)).norm(), rounding);
+}
+
+TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
+    SceneDescription scene = empty_scene();
+    scene.bodies = {ground_plane(), ball_body(Vec3(0.7, 1.0, 0.0), 0.4, {220, 30, 20})};
+    scene.camera.follow = 1;
+    scene.camera.follow_start = scene.bodies[1].position;
+    Renderer renderer(scene, {});
+    const Pixel middle = pixel_of(scene, scene.bodies[1].position), left = pixel_of(scene, Vec3(0.25, 1.0, 0.0));
+    for (const double x : {0.0, 2.3, 40.0, 800.0}) {
+        Snapshot snapshot = at_time(scene, 0.0);
+        snapshot.bodies[1].origin += Vec3(x, 0.1 * x, -x);
+        Image image;
+        renderer.render(snapshot, image);
+        const std::uint8_t *ball = image.at(middle.x, middle.y), *beside = image.at(left.x, left.y);
+        EXPECT_GT(ball[0], 2 * ball[2]) << "red at " << x;
+        EXPECT_LT(beside[0], 2 * beside[2]) << "not red beside it, at " << x;
+    }
+}
+
+// Every frame is what a renderer that has seen nothing before makes of it, however few of the frames it gets.
+TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
+    SceneDescription scene = small_heap();
+    const std::size_t last = scene.bodies.size() - 1;
+    scene.camera.keyframes = {{0.5, scene.camera.eye, scene.camera.target, 40.0},
+                              {0.9, scene.camera.eye + Vec3(1.0, 0.5, 0.0), scene.camera.target, 34.0}};
+    scene.camera.follow = last;
+    scene.camera.follow_start = scene.bodies[last].position;
+    for (const bool turns : {false, true}) {
+        scene.camera.orbit = turns ? 60.0 : 0.0;
+        RenderOptions everything;
+        everything.full_redraw = true;
+        Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
+        DrawnPoses poses(scene);
+        Image frame, sparse, truth;
+        for (int n = 0; n < 15; ++n) {   // with stillness before and after
+            Snapshot snapshot = at_time(scene, 0.1 * n);
+            snapshot.bodies[1].origin.x() += 0.05 * n;
+            if (n > 10) snapshot.bodies[last].origin += Vec3(0.1 * (n - 10), 0.2, 0.0);
+            poses.follow(snapshot);
+            partial.render(snapshot, frame);
+            full.render(snapshot, truth);
+            ASSERT_EQ(frame, truth) << n;
+            if (n % 2 == 0) continue;
+            every_other.render(snapshot, sparse);
+            ASSERT_EQ(sparse, truth) << n;
+        }
+    }
+}
+
+// What was kept from another place of the camera is, to the bit, what would be worked out at this one: of a few hundred
+// bodies, rounding would show in some texel.
+TEST(MovingCamera, WhatIsKeptDoesNotDependOnWhereItWasSeenFrom) {
+    SceneDescription scene = heap_scene(250);
+    scene.output.width = 232;
+    scene.output.height = 152;
+    scene.camera.eye += 30.0 * (scene.camera.eye - scene.camera.target);   // a long lens: distances round coarsely
+    scene.camera.vertical_fov = 1.3;
+    scene.camera.orbit = 1.0;
+    const std::vector<double> times = {0.0, 5.3, 9.1};
+    std::vector<Image> images(times.size());
+    {
+        Renderer used(scene, {});
+        for (std::size_t i = 0; i < times.size(); ++i) used.render(at_time(scene, times[i]), images[i]);
+    }
+    for (std::size_t i = 0; i < times.size(); ++i)
+        EXPECT_EQ(images[i], drawn(scene, at_time(scene, times[i]))) << times[i];
+}
+
+TEST(MovingCamera, AWholeTurnComesBackToTheSameBytes) {
+    SceneDescription scene = small_heap();
+    scene.camera.orbit = 90.0;
+    Renderer renderer(scene, {});
+    Image first, image;
+    renderer.render(at_time(scene, 0.0), first);
+    for (const double time : {1.0, 2.0, 3.0}) {
+        renderer.render(at_time(scene, time), image);
+        EXPECT_NE(image, first) << time;
+    }
+    renderer.render(at_time(scene, 4.0), image);
+    EXPECT_EQ(image, first);
+}
+
+TEST(MovingCamera, NoTwoFramesAreTheSamePictureUntilItStops) {
+    SceneDescription scene = small_heap();
+    scene.camera.keyframes = {{0.0, scene.camera.eye, scene.camera.target, 40.0},
+                              {1.0, scene.camera.eye + Vec3(1.0, 0.0, 0.0), scene.camera.target, 40.0}};
+    DrawnPoses poses(scene);
+    for (int n = 0; n < 16; ++n) {
+        Snapshot snapshot = at_time(scene, 0.1 * n);
+        EXPECT_EQ(poses.follow(snapshot), n <= 10) << n;
+    }
+}
+
+TEST(MovingCamera, RestsWithABodyThatTrembles) {
+    SceneDescription scene = small_heap();
+    scene.camera.follow = 1;
+    scene.camera.follow_start = scene.bodies[1].position;
+    scene.bodies[1].surface.visible = false;   // followed all the same
+    DrawnPoses poses(scene);
+    Snapshot snapshot = at_time(scene, 0.0);
+    poses.follow(snapshot);
+    snapshot = at_time(scene, 0.1);
+    snapshot.bodies[1].origin.x() += 1e-9;
+    EXPECT_FALSE(poses.follow(snapshot));
+    EXPECT_EQ(snapshot.bodies[1].origin, scene.bodies[1].position);
+    snapshot.bodies[1].origin.x() += 0.5;
+    EXPECT_TRUE(poses.follow(snapshot));
+}
+
+}  // namespace
+}  // namespace tumble
