@@ -3,6 +3,7 @@
 #include "render/plane_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
@@ -75,7 +76,7 @@ bool ChangeFinder::unmoved(const Snapshot& snapshot) const {
     return !first_;
 }
 
-TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
+TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
     TileMarks marks(*view_);
     const std::size_t bodies = looks_->bodies.size();
     background_changed_ = first_ || now.near_distance != near_distance_;
@@ -103,7 +104,7 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
     } else {
         for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
             if (item_moved[i] == 0 || !now.items[i].exists()) continue;
-            for (const DrawnItem* item : {&items_[i], &now.items[i]}) {
+            for (const DrawnItem* item : std::array<const DrawnItem*, 2>{&items_[i], &now.items[i]}) {
                 marks.mark_hull(item->corners);
                 mark_on_planes(*item, i, now, marks);
             }
@@ -119,7 +120,7 @@ TileMarks ChangeFinder::find(FrameState&& now, const OcclusionChanges& occlusion
     }
     for (std::size_t i = 0; i < bodies; ++i)
         poses_[i] = {now.snapshot.bodies[i].origin, now.snapshot.bodies[i].orientation};
-    items_ = std::move(now.items);
+    items_ = now.items;
     near_distance_ = now.near_distance;
     shadows_ = now.shadows;
     first_ = false;

@@ -36,7 +36,7 @@ public:
     void forget() { first_ = true; }
 
     /// Compares with the state of the call before, and remembers this one.
-    TileMarks find(FrameState&& now, const OcclusionChanges& occlusion, const Visibility& visibility);
+    TileMarks find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
     /// What of the shadow maps the last find() found changed.
     const ShadowMarks& shadow_marks() const { return shadow_marks_; }

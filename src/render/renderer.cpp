@@ -2,12 +2,13 @@
 #include "render/renderer.h"
 
 #include "core/check.h"
+#include "core/error.h"
 #include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "render/change_finder.h"
 #include "render/draw_list.h"
-#include "render/edge_blender.h"
 #include "render/drawn_parts.h"
+#include "render/edge_blender.h"
 #include "render/frame_uniforms.h"
 #include "render/framebuffer.h"
 #include "render/gl_context.h"
@@ -65,6 +66,14 @@ struct Renderer::State {
         gl.DepthFunc(GL_LEQUAL);
     }
 
+    // Another renderer's context may be current: what goes is ours only while ours is.
+    ~State() {
+        try {
+            context->make_current();
+        } catch (const RunError&) {
+        }
+    }
+
     void move_camera(const Snapshot& snapshot) {
         CameraDescription now = path.at(snapshot);
         if (same_place(now, camera)) return;
@@ -109,6 +118,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
+    s.context->make_current();  // there may be other renderers in this thread
     StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
     s.move_camera(whole);
@@ -120,13 +130,13 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
                      near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
-    const std::vector<PlanePatch> planes = state.planes;
-    const std::vector<DrawnItem> items = state.items;
+    const std::vector<PlanePatch>& planes = state.planes;
+    const std::vector<DrawnItem>& items = state.items;
     const double near_distance = state.near_distance;
-    const ShadowFit shadows = state.shadows;
+    const ShadowFit& shadows = state.shadows;
     const Visibility visibility = find_visible(s.looks, snapshot, s.view);
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
-    TileMarks marks = s.changes.find(std::move(state), darkening, visibility);
+    TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
     s.changed = marks.rectangles();
 

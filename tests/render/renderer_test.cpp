@@ -49,6 +49,19 @@ TEST(Renderer, DoesNotRememberOtherFrames) {
     EXPECT_EQ(image, drawn(scene));
 }
 
+TEST(Renderer, TwoInOneThreadKeepApart) {
+    const SceneDescription scene = mixed_scene();
+    const Image alone = drawn(scene);
+    auto first = std::make_unique<Renderer>(scene, RenderOptions{});
+    Renderer second(scene, {});
+    Image image;
+    first->render(first_snapshot(scene), image);
+    EXPECT_EQ(image, alone) << "the first, after the second was made";
+    first.reset();
+    second.render(first_snapshot(scene), image);
+    EXPECT_EQ(image, alone) << "the second, after the first was destroyed";
+}
+
 TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
     for (const int samples : {1, 4}) {
         SceneDescription scene = mixed_scene();
