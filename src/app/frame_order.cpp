@@ -46,11 +46,6 @@ void FrameOrder::fail(std::exception_ptr error) {
 
 void FrameOrder::stop() { fail(nullptr); }
 
-bool FrameOrder::stopped() {
-    const std::lock_guard lock(mutex_);
-    return stopped_;
-}
-
 std::optional<Frame> FrameOrder::next() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return stopped_ || waiting_.contains(next_) || working_ == 0; });

@@ -30,7 +30,6 @@ public:
     /// The first error ends everything.
     void fail(std::exception_ptr error);
     void stop();
-    bool stopped();
 
     /// Waits for the next frame. Nothing: all workers have left, or it was stopped. Throws the first error.
     std::optional<Frame> next();

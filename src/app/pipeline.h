@@ -3,8 +3,9 @@
 //   simulation ──poses──> drawing processes ──frames──┬──> PNG files
 //                                                     └──> video (ffmpeg)
 //
-// What a frame becomes (planes for ffmpeg, a PNG file) is made where it is drawn; here it is only written. Each arrow is a bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the
-// clip is. The first error of any stage stops all of them.
+// What a frame becomes (planes for ffmpeg, a PNG file) is made where it is drawn; here it is only written. Each arrow is a
+// bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the clip is. The first error
+// of any stage stops all of them.
 #pragma once
 
 #include "app/drawer.h"
@@ -33,7 +34,8 @@ struct PipelineTimes {
 class Pipeline {
 public:
     /// Simulates and draws `frames` frames; each goes to the outputs that are there (null: not asked for).
-    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that the outputs want.
+    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
+    /// the outputs want.
     Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
              Shutter shutter = {});
 

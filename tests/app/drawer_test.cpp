@@ -143,6 +143,15 @@ TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
     }
 }
 
+// Of work in a process of its own: this one must stay without OpenGL, so that the next tests can fork.
+int status_of_process(const std::function<int()>& work) {
+    const pid_t id = fork();
+    if (id == 0) _exit(work());
+    int status = -1;
+    waitpid(id, &status, 0);
+    return status;
+}
+
 TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
     const SceneDescription scene = two_boxes();
     Drawer drawer(scene, {}, both, 2);
@@ -162,12 +171,7 @@ TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
         }
         return 0;
     };
-    // In a process of its own: this one must stay without OpenGL, so that the next tests can fork.
-    const pid_t id = fork();
-    if (id == 0) _exit(expect());
-    int status = -1;
-    waitpid(id, &status, 0);
-    EXPECT_EQ(status, 0);
+    EXPECT_EQ(status_of_process(expect), 0);
 }
 
 TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
@@ -197,11 +201,7 @@ TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
         }
         return 0;
     };
-    const pid_t id = fork();
-    if (id == 0) _exit(expect());
-    int status = -1;
-    waitpid(id, &status, 0);
-    EXPECT_EQ(status, 0);
+    EXPECT_EQ(status_of_process(expect), 0);
 }
 
 std::string error_of(const std::function<void()>& action) {

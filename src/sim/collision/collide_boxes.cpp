@@ -196,7 +196,8 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const FaceAxis face_b = best_face(rel.t_in_b, b.half_extent, [&](int k) { return rel.face_b(k); });
     if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
 
-    const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
+    const double smaller = std::min(a.radius, b.radius);
+    const double preference = axis_preference(smaller, scratch.choice);
     bool of_b = face_b.separation > face_a.separation + preference;
     double separation = of_b ? face_b.separation : face_a.separation;
     double best = separation + preference;
@@ -213,7 +214,6 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             edge_j = j;
             flip = turned;
         }
-    const double smaller = std::min(a.radius, b.radius);
     const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
         return on_b ? Vec3((rel.t_in_b[k] < 0.0 ? -1.0 : 1.0) * rel.r.col(k)) : Vec3((rel.t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
     };
@@ -254,12 +254,10 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
                           separation, ea, eb, pose_a, out);
     } else if (of_b) {
         // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
-        const int k = face;
-        add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), k, rel.t_in_b[k] > 0.0 ? -1.0 : 1.0, true,
+        add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), face, rel.t_in_b[face] > 0.0 ? -1.0 : 1.0, true,
                  overlapping, margin, scratch, out);
     } else {
-        const int k = face;
-        add_face(a, b, pose_a, rel.t, rel.r, k, rel.t[k] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
+        add_face(a, b, pose_a, rel.t, rel.r, face, rel.t[face] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
     }
 }
 

@@ -6,18 +6,14 @@
 #include <cmath>
 
 namespace tumble {
+
+using namespace contact_rows;
+
 namespace {
 
 int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
     const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
     return found != bodies.end() && *found == body ? int(found - bodies.begin()) : -1;
-}
-
-void put(double* six, const Vec3& linear, const Vec3& angular) {
-    for (int k = 0; k < 3; ++k) {
-        six[k] = linear[k];
-        six[3 + k] = angular[k];
-    }
 }
 
 Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) { return Eigen::Map<Vec3>(numbers.data() + from); }
@@ -49,22 +45,6 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
     }
 }
 
-// n . (velocity of B's point - that of A's), over the velocities and length * angular velocities.
-void DirectSolver::set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a,
-                           const Body& b) const {
-    if (patch.a != none) put(row.on_a, -direction, -arm_a.cross(direction) / length_);
-    else if (a.moves()) row.offset -= direction.dot(a.point_velocity(arm_a));
-    if (patch.b != none) put(row.on_b, direction, arm_b.cross(direction) / length_);
-    else if (b.moves()) row.offset += direction.dot(b.point_velocity(arm_b));
-}
-
-void DirectSolver::set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b) const {
-    if (patch.a != none) put(row.on_a, Vec3::Zero(), -normal / length_);
-    else if (a.moves()) row.offset -= normal.dot(a.angular_velocity);
-    if (patch.b != none) put(row.on_b, Vec3::Zero(), normal / length_);
-    else if (b.moves()) row.offset += normal.dot(b.angular_velocity);
-}
-
 void DirectSolver::load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                 std::span<const std::uint32_t> manifolds) {
     patches_.clear();
@@ -87,7 +67,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         for (int i = 0; i < patch.count; ++i) {
             const ContactPatch::Point& p = geometry.points[std::size_t(i)];
             Row& row = patch.normal[i];
-            set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b);
+            set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b, length_);
             row.estimate = p.impulse;
             row.target = p.bounce > 0.0 ? p.bounce : std::min(0.0, -p.separation / h);
             driven_ = driven_ || p.bounce > 0.0;
@@ -95,9 +75,9 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
             patch.overlap[i] = -p.separation;
             speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
         }
-        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b);
-        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b);
-        set_twist(patch.twist, geometry.normal, patch, a, b);
+        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
+        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
+        set_twist(patch.twist, geometry.normal, patch, a, b, length_);
         patch.friction[0].estimate = m.friction[0];
         patch.friction[1].estimate = m.friction[1];
         patch.twist.estimate = m.twist;
@@ -121,22 +101,6 @@ std::size_t DirectSolver::factor_work(const ContactProblem& problem, std::span<c
                                       std::span<const std::uint32_t> manifolds) {
     structure(problem, bodies, manifolds);
     return matrix_.work();
-}
-
-double DirectSolver::dot(const Patch& patch, const Row& row, const std::vector<double>& u) const {
-    double sum = 0.0;
-    if (patch.a != none)
-        for (int k = 0; k < 6; ++k) sum += row.on_a[k] * u[std::size_t(6 * patch.a + k)];
-    if (patch.b != none)
-        for (int k = 0; k < 6; ++k) sum += row.on_b[k] * u[std::size_t(6 * patch.b + k)];
-    return sum;
-}
-
-void DirectSolver::add(const Patch& patch, const Row& row, double amount, std::vector<double>& to) const {
-    if (patch.a != none)
-        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.a + k)] += amount * row.on_a[k];
-    if (patch.b != none)
-        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.b + k)] += amount * row.on_b[k];
 }
 
 void DirectSolver::mass_times(const std::vector<double>& u, std::vector<double>& result) const {

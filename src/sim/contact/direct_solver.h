@@ -15,6 +15,7 @@
 #pragma once
 
 #include "sim/contact/block_cholesky.h"
+#include "sim/contact/contact_rows.h"
 #include "sim/contact/soft_solver.h"
 
 #include <cstdint>
@@ -36,24 +37,9 @@ public:
     int factorisations() const { return factorisations_; }
 
 private:
-    static constexpr int none = -1;
-    struct Row {                        // of J, and what is known along it
-        double on_a[6] = {}, on_b[6] = {};
-        double offset = 0.0;            // m/s, of bodies whose velocity is given
-        double target = 0.0;            // m/s: b
-        double estimate = 0.0, impulse = 0.0;   // N s: e and f
-        double speed = 0.0, change = 0.0;       // J u + offset, J du
-    };
-    struct Patch {
-        int a = none, b = none, pair = none, count = 0;
-        std::uint32_t manifold = 0;
-        Row normal[4], friction[2], twist;
-        double lever[4] = {}, overlap[4] = {};  // m
-        double coefficient = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
-        Vec3 tangent_1 = Vec3::Zero();
-        std::uint8_t source[4] = {};
-        ContactPatch geometry;
-    };
+    static constexpr int none = contact_rows::none;
+    using Row = contact_rows::Row;
+    using Patch = contact_rows::Patch;
     struct Weights {                    // second derivatives of a patch's terms
         double normal[4] = {}, f11 = 0.0, f12 = 0.0, f22 = 0.0, twist = 0.0;
     };
@@ -61,8 +47,6 @@ private:
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
     void load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
     void structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
-    void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a, const Body& b) const;
-    void set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b) const;
     void start();
     void set_limits(Patch& patch);
     bool minimise(int most_steps);
@@ -73,21 +57,11 @@ private:
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
     double objective(const std::vector<double>& u);
-    double dot(const Patch& patch, const Row& row, const std::vector<double>& u) const;
-    void add(const Patch& patch, const Row& row, double amount, std::vector<double>& to) const;
     double kinetic_energy(const std::vector<double>& u) const;
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
     bool admissible() const;
     bool push_out(double h);
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
-
-    template <class Visit>
-    static void each_row(Patch& patch, Visit&& visit) {
-        for (int i = 0; i < patch.count; ++i) visit(patch.normal[i]);
-        visit(patch.friction[0]);
-        visit(patch.friction[1]);
-        if (patch.count > 1) visit(patch.twist);
-    }
 
     struct Mass {
         double mass = 0.0;      // kg

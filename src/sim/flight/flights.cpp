@@ -222,17 +222,6 @@ void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment
     else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
 }
 
-// Whether a body's bounding ball certainly stays above the ground: it is, and would be at the end, and does not fall and
-// rise again in between.
-bool Flights::stays_above(const Ground& ground, double radius, const Path& path, double from, double horizon) const {
-    if (!path.parabolic()) return false;
-    const double height = ground.normal.dot(path.position(from)) - ground.offset - radius;
-    const double rate = ground.normal.dot(path.velocity(from)), acceleration = ground.normal.dot(path.acceleration(from));
-    if (!(height > tuning::touch * radius)) return false;
-    if (acceleration > 0.0) return rate >= 0.0;
-    return height + horizon * (rate + 0.5 * horizon * acceleration) > 0.0;
-}
-
 void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
     Flier& f = fliers_[i];
     const bool flying = bodies[i].flying;
@@ -252,7 +241,7 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
     };
     if (flying)
         for (const std::uint32_t j : neighbourhood_.fixed(i))
-            if (!grounds_[j].valid || !stays_above(grounds_[j], bodies[i].radius, f.path, self.since, horizon)) look(j);
+            if (!grounds_[j].valid || !grounds_[j].stays_below(f.path, bodies[i].radius, self.since, horizon)) look(j);
     const Ballistic& ball = balls_[i];
     const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
     for (const std::uint32_t j : neighbourhood_.moving(i)) {

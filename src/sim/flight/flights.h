@@ -8,16 +8,17 @@
 #pragma once
 
 #include "sim/contact/contact.h"
+#include "sim/contact/contact_solver.h"
 #include "sim/contact/impacts.h"
 #include "sim/contact/sleep.h"
 #include "sim/flight/event_queue.h"
+#include "sim/flight/ground.h"
 #include "sim/flight/impact_cluster.h"
 #include "sim/flight/moment.h"
 #include "sim/flight/motion_limit.h"
 #include "sim/flight/neighbourhood.h"
 #include "sim/flight/path.h"
 #include "sim/flight/time_of_impact.h"
-#include "sim/contact/contact_solver.h"
 #include "sim/forces.h"
 #include "sim/tuning.h"
 
@@ -90,12 +91,6 @@ private:
         double radius = 0.0;
         bool valid = false;
     };
-    struct Ground {
-        Vec3 normal = Vec3::UnitY();
-        double offset = 0.0;
-        bool valid = false;
-    };
-    bool stays_above(const Ground& ground, double radius, const Path& path, double from, double horizon) const;
     /// The time between two moments without the last digit, for what only decides whether to look closer.
     double roughly(const Moment& from, const Moment& to) const { return double(to.step - from.step) * h_ + (to.offset - from.offset); }
     Vec3 position(const Ballistic& ball, double t) const { return ball.position + t * (ball.velocity + 0.5 * t * settings_.gravity); }
