@@ -24,8 +24,9 @@ public:
     virtual std::vector<Quantity> tell() const = 0;
 };
 
-/// pile: speed, by all ways of a program (threads, sleep); sleeping: only ways that sleep; the others: its best alone.
-enum class Task { pile, sleeping, spheres, tower };
+/// pile: speed, by all ways of a program (threads, sleep); settled: what sleeps beside what is held awake; sleeping: only
+/// ways that sleep; the others: its best alone.
+enum class Task { pile, settled, sleeping, spheres, tower };
 
 struct ContactCase {
     std::string name;

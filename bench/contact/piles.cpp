@@ -98,6 +98,12 @@ void add_piles(std::vector<ContactCase>& cases) {
     cases.push_back(pile("D1r", 10, true));
     cases.push_back(pile("D2", 20, false));
     cases.push_back(pile("D2r", 20, true));
+    for (const bool rotated : {false, true}) {   // given the time to come to rest
+        cases.push_back(pile(rotated ? "D1r, settled" : "D1, settled", 10, rotated));
+        cases.back().task = Task::settled;
+        cases.back().seconds = 30.0;
+        cases.back().look_every = 30.0;
+    }
     cases.push_back(sleepers("a ball alone", 0));
     cases.push_back(sleepers("a ball and 10,000 sleeping boxes", 100));
     cases.push_back(mixed_boxes(0.5));

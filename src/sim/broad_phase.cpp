@@ -79,8 +79,7 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
         // Sleepers are visited once more, and once at the start for a place in the tree.
-        const bool known = moving_tree_.holds(i) && !states_[i].active;
-        if (body.moves() && (!body.asleep || kind_ == Pairs::all || !known)) awake_.push_back(i);
+        if (body.moves() && (!body.asleep || kind_ == Pairs::all || !resting_tree_.holds(i))) awake_.push_back(i);
     }
     look_for_awake_ = false;
 }
@@ -90,16 +89,22 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
     const bool active = (!body.asleep || kind_ == Pairs::all) && !body.flying, was_active = state.active;
     state.active = active;
-    if (was_active && !active) fell_asleep_ = true;
-    const bool known = moving_tree_.holds(i);
-    if (!active && known) return;
+    if (!active && known(i)) {
+        if (!was_active) return;
+        fell_asleep_ = true;
+        resting_tree_.set(i, active_tree_.box(i));
+        active_tree_.remove(i);
+        return;
+    }
+    if (active && resting_tree_.holds(i)) resting_tree_.remove(i);
+    DynamicTree& tree = active ? active_tree_ : resting_tree_;
     const Bounds now = bounds_of_step(body, h);
     const double way = h * body.velocity.norm();
     const bool shrinks = state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius;   // it was faster
-    const bool escaped = !known || shrinks || !inside(now, moving_tree_.box(i));
+    const bool escaped = shrinks || !tree.holds(i) || !inside(now, tree.box(i));
     if (escaped) {
         const Vec3 further = (tuning::fat_steps - 1.0) * h * body.velocity;
-        moving_tree_.set(i, carried(now.grown(tuning::fat_bounds * body.radius), further));
+        tree.set(i, carried(now.grown(tuning::fat_bounds * body.radius), further));
         state.way = tuning::fat_steps * way;
     }
     if (!escaped && was_active) return;
@@ -108,13 +113,14 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
 }
 
 void BroadPhase::find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies) {
-    const Bounds& box = moving_tree_.box(i);
     const bool active = states_[i].active, dynamic = bodies[i].dynamic();
-    moving_tree_.query(box, [&](std::uint32_t other) {
-        const State& state = states_[other];
-        if (other == i || (state.moved && other < i) || (!active && !state.active)) return;
+    const Bounds& box = (active ? active_tree_ : resting_tree_).box(i);
+    const auto meet = [&](std::uint32_t other) {
+        if (other == i || (states_[other].moved && other < i)) return;
         if (dynamic || bodies[other].dynamic()) added_.push_back({std::min(i, other), std::max(i, other)});
-    });
+    };
+    active_tree_.query(box, meet);
+    if (active) resting_tree_.query(box, meet);
     if (!dynamic || !active) return;
     const auto add = [&](std::uint32_t fixed) { added_.push_back({std::min(i, fixed), std::max(i, fixed)}); };
     fixed_tree_.query(box, [&](std::uint32_t other) { add(fixed_[other]); });

@@ -1,9 +1,10 @@
-// Which bodies may touch: one tree over the moving bodies' fattened bounds, one over the fixed bodies, and a list of the
-// half-spaces. A body that leaves its fat bounds moves in the tree alone; the list of pairs is kept, and changes where
-// somebody left, fell asleep or woke.
+// Which bodies may touch: a tree over the fattened bounds of the bodies that move, one over those that sleep, one over the
+// fixed bodies, and a list of the half-spaces. A body that leaves its fat bounds moves in its tree alone; the list of pairs is
+// kept, and changes where somebody left, fell asleep or woke.
 //
-// Sleeping bodies cost nothing: only those awake are visited, and pairs of two sleeping ones are not in the list. A body
-// that falls asleep is noticed; who wakes is not, since nobody looks at sleepers: see bodies_woke().
+// Sleeping bodies cost nothing: only those awake are visited, among trees that are small where few are awake, and pairs of
+// two sleeping ones are not in the list. A body that falls asleep is noticed; who wakes is not, since nobody looks at
+// sleepers: see bodies_woke().
 #pragma once
 
 #include "sim/body.h"
@@ -40,13 +41,14 @@ private:
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
     void visit(std::uint32_t i, const Body& body, double h);
+    bool known(std::uint32_t i) const { return active_tree_.holds(i) || resting_tree_.holds(i); }
     void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies);
 
     Pairs kind_;
     bool built_ = false, look_for_awake_ = true;
     std::vector<std::uint32_t> fixed_, half_spaces_, awake_;
     BoundsTree fixed_tree_;
-    DynamicTree moving_tree_;
+    DynamicTree active_tree_, resting_tree_;  // each body in one of them
     struct State {
         bool active = false;    // awake and not in exact flight
         bool moved = false;     // in this update: its pairs are looked for anew

@@ -5,7 +5,6 @@
 #include "sim/broad_phase.h"
 #include "sim/contact/contact_solver.h"
 #include "sim/contact/impacts.h"
-#include "sim/contact/islands.h"
 #include "sim/contact/sleep.h"
 #include "sim/flight/flights.h"
 #include "sim/flight/free_flights.h"
@@ -46,7 +45,8 @@ struct World::State {
     std::vector<Manifold>* manifolds = nullptr;   // of this step; the narrow phase's
     std::vector<Contact> contacts;    // their points, where impulses are resolved one by one
     ContactIslands islands;           // of the awake bodies
-    std::vector<std::uint32_t> struck;   // manifolds that took part in a collision of this step
+    std::vector<Island> colliding;    // in this step
+    std::vector<std::uint32_t> struck;   // and their manifolds
     ContactSolver contact_solver;
     SleepMonitor sleep;
     std::uint64_t seen_sleep_changes = UINT64_MAX;
@@ -204,12 +204,20 @@ bool World::State::collides(std::size_t island) const {
 
 void World::State::resolve_collisions() {
     struck.clear();
-    for (std::size_t island = 0; island < islands.size(); ++island)
-        if (collides(island)) struck.insert(struck.end(), islands.manifolds(island).begin(), islands.manifolds(island).end());
-    if (struck.empty()) return;
+    colliding.clear();
     contacts.clear();
-    for (const std::uint32_t k : struck) add_contacts((*manifolds)[k], bodies, contacts);
-    const std::vector<Island> colliding = find_islands(contacts, bodies);
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (!collides(k)) continue;
+        Island& island = colliding.emplace_back();
+        island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+        for (const std::uint32_t m : islands.manifolds(k)) {
+            struck.push_back(m);
+            const auto first = std::uint32_t(contacts.size());
+            add_contacts((*manifolds)[m], bodies, contacts);
+            for (std::uint32_t i = first; i < contacts.size(); ++i) island.contacts.push_back(i);
+        }
+    }
+    if (struck.empty()) return;
     const ImpactSettings impacts{
         .threshold = tuning::restitution_threshold * gravity_step(), .law = settings.impact_law, .friction = true};
     pool.for_each(colliding.size(), tuning::parallel_grain,

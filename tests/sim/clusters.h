@@ -2,8 +2,12 @@
 #pragma once
 
 #include "random_shapes.h"
-#include "sim/contact/contact.h"
-#include "sim/contact/islands.h"
+#include "sim/contact/contact_cluster.h"
+
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
 
 namespace tumble::testing {
 
@@ -57,6 +61,30 @@ inline Totals totals(const std::vector<Body>& bodies) {
         t.angular += b.position.cross(b.momentum) + b.angular_momentum;
     }
     return t;
+}
+
+/// The islands of the contacts, by their lowest body: labels spread until nothing changes.
+inline std::vector<Island> islands_of(const std::vector<Contact>& contacts, const std::vector<Body>& bodies) {
+    std::vector<std::uint32_t> label(bodies.size());
+    std::iota(label.begin(), label.end(), 0u);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const Contact& c : contacts) {
+            if (!bodies[c.a].dynamic() || !bodies[c.b].dynamic() || label[c.a] == label[c.b]) continue;
+            label[c.a] = label[c.b] = std::min(label[c.a], label[c.b]);
+            changed = true;
+        }
+    }
+    std::map<std::uint32_t, Island> found;
+    std::set<std::uint32_t> touched;
+    for (const Contact& c : contacts) touched.insert({c.a, c.b});
+    for (const std::uint32_t i : touched)
+        if (bodies[i].dynamic()) found[label[i]].bodies.push_back(i);
+    for (std::uint32_t k = 0; k < contacts.size(); ++k)
+        found[label[bodies[contacts[k].a].dynamic() ? contacts[k].a : contacts[k].b]].contacts.push_back(k);
+    std::vector<Island> islands;
+    for (auto& [lowest, island] : found) islands.push_back(std::move(island));
+    return islands;
 }
 
 }  // namespace tumble::testing

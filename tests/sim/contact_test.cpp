@@ -1,11 +1,10 @@
-// Contacts made of manifolds; what is carried over from the step before; and islands against a flood fill.
+// Contacts made of manifolds, and what is carried over from the step before.
 #include "clusters.h"
 #include "sim/collision/carry_over.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <tuple>
 
@@ -167,50 +166,5 @@ TEST(CarryOver, MatchesLikeBruteForce) {
             carried += now.points[std::size_t(i)].impulse;
         }
         EXPECT_NEAR(carried, built, 1e-12);
-    }
-}
-
-TEST(Islands, LikeAFloodFill) {
-    Random random(114);
-    for (int trial = 0; trial < 200; ++trial) {
-        std::vector<Body> bodies(std::size_t(2 + random.below(40)));
-        for (Body& b : bodies) b.type = random.below(5) == 0 ? (random.below(2) ? BodyType::fixed : BodyType::kinematic) : BodyType::dynamic;
-        const int n = int(bodies.size());
-        std::vector<Contact> contacts;
-        for (int i = 0; i < random.below(2 * n); ++i) {
-            Contact c;
-            for (Vec3* v : {&c.normal, &c.arm_a, &c.arm_b, &c.turn_a, &c.turn_b}) v->setZero();
-            c.a = std::uint32_t(random.below(n));
-            c.b = std::uint32_t(random.below(n));
-            if (c.a == c.b || (!bodies[c.a].dynamic() && !bodies[c.b].dynamic())) continue;
-            contacts.push_back(c);
-        }
-        // Spread labels until nothing changes.
-        std::vector<int> label(bodies.size());
-        for (int i = 0; i < n; ++i) label[std::size_t(i)] = i;
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (const Contact& c : contacts) {
-                if (!bodies[c.a].dynamic() || !bodies[c.b].dynamic() || label[c.a] == label[c.b]) continue;
-                label[c.a] = label[c.b] = std::min(label[c.a], label[c.b]);
-                changed = true;
-            }
-        }
-        std::map<int, Island> expected;   // ascending by lowest body
-        std::set<std::uint32_t> touched;
-        for (const Contact& c : contacts) touched.insert({c.a, c.b});
-        for (const std::uint32_t i : touched)
-            if (bodies[i].dynamic()) expected[label[i]].bodies.push_back(i);
-        for (std::uint32_t k = 0; k < contacts.size(); ++k)
-            expected[label[bodies[contacts[k].a].dynamic() ? contacts[k].a : contacts[k].b]].contacts.push_back(k);
-
-        const std::vector<Island> found = find_islands(contacts, bodies);
-        ASSERT_EQ(found.size(), expected.size());
-        std::size_t i = 0;
-        for (const auto& [root, island] : expected) {
-            EXPECT_EQ(found[i].bodies, island.bodies);
-            EXPECT_EQ(found[i].contacts, island.contacts);
-            ++i;
-        }
     }
 }

@@ -313,7 +313,7 @@ TEST(Large, SweepsKeepTheEnergy) {
     }
     const double before = s.kinetic();
     make_contacts(s.manifolds, s.bodies, s.contacts);
-    const Island island = find_islands(s.contacts, s.bodies).front();
+    const Island island = islands_of(s.contacts, s.bodies).front();
     ContactCluster cluster(island, s.contacts, s.bodies);
     std::size_t approaching = 0;
     for (std::size_t i = 0; i < cluster.size(); ++i) approaching += cluster.approaching(i);

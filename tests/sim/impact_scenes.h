@@ -77,7 +77,7 @@ struct ImpactScene {
         make_contacts(manifolds, bodies, contacts);
         const ImpactSettings settings{.law = law, .friction = friction > 0.0, .complete = complete};
         int passes = 0;
-        for (const Island& island : find_islands(contacts, bodies))
+        for (const Island& island : islands_of(contacts, bodies))
             passes = std::max(passes, resolve_impacts(island, contacts, bodies, settings));
         for (const Contact& c : contacts)
             add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);

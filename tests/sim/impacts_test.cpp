@@ -39,7 +39,7 @@ Cluster random_cluster(Random& random, int count, bool with_fixed, double heavie
 // As the world does it: velocities in the solver, then the impulses to the momenta.
 int collide_cluster(Cluster& c, double threshold) {
     int passes = 0;
-    for (const Island& island : find_islands(c.contacts, c.bodies))
+    for (const Island& island : islands_of(c.contacts, c.bodies))
         passes = std::max(passes, resolve_impacts(island, c.contacts, c.bodies, {.threshold = threshold}));
     for (const Contact& contact : c.contacts)
         if (contact.impact > 0.0) add_impulse(contact, contact.impact * contact.normal, c.bodies[contact.a], c.bodies[contact.b]);

@@ -3,12 +3,18 @@
 // have a velocity but no place in y. An impulse j moves y by j length along w.
 #pragma once
 
-#include "sim/contact/islands.h"
+#include "sim/contact/contact.h"
 #include "sim/contact/velocity_row.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace tumble {
+
+/// What an impact can reach: dynamic bodies that hang together, and their contacts; both ascending.
+struct Island {
+    std::vector<std::uint32_t> bodies, contacts;
+};
 
 /// The square root of a dynamic body's inverse mass matrix: M^-1/2, and C with C C^T = I^-1.
 struct MassRoot {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "sim/contact/impact_laws.h"
-#include "sim/contact/islands.h"
 
 namespace tumble {
 
