@@ -5,12 +5,13 @@
 #include "sim/body.h"
 #include "sim/collision/compound.h"
 
+#include <array>
 #include <map>
 #include <memory>
 
 namespace tumble {
 
-/// Builds bodies, making the hull, surface and mass integrals of a shared mesh once.
+/// Builds bodies. Equal boxes share one collider, and so do bodies of the same mesh or compound.
 class BodyBuilder {
 public:
     /// `integrator` is the simulation's, for bodies that name none of their own.
@@ -25,6 +26,7 @@ private:
     Collider collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
     Collider compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths
     // Looked up only, never iterated: the order of addresses decides nothing.
     std::map<const MeshAsset*, Mesh> meshes_;
     struct KnownCompound {

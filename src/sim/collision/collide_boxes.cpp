@@ -26,20 +26,24 @@ struct Relative {
     double face_b(int k) const {
         return std::abs(t_in_b[k]) - b[k] - (abs(0, k) * a[0] + abs(1, k) * a[1] + abs(2, k) * a[2]);
     }
-    // Along A's axis i x B's axis j; `flip` tells that the axis points towards A. lowest: the two are parallel.
-    double edges(int i, int j, bool& flip) const {
+    // Along A's axis i x B's axis j, whose squared length comes with it, and not yet divided by that length; `flip` tells that
+    // the axis points towards A.
+    struct Edges {
+        double separation, square;
+        bool flip;
+    };
+    Edges edge_pair(int i, int j) const {
         const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
         const double square = r(i1, j) * r(i1, j) + r(i2, j) * r(i2, j);
-        if (square < parallel) return lowest;
         const double d = t[i2] * r(i1, j) - t[i1] * r(i2, j);
-        flip = d < 0.0;
         const double reach = a[i1] * abs(i2, j) + a[i2] * abs(i1, j) + b[j1] * abs(i, j2) + b[j2] * abs(i, j1);
-        return (std::abs(d) - reach) / std::sqrt(square);
+        return {std::abs(d) - reach, square, d < 0.0};
     }
+    // lowest: the two are parallel.
+    static double length_of(const Edges& e) { return e.square < parallel ? lowest : e.separation / std::sqrt(e.square); }
     double along(std::uint32_t axis) const {
-        bool flip = false;
         if (axis < 3) return face_a(int(axis));
-        return axis < 6 ? face_b(int(axis) - 3) : edges(int(axis - 6) / 3, int(axis - 6) % 3, flip);
+        return axis < 6 ? face_b(int(axis) - 3) : length_of(edge_pair(int(axis - 6) / 3, int(axis - 6) % 3));
     }
 };
 
@@ -75,6 +79,32 @@ struct BoxEdges {
     }
     static std::size_t sign_bits(const Vec3& direction, int axis) {
         return std::size_t(direction[(axis + 1) % 3] > 0.0) | std::size_t(direction[(axis + 2) % 3] > 0.0) << 1;
+    }
+};
+
+// The corners of a box's faces, by the signs of their coordinates, and which coordinate the side from each to the next runs
+// along the limit of: all boxes are alike.
+struct BoxFaces {
+    struct Side {
+        int axis = 0;
+        double sign = 1.0;
+    };
+    struct Face {
+        std::array<std::uint32_t, 4> corner{};
+        std::array<Side, 4> side{};
+    };
+    std::array<Face, 6> faces;
+    std::array<Vec3, 8> signs;   // by vertex
+    BoxFaces() {
+        const Polyhedron box = make_box(Vec3::Constant(2.0));
+        std::copy(box.vertices.begin(), box.vertices.end(), signs.begin());
+        for (std::size_t f = 0; f < 6; ++f)
+            for (std::size_t s = 0; s < 4; ++s) {
+                const std::uint32_t from = box.faces[f].vertices[s], to = box.faces[f].vertices[(s + 1) % 4];
+                faces[f].corner[s] = from;
+                for (int k = 0; k < 3; ++k)
+                    if (k != int(f) / 2 && signs[from][k] == signs[to][k]) faces[f].side[s] = {k, signs[from][k]};
+            }
     }
 };
 
@@ -139,25 +169,22 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     const std::uint32_t face = std::uint32_t(2 * axis + (sign < 0.0));
     const double depth = axis_preference(std::min(reference.radius, incident.radius));
     const std::uint32_t opposite = face_at_support(incident.half_extent, -sign * r.row(axis).transpose(), depth);
-    const std::vector<std::uint32_t>& loop = incident.faces[opposite].vertices;
+    static const BoxFaces box;
+    const BoxFaces::Face &incident_face = box.faces[opposite], &reference_face = box.faces[face];
+    const Mat3 half_axes = r * incident.half_extent.asDiagonal();
     Polygon polygons[2];
     Polygon *polygon = &polygons[0], *spare = &polygons[1];
     polygon->count = 4;
     for (std::size_t i = 0; i < 4; ++i)
-        polygon->corners[i] = {c + r * incident.vertices[loop[i]], loop[i], std::uint32_t(i)};
+        polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i], std::uint32_t(i)};
     const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
     Corner deepest = polygon->corners[0];
     for (std::size_t i = 1; i < 4 && must_touch; ++i)
         if (height(polygon->corners[i].p) < height(deepest.p)) deepest = polygon->corners[i];
 
-    const std::vector<std::uint32_t>& sides = reference.faces[face].vertices;
     for (std::uint32_t s = 0; s < 4; ++s) {
-        const Vec3 &from = reference.vertices[sides[s]], &to = reference.vertices[sides[(s + 1) % 4]];
-        // The side lies across the one axis, besides the face's own, along which it does not run.
-        int across = 0;
-        while (across == axis || from[across] != to[across]) ++across;
-        if (clip(*polygon, across, from[across] > 0.0 ? 1.0 : -1.0, reference.half_extent[across], s, *spare))
-            std::swap(polygon, spare);
+        const BoxFaces::Side& side = reference_face.side[s];
+        if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare)) std::swap(polygon, spare);
     }
     const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
     scratch.points.clear();
@@ -205,14 +232,16 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     bool flip = false;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
-            bool turned = false;
-            const double s = rel.edges(i, j, turned);
+            const Relative::Edges e = rel.edge_pair(i, j);
+            // Most are deeper than the best: told by the squares, by more than rounding, without root and division.
+            if (e.separation < 0.0 && best < 0.0 && e.separation * e.separation > 1.000001 * best * best * e.square) continue;
+            const double s = Relative::length_of(e);
             if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
             if (s <= best) continue;
             separation = best = s;
             edge_i = i;
             edge_j = j;
-            flip = turned;
+            flip = e.flip;
         }
     const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
         return on_b ? Vec3((rel.t_in_b[k] < 0.0 ? -1.0 : 1.0) * rel.r.col(k)) : Vec3((rel.t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));

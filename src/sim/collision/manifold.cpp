@@ -70,10 +70,11 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
     for (int i = 0; i < manifold.count; ++i) {
         ContactPoint& upper = manifold.points[std::size_t(i)];
         for (const ContactPoint& lower : candidates) {
+            const double nearer = upper.separation - lower.separation;
+            if (!(nearer > nothing * size)) continue;
             const auto same = [&](const ContactPoint& p) { return p.feature == lower.feature; };
             if (std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count, same)) continue;
-            const double nearer = upper.separation - lower.separation;
-            if (nearer > nothing * size && across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
+            if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
                 upper = lower;
         }
     }
