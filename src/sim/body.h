@@ -12,8 +12,13 @@
 
 namespace tumble {
 
+/// In a cache line of its own: threads write those of neighbours at the same time.
+struct alignas(64) BodyVelocity {
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();   // m/s, rad/s
+};
+
 struct Body {
-    // What it is.
+    // What it is: seldom written, and in other cache lines than the state, so that all threads can keep a copy.
     std::string name;
     BodyType type = BodyType::dynamic;
     Collider collider;
@@ -27,10 +32,12 @@ struct Body {
     double drag_area = 0.0;                  // m^2, mean projected area
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
+    bool asleep = false;
+    bool flying = false;   // impacts = "exact": on a path known in closed form, not stepped
 
     // State (notes eq. 1). Both forms of the rotation are kept; the world's settings say which one is integrated and
     // which follows from it.
-    Vec3 position = Vec3::Zero();            // x, of the centre of mass
+    alignas(64) Vec3 position = Vec3::Zero();   // x, of the centre of mass
     Quat orientation = Quat::Identity();     // q
     Mat3 rotation = Mat3::Identity();        // R
     Vec3 momentum = Vec3::Zero();            // P, kg m/s
@@ -43,9 +50,6 @@ struct Body {
     // Position correction of this step: moves the pose and leaves the momenta alone.
     Vec3 push_velocity = Vec3::Zero();
     Vec3 push_angular_velocity = Vec3::Zero();
-
-    bool asleep = false;
-    bool flying = false;   // impacts = "exact": on a path known in closed form, not stepped
 
     bool dynamic() const { return type == BodyType::dynamic; }
     bool moves() const { return dynamic() || track != nullptr; }

@@ -31,15 +31,15 @@ Bounds bounds_of_step(const Body& body, double h) {
     return carried(bounds.grown(tuning::speculative * body.radius + turning_way(body, h)), h * body.velocity);
 }
 
-const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h) {
+const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h, ThreadPool* pool) {
     if (!built_) build(bodies);
     if (look_for_awake_) find_awake(bodies);
-    std::size_t left = 0;
-    for (const std::uint32_t i : awake_) {
-        visit(i, bodies[i], h);
-        if (!bodies[i].asleep || kind_ == Pairs::all) awake_[left++] = i;
-    }
-    awake_.resize(left);
+    if (pool && pool->size() > 1 && awake_.size() >= tuning::parallel_bodies) find_leavers(bodies, h, *pool);
+    else
+        for (const std::uint32_t i : awake_)
+            if (!stays(i, bodies[i], h)) visit(i, bodies[i], h);
+    if (fell_asleep_ || !moved_.empty())
+        std::erase_if(awake_, [&](std::uint32_t i) { return bodies[i].asleep && kind_ == Pairs::awake; });
     if (moved_.empty() && !fell_asleep_) return pairs_;
 
     added_.clear();
@@ -84,30 +84,44 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
     look_for_awake_ = false;
 }
 
-// Whether the body has left its fat bounds, or the list of the active.
+// Whether nothing has changed for it: in its fat bounds, awake or flying as before.
+bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) const {
+    const State& state = states_[i];
+    const bool active = (!body.asleep || kind_ == Pairs::all) && !body.flying;
+    if (active != state.active) return false;
+    if (!active) return known(i);
+    const double way = h * body.velocity.norm();
+    if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;   // it was faster
+    return inside(bounds_of_step(body, h), active_tree_.box(i));
+}
+
+void BroadPhase::find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool) {
+    leavers_.resize(std::size_t(pool.size()));
+    pool.together([&](std::size_t thread) {
+        leavers_[thread].clear();
+        for (const std::uint32_t i : awake_)
+            if (pool.thread_of(i) == thread && !stays(i, bodies[i], h)) leavers_[thread].push_back(i);
+    });
+    std::vector<std::uint32_t>& all = leavers_[0];
+    for (std::size_t thread = 1; thread < leavers_.size(); ++thread) all.insert(all.end(), leavers_[thread].begin(), leavers_[thread].end());
+    std::sort(all.begin(), all.end());
+    for (const std::uint32_t i : all) visit(i, bodies[i], h);
+}
+
 void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
-    const bool active = (!body.asleep || kind_ == Pairs::all) && !body.flying, was_active = state.active;
-    state.active = active;
-    if (!active && known(i)) {
-        if (!was_active) return;
+    state.active = (!body.asleep || kind_ == Pairs::all) && !body.flying;
+    if (!state.active && active_tree_.holds(i)) {
         fell_asleep_ = true;
         resting_tree_.set(i, active_tree_.box(i));
         active_tree_.remove(i);
         return;
     }
-    if (active && resting_tree_.holds(i)) resting_tree_.remove(i);
-    DynamicTree& tree = active ? active_tree_ : resting_tree_;
-    const Bounds now = bounds_of_step(body, h);
-    const double way = h * body.velocity.norm();
-    const bool shrinks = state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius;   // it was faster
-    const bool escaped = shrinks || !tree.holds(i) || !inside(now, tree.box(i));
-    if (escaped) {
-        const Vec3 further = (tuning::fat_steps - 1.0) * h * body.velocity;
-        tree.set(i, carried(now.grown(tuning::fat_bounds * body.radius), further));
-        state.way = tuning::fat_steps * way;
-    }
-    if (!escaped && was_active) return;
+    if (state.active) resting_tree_.remove(i);
+    const Vec3 further = (tuning::fat_steps - 1.0) * h * body.velocity;
+    DynamicTree& tree = state.active ? active_tree_ : resting_tree_;
+    tree.set(i, carried(bounds_of_step(body, h).grown(tuning::fat_bounds * body.radius), further));
+    state.way = tuning::fat_steps * h * body.velocity.norm();
     state.moved = true;
     moved_.push_back(i);
 }

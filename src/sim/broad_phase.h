@@ -10,6 +10,7 @@
 #include "sim/body.h"
 #include "sim/collision/bounds_tree.h"
 #include "sim/collision/dynamic_tree.h"
+#include "sim/thread_pool.h"
 
 #include <cstdint>
 #include <vector>
@@ -28,8 +29,8 @@ public:
     explicit BroadPhase(Pairs kind = Pairs::awake) : kind_(kind) {}
 
     /// The pairs for the bodies' present poses and speeds, ascending: all whose bounds_of_step overlap. h: the step, s. The
-    /// bodies must be the same ones in every call.
-    const std::vector<Pair>& update(const std::vector<Body>& bodies, double h);
+    /// bodies must be the same ones in every call. `pool`: looks the bodies over with all its threads.
+    const std::vector<Pair>& update(const std::vector<Body>& bodies, double h, ThreadPool* pool = nullptr);
 
     /// To be called when any body's `asleep` has been cleared: the next update looks for all that are awake.
     void bodies_woke() { look_for_awake_ = true; }
@@ -40,6 +41,8 @@ public:
 private:
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
+    bool stays(std::uint32_t i, const Body& body, double h) const;
+    void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);
     void visit(std::uint32_t i, const Body& body, double h);
     bool known(std::uint32_t i) const { return active_tree_.holds(i) || resting_tree_.holds(i); }
     void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies);
@@ -56,6 +59,7 @@ private:
     };
     std::vector<State> states_;               // of the bodies
     std::vector<std::uint32_t> moved_;
+    std::vector<std::vector<std::uint32_t>> leavers_;   // found by each thread
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
 };

@@ -1,6 +1,7 @@
 #include "sim/narrow_phase.h"
 
 #include "sim/collision/carry_over.h"
+#include "sim/spin_barrier.h"
 #include "sim/touch.h"
 #include "sim/tuning.h"
 
@@ -41,16 +42,31 @@ double NarrowPhase::margin(const View& a, const View& b, double h) const {
 std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies,
                                          double h, ThreadPool& pool) {
     match(pairs, bodies);
-    view(bodies);
-    for (Found& found : found_) {
+    ++call_;
+    views_.resize(bodies.size());
+    const auto count = std::uint32_t(entries_.size());
+    const bool shared = pool.size() > 1 && count >= tuning::parallel_grain;
+    SpinBarrier barrier(shared ? std::size_t(pool.size()) : 1);
+    const auto look = [&](std::size_t thread) {
+        Found& found = found_[thread];
         found.manifolds.clear();
         found.anchors.clear();
+        found.changes.clear();
+        // Of the bodies in the list only: those that sleep far from all others are not even looked at.
+        for (const Entry& entry : entries_)
+            for (const std::uint32_t i : {entry.pair.a, entry.pair.b})
+                if ((!shared || pool.thread_of(i) == thread) && views_[i].call != call_) view(views_[i], bodies[i]);
+        if (shared) barrier.wait();
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (!shared || thread_of(entries_[i], pool) == thread) examine(i, h, found);
+    };
+    if (shared) {
+        pool.together(look);
+    } else {
+        for (Found& found : found_) found.changes.clear();
+        look(0);
     }
-    results_.resize(entries_.size());
-    pool.for_each(entries_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t thread) {
-        results_[i] = examine(entries_[i], h, thread);
-    });
-    put_in_order();
+    put_in_order(pool);
     return manifolds_;
 }
 
@@ -108,45 +124,40 @@ void NarrowPhase::unpark(Entry& entry) {
     parked_.erase(found);
 }
 
-// Of the bodies in the list only: those that sleep far from all others are not even looked at.
-void NarrowPhase::view(const std::vector<Body>& bodies) {
-    ++call_;
-    seen_.resize(bodies.size(), 0);
-    views_.resize(bodies.size());
-    for (const Entry& entry : entries_) {
-        for (const std::uint32_t i : {entry.pair.a, entry.pair.b}) {
-            if (seen_[i] == call_) continue;
-            seen_[i] = call_;
-            const Body& body = bodies[i];
-            View& v = views_[i];
-            const Pose pose = body.pose();
-            if (body.moves()) v.travel += motion(v.pose, pose, body.radius);
-            v.pose = pose;
-            v.radius = body.radius;
-            v.velocity.setZero();
-            v.spin = v.speculative = 0.0;
-            if (body.moves()) {
-                v.velocity = body.velocity;
-                v.spin = body.angular_velocity.norm() * body.radius;
-                v.speculative = tuning::speculative * body.radius;
-            }
-            v.bounds = world_bounds(body.collider, v.pose);
-            v.collider = &body.collider;
-            v.awake = awake(body);
-            v.flying = body.flying;
-            v.kind = std::holds_alternative<Ball>(body.collider)                                ? View::Kind::ball
-                     : std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) ? View::Kind::polyhedron
-                                                                                                : View::Kind::fixed;
-        }
-    }
+std::size_t NarrowPhase::thread_of(const Entry& entry, const ThreadPool& pool) const {
+    return pool.thread_of(views_[entry.pair.a].awake ? entry.pair.a : entry.pair.b);
 }
 
-NarrowPhase::Result NarrowPhase::examine(const Entry& entry, double h, std::size_t thread) {
+void NarrowPhase::view(View& v, const Body& body) const {
+    v.call = call_;
+    const Pose pose = body.pose();
+    if (body.moves()) v.travel += motion(v.pose, pose, body.radius);
+    v.pose = pose;
+    v.radius = body.radius;
+    v.velocity.setZero();
+    v.spin = v.speculative = 0.0;
+    if (body.moves()) {
+        v.velocity = body.velocity;
+        v.spin = body.angular_velocity.norm() * body.radius;
+        v.speculative = tuning::speculative * body.radius;
+    }
+    v.bounds = world_bounds(body.collider, v.pose);
+    v.collider = &body.collider;
+    v.awake = awake(body);
+    v.flying = body.flying;
+    v.kind = std::holds_alternative<Ball>(body.collider)                                ? View::Kind::ball
+             : std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) ? View::Kind::polyhedron
+                                                                                        : View::Kind::fixed;
+}
+
+void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
+    const Entry& entry = entries_[index];
     const View &a = views_[entry.pair.a], &b = views_[entry.pair.b];
     Search& last = searches_[entry.search];
     const auto drop = [&] {
-        if (entry.count > 0) last.outcome = Search::Outcome::none;
-        return Result{.stays = entry.count == 0};
+        if (entry.count == 0) return;
+        last.outcome = Search::Outcome::none;
+        found.changes.push_back({index, 0, 0});
     };
     // Exact flights meet others at impacts, not at steps.
     if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return drop();
@@ -156,20 +167,20 @@ NarrowPhase::Result NarrowPhase::examine(const Entry& entry, double h, std::size
                                                         h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
-    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(entry, a, b, reach, thread);
+    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, found);
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
     const double travel = a.travel + b.travel;
-    if (holds(entry, a, b, reach, last, last.spent + (travel - last.travel))) return {};
+    if (holds(entry, a, b, reach, last, last.spent + (travel - last.travel))) return;
     const bool a_larger = a.radius >= b.radius;
     const View &large = a_larger ? a : b, &small = a_larger ? b : a;
     const Pose pose = seen_from(large.pose, small.pose);
     last.spent += motion(last.pose, pose, small.radius);
     last.pose = pose;
     last.travel = travel;
-    if (holds(entry, a, b, reach, last, last.spent)) return {};
+    if (holds(entry, a, b, reach, last, last.spent)) return;
     last.spent = 0.0;
-    return search(entry, a, b, reach, thread);
+    search(index, a, b, reach, found);
 }
 
 // Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
@@ -186,25 +197,24 @@ bool NarrowPhase::holds(const Entry& entry, const View& a, const View& b, double
     return within;
 }
 
-NarrowPhase::Result NarrowPhase::search(const Entry& entry, const View& a, const View& b, double reach,
-                                        std::size_t thread) {
-    Found& found = found_[thread];
+void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, Found& found) {
+    const Entry& entry = entries_[index];
     Search& last = searches_[entry.search];
-    Result result{false, std::uint32_t(thread), std::uint32_t(found.manifolds.size()), 0};
+    const auto begin = std::uint32_t(found.manifolds.size());
     found.scratch.axis = last.axis;
     found.scratch.gap = 0.0;
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = found.scratch.axis;
     last.gap = std::max(reach, found.scratch.gap);
-    result.count = std::uint32_t(found.manifolds.size()) - result.first;
-    last.outcome = result.count > 0 ? Search::Outcome::near : Search::Outcome::apart;
-    if (result.count == 0) {
-        result.stays = entry.count == 0;
-        return result;
+    const auto count = std::uint32_t(found.manifolds.size()) - begin;
+    last.outcome = count > 0 ? Search::Outcome::near : Search::Outcome::apart;
+    if (count == 0) {
+        if (entry.count > 0) found.changes.push_back({index, 0, 0});
+        return;
     }
     // A surface's triangles are found in the order of its tree.
-    const auto first = found.manifolds.begin() + result.first;
-    if (result.count > 1)
+    const auto first = found.manifolds.begin() + begin;
+    if (count > 1)
         std::stable_sort(first, found.manifolds.end(), [](const Manifold& l, const Manifold& r) { return l.part < r.part; });
     const bool swapped = b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
     std::uint32_t old = entry.first;
@@ -222,51 +232,56 @@ NarrowPhase::Result NarrowPhase::search(const Entry& entry, const View& a, const
         }
         found.anchors.push_back(make_anchors(*m, a.pose, b.pose, of_second(*m) != swapped));
     }
-    if (result.count == entry.count) {   // in place
-        std::copy(first, found.manifolds.end(), manifolds_.begin() + entry.first);
-        std::copy(found.anchors.begin() + result.first, found.anchors.end(), anchors_.begin() + entry.first);
-        found.manifolds.resize(result.first);
-        found.anchors.resize(result.first);
-        result.stays = true;
+    if (count != entry.count) {
+        found.changes.push_back({index, begin, count});
+        return;
     }
-    return result;
+    std::copy(first, found.manifolds.end(), manifolds_.begin() + entry.first);
+    std::copy(found.anchors.begin() + begin, found.anchors.end(), anchors_.begin() + entry.first);
+    found.manifolds.resize(begin);
+    found.anchors.resize(begin);
 }
 
 // Brings the manifolds into the order of the entries, where any have come or gone.
-void NarrowPhase::put_in_order() {
-    const auto stays = [](const Result& result) { return result.stays; };
-    if (!moved_ && std::all_of(results_.begin(), results_.end(), stays)) return;
-    spare_manifolds_.clear();
-    spare_anchors_.clear();
-    std::uint32_t first = 0, end = 0;   // of what stays, one run at a time
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-        Entry& entry = entries_[i];
-        const Result& result = results_[i];
-        const bool run = result.stays && entry.first == end;
-        if (!run && (!result.stays || entry.count > 0)) {
-            append(manifolds_, anchors_, first, end);
-            first = end = result.stays ? entry.first : 0;
-        }
-        const auto at = std::uint32_t(spare_manifolds_.size()) + (end - first);
-        if (result.stays) {
-            if (entry.count > 0) end += entry.count;
-        } else {
-            const Found& found = found_[result.thread];
-            append(found.manifolds, found.anchors, result.first, result.first + result.count);
-            entry.count = result.count;
-        }
-        entry.first = at;
+void NarrowPhase::put_in_order(ThreadPool& pool) {
+    const auto unchanged = [](const Found& found) { return found.changes.empty(); };
+    if (!moved_ && std::all_of(found_.begin(), found_.end(), unchanged)) return;
+    const auto count = std::uint32_t(entries_.size());
+    new_count_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) new_count_[i] = entries_[i].count;
+    for (const Found& found : found_)
+        for (const Change& change : found.changes) new_count_[change.entry] = change.count;
+    new_first_.resize(count);
+    std::uint32_t all = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        new_first_[i] = all;
+        all += new_count_[i];
     }
-    append(manifolds_, anchors_, first, end);
+    spare_manifolds_.resize(all);
+    spare_anchors_.resize(all);
+    const bool shared = pool.size() > 1 && count >= tuning::parallel_grain;
+    const auto bring = [&](std::size_t thread) {
+        const Found& found = found_[thread];
+        auto change = found.changes.begin();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (shared && thread_of(entries_[i], pool) != thread) continue;
+            const bool changed = change != found.changes.end() && change->entry == i;
+            const std::uint32_t first = changed ? change++->first : entries_[i].first, end = first + new_count_[i];
+            const auto &manifolds = changed ? found.manifolds : manifolds_;
+            const auto &anchors = changed ? found.anchors : anchors_;
+            std::copy(manifolds.begin() + first, manifolds.begin() + end, spare_manifolds_.begin() + new_first_[i]);
+            std::copy(anchors.begin() + first, anchors.begin() + end, spare_anchors_.begin() + new_first_[i]);
+        }
+    };
+    if (shared) pool.together(bring);
+    else bring(0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        entries_[i].first = new_first_[i];
+        entries_[i].count = new_count_[i];
+    }
     manifolds_.swap(spare_manifolds_);
     anchors_.swap(spare_anchors_);
     moved_ = false;
-}
-
-void NarrowPhase::append(const std::vector<Manifold>& manifolds, const std::vector<Anchors>& anchors, std::uint32_t first,
-                         std::uint32_t end) {
-    spare_manifolds_.insert(spare_manifolds_.end(), manifolds.begin() + first, manifolds.begin() + end);
-    spare_anchors_.insert(spare_anchors_.end(), anchors.begin() + first, anchors.begin() + end);
 }
 
 }  // namespace tumble

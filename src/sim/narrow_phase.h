@@ -40,6 +40,7 @@ private:
         double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
         Bounds bounds;
         const Collider* collider = nullptr;
+        std::uint64_t call = 0;   // that it was brought up to date in
         bool awake = false, flying = false;
         enum class Kind { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
     };
@@ -58,15 +59,15 @@ private:
         std::uint32_t search = 0;                 // index in searches_
         std::uint32_t first = 0, count = 0;       // in manifolds_ and anchors_
     };
-    // Of this call, an entry: whether its manifolds stay where they are, else where the new ones lie.
-    struct Result {
-        bool stays = true;
-        std::uint32_t thread = 0, first = 0, count = 0;
+    // Of this call, an entry whose manifolds do not stay where they are: where the new ones lie.
+    struct Change {
+        std::uint32_t entry = 0, first = 0, count = 0;
     };
-    struct Found {
+    struct Found {                                // by one thread
         CollisionScratch scratch;
         std::vector<Manifold> manifolds;
         std::vector<Anchors> anchors;
+        std::vector<Change> changes;              // ascending by entry
     };
     struct Parked {
         Search search;
@@ -77,14 +78,13 @@ private:
     void match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);
     void unpark(Entry& entry);
-    void view(const std::vector<Body>& bodies);
+    std::size_t thread_of(const Entry& entry, const ThreadPool& pool) const;
+    void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;
     bool holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
-    Result examine(const Entry& entry, double h, std::size_t thread);
-    Result search(const Entry& entry, const View& a, const View& b, double margin, std::size_t thread);
-    void put_in_order();
-    void append(const std::vector<Manifold>& manifolds, const std::vector<Anchors>& anchors, std::uint32_t first,
-                std::uint32_t end);
+    void examine(std::uint32_t entry, double h, Found& found);
+    void search(std::uint32_t entry, const View& a, const View& b, double margin, Found& found);
+    void put_in_order(ThreadPool& pool);
 
     Mode mode_;
     bool remembers_;
@@ -93,9 +93,8 @@ private:
     std::vector<Search> searches_;
     std::vector<std::uint32_t> free_searches_;
     std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
-    std::vector<Result> results_;                 // one an entry
-    std::vector<View> views_;                     // one a body; up to date where seen_ holds this call's number
-    std::vector<std::uint64_t> seen_;
+    std::vector<std::uint32_t> new_first_, new_count_;   // by entry
+    std::vector<View> views_;                     // one a body
     std::uint64_t call_ = 0;
     bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
     std::vector<Manifold> manifolds_, spare_manifolds_;

@@ -1,13 +1,18 @@
 // A few threads that share out a loop. Which thread does which item is left to chance; items write only to places of
 // their own, so that the result is not.
+//
+// Bodies belong to a thread each, so that what is kept of them stays in one core's cache from stage to stage and step to
+// step: fetching what another core has written costs as much as the work on it. Whose they are changes no result either.
 #pragma once
 
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -31,13 +36,34 @@ public:
     /// Calls body(thread) once on every thread, all at the same time.
     void together(const std::function<void(std::size_t thread)>& body);
 
+    /// The thread that a body belongs to.
+    std::size_t thread_of(std::uint32_t body) const {
+        return body < owner_.size() && owner_[body] != nobody ? owner_[body] : body / 64 % std::size_t(size());
+    }
+    void give(std::uint32_t body, std::size_t thread);
+
+    /// Calls visit(body) for all of them, each on its thread; below `grain` bodies all on the caller's.
+    template <class Visit>
+    void for_bodies(std::span<const std::uint32_t> bodies, std::size_t grain, Visit&& visit) {
+        if (workers_.empty() || bodies.size() < grain) {
+            for (const std::uint32_t i : bodies) visit(i);
+            return;
+        }
+        together([&](std::size_t thread) {
+            for (const std::uint32_t i : bodies)
+                if (thread_of(i) == thread) visit(i);
+        });
+    }
+
 private:
+    static constexpr std::uint8_t nobody = UINT8_MAX;
     void start();
     void wait_for_workers();
     void work(std::size_t thread);
     void call(std::size_t item, std::size_t thread);
 
     std::vector<std::jthread> workers_;
+    std::vector<std::uint8_t> owner_;   // by body
     std::mutex mutex_;
     std::condition_variable start_, done_;
     const std::function<void(std::size_t, std::size_t)>* body_ = nullptr;

@@ -50,8 +50,12 @@ inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
 inline constexpr double friction_near = 2e-3;
 inline constexpr double friction_far_weight = 0.01;
-/// Manifolds from which on several threads share one island: below, meeting at every colour costs more.
+/// Manifolds from which on several threads share one island: below, meeting twice a sweep costs more.
 inline constexpr std::size_t soft_team_manifolds = 500;
+/// Bodies of a block that one thread keeps to: their states fill a core's first cache (64 bytes each).
+inline constexpr std::size_t soft_block_bodies = 512;
+/// Groups of manifolds between blocks from which on the threads share them too, meeting at every colour.
+inline constexpr std::size_t soft_shared_groups = 24;
 
 /// The direct contact solver's compliance of normal contact, over the island's mass: small enough for a few rounds, large
 /// enough for masses of 1 : 1e6 in double precision. Friction begins softer by a factor, without which Newton's method

@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace tumble {
@@ -54,18 +55,20 @@ struct World::State {
     std::unique_ptr<Flights> flights;   // with exact impacts
     FreeFlights free_flights;           // with exact motion between stepped ones
     MotionLimit motion_limit;
-    std::vector<StepMotion> motions;
+    std::vector<BodyVelocity> motions;
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
-    // Velocities before this step's forces: what explicit Euler moves by.
-    std::vector<Vec3> old_velocity, old_angular_velocity;
+    std::vector<BodyVelocity> old_velocities;   // before this step's forces: what explicit Euler moves by
     // Momenta before and after this step's forces: what the integrators of higher order begin with, and whether contact
     // has added anything since.
     struct Momenta {
         Vec3 momentum, angular_momentum;
         bool operator==(const Momenta&) const = default;
     };
-    std::vector<Momenta> before_forces, after_forces;
+    struct alignas(64) ForceStep {
+        Momenta before, after;
+    };
+    std::vector<ForceStep> force_steps;
 
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene),
@@ -73,9 +76,8 @@ struct World::State {
           narrow_phase(threads, NarrowPhase::Mode::step,
                        scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
-          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads), old_velocity(scene.bodies.size(), Vec3::Zero()),
-          old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
-          after_forces(scene.bodies.size()) {
+          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads),
+          old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
         BodyBuilder builder;
         for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
@@ -100,14 +102,14 @@ struct World::State {
     bool by_whole_state(const Body& body) const {
         return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
     }
-    const std::vector<StepMotion>& step_motions();
+    const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
     void limit_spin(Body& body, double before) const;
     void carry(Body& body, const Body& carrier, double span) const;
     void solve_resting_contacts();
     void move();
     void fall_asleep();
-    void check_finite() const;
+    void check_finite();
 };
 
 void World::State::step() {
@@ -174,7 +176,7 @@ void World::State::find_contacts() {
     wake_where_forces_change();
     const auto find = [&] {
         list_awake();
-        manifolds = &narrow_phase.find(broad_phase.update(bodies, h), bodies, h, pool);
+        manifolds = &narrow_phase.find(broad_phase.update(bodies, h, &pool), bodies, h, pool);
     };
     find();
     // The woken ones need the contacts among themselves too, which were not looked for.
@@ -236,40 +238,38 @@ void World::State::resolve_collisions() {
 
 void World::State::apply_forces() {
     const double now = time(steps);
-    pool.for_each(awake_bodies.size(), tuning::parallel_bodies, [&](std::size_t k, std::size_t) {
-        const std::uint32_t i = awake_bodies[k];
+    pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         if (body.flying) return;
         if (flights) body.derive();   // brought here from a flight, perhaps
         else body.derive_velocities();   // collisions may have changed the momenta
-        old_velocity[i] = body.velocity;
-        old_angular_velocity[i] = body.angular_velocity;
+        old_velocities[i] = {body.velocity, body.angular_velocity};
         const Wrench wrench = forces.at(i, body, now);
-        before_forces[i] = {body.momentum, body.angular_momentum};
+        force_steps[i].before = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
-        after_forces[i] = {body.momentum, body.angular_momentum};
+        force_steps[i].after = {body.momentum, body.angular_momentum};
         body.derive_velocities();
     });
 }
 
 void World::State::solve_resting_contacts() {
-    contact_solver.solve({bodies, *manifolds, old_velocity, old_angular_velocity, {h, tuning::restitution_threshold * gravity_step()}},
+    contact_solver.solve({bodies, *manifolds, old_velocities, {h, tuning::restitution_threshold * gravity_step()}},
                          islands, pool);
     for (const std::uint32_t k : struck)
         for (ContactPoint& p : (*manifolds)[k].points) p.bounce = 0.0;
 }
 
 // The velocities that poses are moved with.
-const std::vector<StepMotion>& World::State::step_motions() {
-    for (const std::uint32_t i : moving_bodies) {
+const std::vector<BodyVelocity>& World::State::step_motions() {
+    pool.for_bodies(moving_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = bodies[i];
         motions[i] = {};
-        if (body.flying) continue;
+        if (body.flying) return;
         // Between exact flights all held bodies move by the velocities they are solved for.
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
-        motions[i].velocity = (before ? old_velocity[i] : body.velocity) + body.push_velocity;
-        motions[i].angular_velocity = (before ? old_angular_velocity[i] : body.angular_velocity) + body.push_angular_velocity;
-    }
+        motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
+        motions[i].angular_velocity = (before ? old_velocities[i].angular_velocity : body.angular_velocity) + body.push_angular_velocity;
+    });
     return motions;
 }
 
@@ -307,18 +307,17 @@ void World::State::move() {
         place_kinematic_bodies();
         return;
     }
-    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h); };
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h, &pool); };
     const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
-    pool.for_each(awake_bodies.size(), tuning::parallel_bodies, [&](std::size_t k, std::size_t) {
-        const std::uint32_t i = awake_bodies[k];
+    pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
-        const bool touched = after_forces[i] != Momenta{body.momentum, body.angular_momentum} ||
+        const bool touched = force_steps[i].after != Momenta{body.momentum, body.angular_momentum} ||
                              !body.push_velocity.isZero(0.0) || !body.push_angular_velocity.isZero(0.0);
         if (by_whole_state(body) && !touched) {
-            body.momentum = before_forces[i].momentum;
-            body.angular_momentum = before_forces[i].angular_momentum;
+            body.momentum = force_steps[i].before.momentum;
+            body.angular_momentum = force_steps[i].before.angular_momentum;
             if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
             else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
         } else {
@@ -327,7 +326,7 @@ void World::State::move() {
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
             if (!touched && share < 1.0) {   // forces have acted for as long as it moved
-                const Momenta &before = before_forces[i], &after = after_forces[i];
+                const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
                 body.momentum = before.momentum + share * (after.momentum - before.momentum);
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
             }
@@ -344,16 +343,19 @@ void World::State::fall_asleep() {
     if (settings.sleep) sleep.observe(islands, *manifolds, bodies, h);
 }
 
-void World::State::check_finite() const {
-    for (const std::uint32_t i : awake_bodies) {
+void World::State::check_finite() {
+    std::atomic<std::uint32_t> first{UINT32_MAX};
+    pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = bodies[i];
         // One number that is none makes the sum none.
         if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum()))
-            continue;
-        throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
-                                   "a smaller step (steps_per_frame, now {}) may hold it",
-                                   steps, time(steps), body.name, settings.steps_per_frame));
-    }
+            return;
+        for (std::uint32_t known = first; i < known && !first.compare_exchange_weak(known, i);) {}
+    });
+    if (first == UINT32_MAX) return;
+    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
+                               "a smaller step (steps_per_frame, now {}) may hold it",
+                               steps, time(steps), bodies[first].name, settings.steps_per_frame));
 }
 
 World::World(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, std::max(1, threads))) {}

@@ -40,17 +40,16 @@ public:
     void step() {
         manifolds = &narrow_phase_.find(broad_phase_.update(bodies, h_), bodies, h_, pool_);
         islands_.find(*manifolds, bodies, awake_);
-        std::vector<Vec3> velocity(bodies.size(), Vec3::Zero()), angular_velocity(bodies.size(), Vec3::Zero());
+        std::vector<BodyVelocity> before(bodies.size());
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];
             body.derive();
-            velocity[i] = body.velocity;
-            angular_velocity[i] = body.angular_velocity;
+            before[i] = {body.velocity, body.angular_velocity};
             body.momentum += h_ * body.mass * gravity_;
             body.derive();
         }
         const double threshold = tuning::restitution_threshold * gravity_.norm() * h_;
-        solver_.solve({bodies, *manifolds, velocity, angular_velocity, {h_, threshold}}, islands_, pool_);
+        solver_.solve({bodies, *manifolds, before, {h_, threshold}}, islands_, pool_);
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];
             advance_pose(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity, h_,

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace tumble;
@@ -68,4 +69,29 @@ TEST(ThreadPool, ManyShortRounds) {
 
 TEST(ThreadPool, MadeAndUnmadeWithoutWork) {
     for (int i = 0; i < 50; ++i) ThreadPool pool(1 + i % 6);
+}
+
+// Bodies belong to one thread each, from loop to loop; all of them are visited once.
+TEST(ThreadPool, BodiesStayWithTheirThreads) {
+    std::vector<std::uint32_t> bodies;
+    for (std::uint32_t i = 0; i < 700; ++i) bodies.push_back(3 * i);
+    for (const int threads : {1, 2, 3}) {
+        ThreadPool pool(threads);
+        for (const std::uint32_t i : bodies)
+            if (i % 2 == 0) pool.give(i, i % std::size_t(threads));
+        std::vector<std::thread::id> of_thread(3);
+        pool.together([&](std::size_t thread) { of_thread[thread] = std::this_thread::get_id(); });
+        for (const std::size_t grain : {std::size_t(1), bodies.size() + 1}) {
+            std::vector<int> visits(2100, 0);
+            std::atomic<bool> kept{true};
+            pool.for_bodies(bodies, grain, [&](std::uint32_t i) {
+                ++visits[i];
+                const bool alone = grain > bodies.size();
+                if (std::this_thread::get_id() != of_thread[alone ? 0 : pool.thread_of(i)]) kept = false;
+                if (i % 2 == 0 && pool.thread_of(i) != i % std::size_t(threads)) kept = false;
+            });
+            for (std::uint32_t i = 0; i < 2100; ++i) ASSERT_EQ(visits[i], i % 3 == 0) << i;
+            EXPECT_TRUE(kept) << threads << " threads";
+        }
+    }
 }

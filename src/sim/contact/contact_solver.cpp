@@ -7,29 +7,6 @@
 namespace tumble {
 namespace {
 
-// What the direct solver holds between masses of 1 : 1e6 would be a blow for soft contacts: of its impulses no more is
-// handed over than some weights of the lighter body.
-void temper(Manifold& m, const ContactProblem& problem) {
-    if (!m.solved_directly) return;
-    m.solved_directly = false;
-    double mass = std::numeric_limits<double>::infinity(), speed = 0.0;
-    for (const std::uint32_t i : {m.a, m.b}) {
-        const Body& body = problem.bodies[i];
-        if (!body.dynamic()) continue;
-        mass = std::min(mass, body.mass);
-        speed = std::max(speed, (body.velocity - problem.velocity_before[i]).norm());
-    }
-    double sum = 0.0;
-    for (const ContactPoint& p : m.points) sum += p.impulse;
-    const double most = tuning::direct_handover * mass * speed;
-    if (sum <= most) return;
-    const double share = most / sum;
-    for (ContactPoint& p : m.points) p.impulse *= share;
-    m.friction[0] *= share;
-    m.friction[1] *= share;
-    m.twist *= share;
-}
-
 // One solve for a whole step is right to first order in the angles: corners that swing round during it are for substeps.
 bool turns_fast(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
     const double most = tuning::direct_turn / problem.patches.h;
@@ -157,6 +134,7 @@ void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& pr
         for (std::size_t p = first; p < parts_used_; ++p) {
             parts_[p].bodies.clear();
             parts_[p].manifolds.clear();
+            parts_[p].island_ends.clear();
             parts_[p].finer = wanted;
         }
         std::size_t dealt = 0;
@@ -167,8 +145,8 @@ void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& pr
             const auto manifolds = islands.manifolds(softly_[s]);
             part.bodies.insert(part.bodies.end(), bodies.begin(), bodies.end());
             part.manifolds.insert(part.manifolds.end(), manifolds.begin(), manifolds.end());
+            part.island_ends.push_back(part.bodies.size());
             dealt += manifolds.size();
-            for (const std::uint32_t m : manifolds) temper(problem.manifolds[m], problem);
         }
     }
 }

@@ -9,8 +9,8 @@
 // approach by s/d and no more. Friction: a Coulomb disc at one place of the manifold and a twist about its normal.
 //
 // Contacts are coloured so that none of one colour share a moving body; those of a colour are solved side by side, a lane
-// each, in single precision, relative to the poses of the step's start. The sums of the impulses then change the momenta in
-// double precision, equal and opposite to the last bit.
+// each, in single precision, relative to the poses of the step's start (soft_batch.h). The sums of the impulses then change
+// the momenta in double precision, equal and opposite to the last bit.
 #pragma once
 
 #include "sim/contact/contact_patch.h"
@@ -30,10 +30,11 @@ namespace tumble {
 struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
-    const std::vector<Vec3>& velocity_before;           // by body
-    const std::vector<Vec3>& angular_velocity_before;
+    const std::vector<BodyVelocity>& before;            // by body
     PatchSettings patches;
 };
+
+class SoftBatch;
 
 class SoftSolver {
 public:
@@ -44,15 +45,15 @@ public:
     /// The result depends neither on how islands are dealt into parts nor on the number of threads.
     struct Part {
         std::vector<std::uint32_t> bodies, manifolds;
+        std::vector<std::size_t> island_ends;   // in `bodies`
         int finer = 1;   // substeps in place of one
     };
     void solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool);
 
 private:
-    class Batch;
     const soft::Kernel& kernel_;
     std::vector<std::uint32_t> slot_;                 // by body
-    std::vector<std::unique_ptr<Batch>> batches_;     // one a part
+    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a part
 };
 
 /// Substeps of a step of h seconds.

@@ -38,8 +38,7 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       queue_(bodies.size()),
       islands_(bodies.size()),
       contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
-      velocity_before_(bodies.size(), Vec3::Zero()),
-      angular_velocity_before_(bodies.size(), Vec3::Zero()) {
+      velocities_before_(bodies.size()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
         if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
@@ -445,8 +444,7 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
     }
     sort_unique(touched);
     for (const std::uint32_t k : touched) {
-        velocity_before_[k] = bodies[k].velocity;
-        angular_velocity_before_[k] = bodies[k].angular_velocity;
+        velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
     }
     for (const std::uint32_t k : landed) {
         Body& body = bodies[k];
@@ -455,7 +453,7 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
         body.derive();
     }
     islands_.find(landing_manifolds_, bodies, touched);
-    contact_solver_.solve({bodies, landing_manifolds_, velocity_before_, angular_velocity_before_, {rest, std::numeric_limits<double>::infinity()}},
+    contact_solver_.solve({bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}},
                           islands_, alone_);
     for (const std::uint32_t k : touched) {
         bodies[k].push_velocity.setZero();
@@ -471,7 +469,7 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
 const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies,
                                                       const Moment& now) {
     std::vector<BroadPhase::Pair> pairs;
-    std::vector<StepMotion> motions(bodies.size());
+    std::vector<BodyVelocity> motions(bodies.size());
     for (const std::uint32_t k : landed) {
         motions[k] = {bodies[k].velocity, bodies[k].angular_velocity};
         for (const std::uint32_t other : neighbourhood_.fixed(k)) pairs.push_back({std::min(k, other), std::max(k, other)});

@@ -111,7 +111,7 @@ private:
     ContactSolver contact_solver_;
     ThreadPool alone_{1};
     std::vector<Manifold> landing_manifolds_;
-    std::vector<Vec3> velocity_before_, angular_velocity_before_;
+    std::vector<BodyVelocity> velocities_before_;
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;              // of the run under way
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // whose paths are new

@@ -17,8 +17,8 @@ bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider)
 bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
 
 // How far the bodies' points can move against each other in the step; of a ball only the centre counts.
-double way(const Body& a, const Body& b, const StepMotion& of_a, const StepMotion& of_b, double h) {
-    const auto turning = [](const Body& body, const StepMotion& motion) {
+double way(const Body& a, const Body& b, const BodyVelocity& of_a, const BodyVelocity& of_b, double h) {
+    const auto turning = [](const Body& body, const BodyVelocity& motion) {
         return ball(body) ? 0.0 : motion.angular_velocity.norm() * body.radius;
     };
     return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
@@ -43,7 +43,7 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
 
 // Told without looking at any pair: nothing goes as far in the step as the thinnest body is thin.
 bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                           const std::vector<StepMotion>& motions, double h) {
+                           const std::vector<BodyVelocity>& motions, double h) {
     double farthest = 0.0;
     for (const std::uint32_t i : moving) {
         const double turning = ball(bodies[i]) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
@@ -75,7 +75,7 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 
 const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                                   const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                                  const std::vector<StepMotion>& motions, double h) {
+                                                  const std::vector<BodyVelocity>& motions, double h) {
     if (limits_.empty()) {
         limits_.resize(bodies.size());
         least_depth_ = std::numeric_limits<double>::infinity();

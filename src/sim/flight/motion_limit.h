@@ -15,11 +15,6 @@
 
 namespace tumble {
 
-/// The velocities a body is to be moved with in this step.
-struct StepMotion {
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-};
-
 struct StepLimit {
     static constexpr std::uint32_t none = UINT32_MAX;
     double share = 1.0;              // of the step, that the body may move
@@ -41,7 +36,7 @@ public:
     /// contact solver's, and may come a little deeper into each other: no more.
     const std::vector<StepLimit>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                          const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                         const std::vector<StepMotion>& motions, double h);
+                                         const std::vector<BodyVelocity>& motions, double h);
 
 private:
     struct FastPair {
@@ -50,7 +45,7 @@ private:
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
-    bool all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving, const std::vector<StepMotion>& motions,
+    bool all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions,
                   double h);
     StepLimit& shorten(std::uint32_t body);
 

@@ -1,0 +1,388 @@
+#include "sim/contact/soft_batch.h"
+
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tumble {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::size_t colors = 64;   // bits of a mask; what finds none free is solved one by one
+
+void put(float* row, int stride, const Vec3& v) {
+    row[0] = float(v.x());
+    row[stride] = float(v.y());
+    row[2 * stride] = float(v.z());
+}
+
+// What the direct solver holds between masses of 1 : 1e6 would be a blow for soft contacts: of its impulses no more is
+// handed over than some weights of the lighter body.
+void temper(Manifold& m, const ContactProblem& problem) {
+    if (!m.solved_directly) return;
+    m.solved_directly = false;
+    double mass = std::numeric_limits<double>::infinity(), speed = 0.0;
+    for (const std::uint32_t i : {m.a, m.b}) {
+        const Body& body = problem.bodies[i];
+        if (!body.dynamic()) continue;
+        mass = std::min(mass, body.mass);
+        speed = std::max(speed, (body.velocity - problem.before[i].velocity).norm());
+    }
+    double sum = 0.0;
+    for (const ContactPoint& p : m.points) sum += p.impulse;
+    const double most = tuning::direct_handover * mass * speed;
+    if (sum <= most) return;
+    const double share = most / sum;
+    for (ContactPoint& p : m.points) p.impulse *= share;
+    m.friction[0] *= share;
+    m.friction[1] *= share;
+    m.twist *= share;
+}
+
+}  // namespace
+
+SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel), blocks_(tuning::soft_block_bodies) {}
+
+void SoftBatch::Floats::resize(std::size_t count) {
+    if (memory_.size() < count + 16) memory_.resize(count + 16);
+    data_ = memory_.data() + (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
+}
+
+// For a substep of d seconds (formulas: soft_solver.h).
+SoftBatch::Softness SoftBatch::softness(double frequency, double d) {
+    const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
+    const double a = 2.0 * z + d * w, c = d * w * a;
+    return {w / a, c / (1.0 + c), 1.0 / (1.0 + c)};
+}
+
+void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot) {
+    substeps_ = substeps_of(problem.patches.h) * part.finer;
+    d_ = problem.patches.h / substeps_;
+    moving_ = softness(tuning::soft_frequency / d_, d_);
+    fixed_ = softness(2.0 * tuning::soft_frequency / d_, d_);
+    blocks_.clear();
+    std::size_t first = 0;
+    for (const std::size_t end : part.island_ends) {
+        blocks_.add(std::span(part.bodies).subspan(first, end - first), problem.bodies);
+        first = end;
+    }
+    find_movers(problem, part);
+    slots_ = 1 + part.bodies.size() + movers_.size();
+    state_.resize(slots_ * soft::body_floats);
+    for (Floats* array : {&mass_, &before_, &forces_}) array->resize(slots_ * soft::mass_floats);
+    places_.resize(slots_);
+    block_of_.resize(slots_);
+    reached_.assign(slots_, 0);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (std::size_t k = blocks_.first(b); k < blocks_.first(b + 1); ++k) {
+            slot[blocks_.order()[k]] = std::uint32_t(k + 1);
+            block_of_[k + 1] = std::uint32_t(b);
+        }
+    color(problem, part, slot);
+    deal_lanes(part);
+}
+
+// Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
+void SoftBatch::find_movers(const ContactProblem& problem, const SoftSolver::Part& part) {
+    movers_.clear();
+    for (const std::uint32_t m : part.manifolds)
+        for (const std::uint32_t i : {problem.manifolds[m].a, problem.manifolds[m].b})
+            if (problem.bodies[i].type == BodyType::kinematic) movers_.push_back(i);
+    std::sort(movers_.begin(), movers_.end());
+    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
+}
+
+// Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
+// gets depends on its island alone.
+void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot) {
+    const std::size_t across = blocks_.size(), homes = across + 1;
+    taken_.assign(slots_, {});
+    class_size_.assign(homes * colors * Manifold::capacity, 0);
+    class_.clear();
+    for (const std::uint32_t k : part.manifolds) {
+        const Manifold& m = problem.manifolds[k];
+        const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
+        const std::uint32_t a = moves_a ? slot[m.a] : 0, b = moves_b ? slot[m.b] : 0;
+        const bool inside = !moves_a || !moves_b || block_of_[a] == block_of_[b];
+        const std::size_t home = inside ? block_of_[moves_a ? a : b] : across;
+        std::uint64_t fixed = 0;
+        std::uint64_t& of_a = !moves_a ? fixed : inside ? taken_[a].inside : taken_[a].across;
+        std::uint64_t& of_b = !moves_b ? fixed : inside ? taken_[b].inside : taken_[b].across;
+        const auto c = std::size_t(std::countr_one(of_a | of_b));
+        if (c == colors) {   // one by one, in the end
+            class_.push_back(none);
+            continue;
+        }
+        const std::uint64_t bit = std::uint64_t(1) << c;
+        if (moves_a) of_a |= bit;
+        if (moves_b) of_b |= bit;
+        // Manifolds with as many points side by side: no lane waits for another's fourth.
+        class_.push_back(std::uint32_t((home * colors + c) * Manifold::capacity + std::size_t(Manifold::capacity - m.count)));
+        ++class_size_[class_.back()];
+    }
+}
+
+void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
+    const std::size_t lanes = std::size_t(kernel_.lanes), homes = blocks_.size() + 1;
+    std::size_t groups = 0;
+    first_group_.clear();
+    first_color_.assign(1, 0);
+    for (std::size_t home = 0; home < homes; ++home) {
+        for (std::size_t c = 0; c < colors; ++c) {
+            std::uint32_t lane = std::uint32_t(groups * lanes);
+            for (std::size_t p = 0; p < Manifold::capacity; ++p) {   // sizes become places
+                std::uint32_t& of_class = class_size_[(home * colors + c) * Manifold::capacity + p];
+                const std::uint32_t size = of_class;
+                of_class = lane;
+                lane += size;
+            }
+            if (lane == groups * lanes) continue;
+            first_group_.push_back(groups);
+            groups = (lane + lanes - 1) / lanes;
+        }
+        if (home + 1 < homes) first_color_.push_back(first_group_.size());
+    }
+    for (const std::uint32_t c : class_)
+        if (c == none) first_group_.push_back(groups++);
+    first_color_.push_back(first_group_.size());
+    first_group_.push_back(groups);
+
+    lane_manifolds_.assign(groups * lanes, none);
+    std::size_t alone = groups * lanes;
+    for (std::size_t i = class_.size(); i-- > 0;)
+        if (class_[i] == none) lane_manifolds_[alone -= lanes] = part.manifolds[i];
+    for (std::size_t i = 0; i < class_.size(); ++i)
+        if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = part.manifolds[i];
+    rows_.resize(groups * soft::group_rows * lanes);
+    lane_bodies_.resize(2 * lanes * groups);
+    lane_points_.resize(groups);
+    sources_.resize(groups * lanes);
+}
+
+void SoftBatch::give_bodies(ThreadPool& pool) const {
+    const auto team = std::size_t(pool.size());
+    for (std::size_t thread = 0; thread < team; ++thread)
+        for (std::size_t k = blocks_.first(blocks_.size() * thread / team); k < blocks_.first(blocks_.size() * (thread + 1) / team); ++k)
+            pool.give(blocks_.order()[k], thread);
+}
+
+// Of the places first to last in the blocks' order.
+void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
+    std::fill_n(state(first + 1), (last - first) * soft::body_floats, 0.0f);
+    for (Floats* array : {&mass_, &before_, &forces_})
+        std::fill_n(array->data() + (first + 1) * soft::mass_floats, (last - first) * soft::mass_floats, 0.0f);
+    const double share = 1.0 / substeps_;
+    for (std::size_t k = first; k < last; ++k) {
+        const std::uint32_t i = blocks_.order()[k];
+        const Body& body = problem.bodies[i];
+        places_[k + 1] = place_of(body, std::uint32_t(k + 1));
+        float* s = state(k + 1);
+        put(s, 1, problem.before[i].velocity);
+        put(s + 3, 1, problem.before[i].angular_velocity);
+        float* f = forces_.data() + 8 * (k + 1);
+        put(f, 1, share * (body.velocity - problem.before[i].velocity));
+        put(f + 3, 1, share * (body.angular_velocity - problem.before[i].angular_velocity));
+        float* m = mass_.data() + soft::mass_floats * (k + 1);
+        const Mat3& inverse = body.inverse_inertia;
+        m[0] = float(body.inverse_mass);
+        m[1] = float(inverse(0, 0));
+        m[2] = float(inverse(0, 1));
+        m[3] = float(inverse(0, 2));
+        m[4] = float(inverse(1, 1));
+        m[5] = float(inverse(1, 2));
+        m[6] = float(inverse(2, 2));
+    }
+}
+
+// And slot 0, which stands still.
+void SoftBatch::pack_movers(const ContactProblem& problem) {
+    const std::size_t dynamic = blocks_.order().size();
+    for (Floats* array : {&mass_, &before_, &forces_}) {
+        std::fill_n(array->data(), soft::mass_floats, 0.0f);
+        std::fill_n(array->data() + (1 + dynamic) * soft::mass_floats, movers_.size() * soft::mass_floats, 0.0f);
+    }
+    std::fill_n(state(0), soft::body_floats, 0.0f);
+    std::fill_n(state(1 + dynamic), movers_.size() * soft::body_floats, 0.0f);
+    for (std::size_t k = 0; k < movers_.size(); ++k) {
+        const Body& body = problem.bodies[movers_[k]];
+        float* s = state(1 + dynamic + k);
+        put(s, 1, body.velocity);
+        put(s + 3, 1, body.angular_velocity);
+    }
+}
+
+SoftBatch::Place SoftBatch::find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const {
+    const Body& b = problem.bodies[body];
+    if (b.dynamic()) return places_[slot[body]];
+    if (b.type != BodyType::kinematic) return place_of(b, soft::unmoved);
+    const auto place = std::lower_bound(movers_.begin(), movers_.end(), body) - movers_.begin();
+    return place_of(b, soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
+}
+
+void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
+                          const std::vector<std::uint32_t>& slot) {
+    Manifold& m = problem.manifolds[manifold];
+    temper(m, problem);
+    const Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
+    const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
+    const int stride = kernel_.lanes;
+    lane_bodies_[2 * lanes * g + l] = a.slot;
+    lane_bodies_[2 * lanes * g + lanes + l] = b.slot;
+    const double share = 1.0 / substeps_;
+    const double size = std::min(a.radius, b.radius);
+    const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
+    Source& source = sources_[lane];
+    int count = 0;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
+        source.point[count] = std::uint8_t(i);
+        float* row = point_row(g, count++, 0) + l;
+        put(row + soft::arm_a * stride, stride, p.position - a.position);
+        put(row + soft::arm_b * stride, stride, p.position - b.position);
+        row[soft::normal_mass * stride] = 1.0f;
+        row[soft::separation * stride] = float(p.separation);
+        row[soft::bounce * stride] = float(p.bounce);
+        row[soft::impulse * stride] = float(share * p.impulse);
+    }
+    if (count == 0) return release(m);   // left to bounce
+    source.count = std::uint8_t(count);
+    lane_points_[g] = std::max(lane_points_[g], source.count);
+
+    float* head = row(g, 0) + l;
+    const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
+    put(head + soft::normal * stride, stride, m.normal);
+    put(head + soft::tangent_1 * stride, stride, m.tangent);
+    const Softness& soft = a.dynamic && b.dynamic ? moving_ : fixed_;
+    put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    put_row(soft::bias_rate, soft.bias_rate);
+    put_row(soft::mass_scale, soft.mass_scale);
+    put_row(soft::impulse_scale, soft.impulse_scale);
+    put_row(soft::size, size);
+    put_row(soft::friction_1, share * m.friction[0]);
+    put_row(soft::friction_2, share * m.friction[1]);
+    put_row(soft::twist, share * m.twist);
+}
+
+void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    const int points = problem.manifolds[lane_manifolds_[lanes * group]].count;   // the most comes first
+    std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, soft::unmoved);
+    lane_points_[group] = 0;
+    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane) {
+        sources_[lane] = {};
+        if (lane_manifolds_[lane] != none) pack_lane(problem, lane_manifolds_[lane], lane, slot);
+    }
+}
+
+void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
+                    SpinBarrier& barrier) {
+    const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
+    const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
+    const float rate = float(1.0 / d_);
+    const std::size_t across = blocks_.size();
+    const std::size_t first_block = across * thread / team, end_block = across * (thread + 1) / team;
+    const std::size_t first_body = blocks_.first(first_block), end_body = blocks_.first(end_block);
+    const auto group_of = [&](std::size_t home) { return first_group_[first_color_[home]]; };
+    const std::size_t first_across = group_of(across), all_across = first_group_.back() - first_across;
+    const auto meet = [&] {
+        if (team > 1) barrier.wait();
+    };
+    // Colour by colour: in this thread's blocks, then between blocks.
+    const auto each_color = [&](auto&& pass) {
+        for (std::size_t c = first_color_[first_block]; c < first_color_[end_block]; ++c) pass(first_group_[c], first_group_[c + 1]);
+        if (all_across == 0) return;
+        meet();
+        const bool shared = all_across >= tuning::soft_shared_groups;
+        for (std::size_t c = first_color_[across]; c < first_color_[across + 1]; ++c) {
+            const std::size_t first = first_group_[c], count = first_group_[c + 1] - first;
+            if (shared) {
+                pass(first + count * thread / team, first + count * (thread + 1) / team);
+                meet();
+            } else if (thread == 0) {
+                pass(first, first + count);
+            }
+        }
+        if (!shared) meet();
+    };
+
+    pack_bodies(problem, first_body, end_body);
+    if (thread == 0) pack_movers(problem);
+    meet();
+    const auto pack_groups = [&](std::size_t first, std::size_t last) {
+        for (std::size_t g = first; g < last; ++g) pack(problem, g, slot);
+        kernel_.prepare(groups, first, last, bodies);
+    };
+    pack_groups(group_of(first_block), group_of(end_block));
+    pack_groups(first_across + all_across * thread / team, first_across + all_across * (thread + 1) / team);
+    meet();
+    for (int step = 0; step < substeps_; ++step) {
+        kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
+        if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+        each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, rate); });
+        kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
+        if (!movers_.empty()) {   // which all threads look at
+            meet();
+            if (thread == 0) kernel_.move(1 + blocks_.order().size(), slots_, bodies, float(d_));
+            meet();
+        }
+        each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
+    }
+    each_color([&](std::size_t f, std::size_t l) {
+        kernel_.sum(groups, f, l);
+        for (std::size_t g = f; g < l; ++g) unpack(problem, g);
+    });
+    hand_back(problem, first_body, end_body);
+}
+
+// Impulses to the manifolds, and to the momenta of their bodies.
+void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const Source& source = sources_[lanes * g + l];
+        if (source.count == 0) continue;
+        Manifold& m = problem.manifolds[lane_manifolds_[lanes * g + l]];
+        const float* head = row(g, 0) + l;
+        const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
+        release(m);
+        for (int i = 0; i < source.count; ++i)
+            m.points[source.point[i]].impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
+        m.friction[0] = substeps_ * double(head[soft::friction_1 * lanes]);
+        m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
+        m.twist = substeps_ * double(head[soft::twist * lanes]);
+        m.tangent = three(soft::tangent_1);
+        const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
+        if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l], slot_b = lane_bodies_[2 * lanes * g + lanes + l];
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        if (!(slot_a & soft::unmoved)) {
+            reached_[slot_a] = 1;
+            a.momentum -= force;
+            a.angular_momentum -= moment;
+        }
+        if (!(slot_b & soft::unmoved)) {
+            reached_[slot_b] = 1;
+            b.momentum += force;
+            b.angular_momentum += moment + (a.position - b.position).cross(force);
+        }
+    }
+}
+
+void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std::size_t last) {
+    const double rate = 1.0 / problem.patches.h;
+    for (std::size_t k = first; k < last; ++k) {
+        if (!reached_[k + 1]) continue;
+        Body& body = problem.bodies[blocks_.order()[k]];
+        body.derive_velocities();
+        const float* moved = state(k + 1) + 8;
+        body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
+        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
+    }
+}
+
+}  // namespace tumble

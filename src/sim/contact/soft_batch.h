@@ -1,0 +1,101 @@
+// Islands that are solved softly (soft_solver.h), in the kernel's layout: bodies in blocks of neighbours (body_blocks.h), the
+// manifolds inside of a block coloured by themselves, those between blocks apart.
+//
+// A sweep goes through each block's manifolds, colour by colour, and then through those between the blocks. Blocks share no
+// moving body: each thread keeps to its own, whose bodies and rows stay in its core's cache, and the threads meet twice a
+// sweep, not once a colour.
+#pragma once
+
+#include "sim/contact/body_blocks.h"
+#include "sim/contact/soft_kernel.h"
+#include "sim/contact/soft_solver.h"
+#include "sim/spin_barrier.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+class SoftBatch {
+public:
+    explicit SoftBatch(const soft::Kernel& kernel);
+
+    /// Blocks and colours; then, called by all threads of a team, all the rest. slot: by body, the part's own are set.
+    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot);
+    /// To the threads that are going to run it.
+    void give_bodies(ThreadPool& pool) const;
+    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
+             SpinBarrier& barrier);
+
+private:
+    // Memory aligned for the widest kernel.
+    class Floats {
+    public:
+        void resize(std::size_t count);
+        float* data() { return data_; }
+
+    private:
+        std::vector<float> memory_;
+        float* data_ = nullptr;
+    };
+    struct Softness {
+        double bias_rate, mass_scale, impulse_scale;
+    };
+    // What packing needs of a body, close together in memory.
+    struct Place {
+        Vec3 position = Vec3::Zero();
+        double radius = 0.0, friction = 0.0, restitution = 0.0;
+        std::uint32_t slot = 0;
+        bool dynamic = false;
+    };
+    // Which points of a lane's manifold are its points.
+    struct Source {
+        std::uint8_t count = 0;
+        std::uint8_t point[Manifold::capacity] = {};
+    };
+
+    static Softness softness(double frequency, double d);
+    static Place place_of(const Body& body, std::uint32_t slot) {
+        return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
+    }
+    void find_movers(const ContactProblem& problem, const SoftSolver::Part& part);
+    void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot);
+    void deal_lanes(const SoftSolver::Part& part);
+    void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
+    void pack_movers(const ContactProblem& problem);
+    Place find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const;
+    void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
+    void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
+    void unpack(const ContactProblem& problem, std::size_t group);
+    void hand_back(const ContactProblem& problem, std::size_t first, std::size_t last);
+
+    float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
+    float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
+    float* point_row(std::size_t group, int point, int r) { return row(group, soft::head_rows + point * soft::point_rows + r); }
+
+    const soft::Kernel& kernel_;
+    double d_ = 0.0;                                  // s, a substep
+    int substeps_ = 1;
+    Softness moving_{}, fixed_{};
+    Floats state_, mass_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
+    BodyBlocks blocks_;                               // slot k + 1 is the k-th of its order
+    std::size_t slots_ = 0;
+    std::vector<Place> places_;                       // by slot
+    std::vector<std::uint32_t> block_of_;             // by slot
+    std::vector<std::uint32_t> movers_;               // kinematic bodies, by slot from the first after the dynamic ones
+    struct Taken {
+        std::uint64_t inside = 0, across = 0;
+    };
+    std::vector<Taken> taken_;                        // by slot: colours, inside of the block and between blocks
+    std::vector<std::uint32_t> class_;                // by manifold of the part: home, colour, number of points
+    std::vector<std::uint32_t> class_size_;
+    std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
+    std::vector<std::size_t> first_color_;            // of each block, then of what lies between them, and the end
+    std::vector<std::uint32_t> lane_bodies_;
+    std::vector<std::uint8_t> lane_points_;
+    std::vector<std::uint32_t> lane_manifolds_;       // by lane; none in lanes left over
+    std::vector<Source> sources_;                     // by lane
+    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has
+};
+
+}  // namespace tumble
