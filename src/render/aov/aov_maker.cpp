@@ -5,6 +5,7 @@
 #include "render/aov/surface_normal.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tumble {
 namespace {
@@ -52,13 +53,26 @@ void fill_albedo(const SurfaceMap& map, const SceneDescription& scene, const std
 
 void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, const ScenePlaces& places,
                  const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
-    std::vector<Mat3> turns;   // of each part, to the world
-    for (const SurfacePart& part : parts)
-        turns.push_back((snapshot.bodies[part.body].orientation * part.rotation).toRotationMatrix());
-    values.assign(3 * map.surface.size(), 0.0f);
+    std::vector<Mat3> turns;               // of each part, to the world
+    std::vector<const float*> everywhere;  // of planes: their one normal
+    std::vector<std::array<float, 3>> planes(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        turns.push_back((snapshot.bodies[parts[i].body].orientation * parts[i].rotation).toRotationMatrix());
+        const auto* plane = std::get_if<PlaneShape>(&parts[i].shape);
+        everywhere.push_back(plane != nullptr ? planes[i].data() : nullptr);
+        if (plane != nullptr) Eigen::Map<Eigen::Vector3f>(planes[i].data()) = (turns[i] * plane->normal).cast<float>();
+    }
+    const std::array<float, 3> zero{};
+    values.resize(3 * map.surface.size());
     for_each_pixel(map, [&](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
-        if (surface == SurfaceMap::nothing) return;
+        const float* known = surface == SurfaceMap::nothing ? zero.data()
+                             : surface < parts.size()       ? everywhere[surface]
+                                                            : nullptr;
+        if (known != nullptr) {
+            std::copy_n(known, 3, values.data() + 3 * pixel);
+            return;
+        }
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const double depth = map.depth[pixel];
         const Vec3 normal =
@@ -74,8 +88,12 @@ void fill_motion(const SurfaceMap& map, const SurfaceMotion& motion, const Pinho
                  std::vector<float>& values) {
     values.resize(2 * map.surface.size());
     for_each_pixel(map, [&](std::size_t pixel, int column, int row) {
-        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const std::uint32_t surface = map.surface[pixel];
+        if (surface == SurfaceMap::nothing ? motion.background_rests() : motion.rests(surface)) {
+            values[2 * pixel] = values[2 * pixel + 1] = 0.0f;
+            return;
+        }
+        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const Eigen::Vector2d way = surface == SurfaceMap::nothing
                                         ? motion.of_nothing(ray, column, row)
                                         : motion.of_surface(surface, map.depth[pixel] * ray, column, row);

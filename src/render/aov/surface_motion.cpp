@@ -20,35 +20,37 @@ RigidMotion between(const CordPlace& now, const CordPlace& next) {
 
 SurfaceMotion::SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera, const ScenePlaces& next,
                              const PinholeCamera& next_camera)
-    : cords_now_(now.cords), cords_next_(next.cords), parts_(now.parts.size()), next_camera_(next_camera) {
-    const bool same_camera = camera == next_camera;
+    : cords_now_(now.cords),
+      cords_next_(next.cords),
+      parts_(now.parts.size()),
+      camera_rests_(camera == next_camera),
+      camera_turn_(next_camera.axes.transpose() * camera.axes),
+      next_camera_(next_camera) {
     const auto add = [&](const auto& from, const auto& to) {
-        for (std::size_t i = 0; i < from.size(); ++i)
-            surfaces_.push_back(same_camera && from[i] == to[i] ? std::nullopt
-                                                                : std::optional(between(from[i], to[i])));
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            rests_.push_back(camera_rests_ && from[i] == to[i] ? 1 : 0);
+            surfaces_.push_back(between(from[i], to[i]));
+        }
     };
     add(now.parts, next.parts);
     add(now.cords, next.cords);
-    if (!same_camera) camera_turn_ = next_camera.axes.transpose() * camera.axes;
 }
 
 Eigen::Vector2d SurfaceMotion::of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const {
-    const std::optional<RigidMotion>& motion = surfaces_[surface];
-    if (!motion) return Eigen::Vector2d::Zero();
-    Vec3 next = motion->turn * point + motion->shift;
+    const RigidMotion& motion = surfaces_[surface];
+    Vec3 next = motion.turn * point + motion.shift;
     if (surface >= parts_) {
         // A cord that becomes longer takes each point along by its share of the length.
         const CordPlace &a = cords_now_[surface - parts_], &b = cords_next_[surface - parts_];
         const Vec3 along = a.to - a.from;
         const double share = along.dot(point - a.from) / along.squaredNorm();
-        next += share * ((b.to - b.from) - motion->turn * along);
+        next += share * ((b.to - b.from) - motion.turn * along);
     }
     return to(next, column, row);
 }
 
 Eigen::Vector2d SurfaceMotion::of_nothing(const Vec3& ray, int column, int row) const {
-    if (!camera_turn_) return Eigen::Vector2d::Zero();
-    return to(*camera_turn_ * ray, column, row);
+    return to(camera_turn_ * ray, column, row);
 }
 
 Eigen::Vector2d SurfaceMotion::to(const Vec3& next_point, int column, int row) const {

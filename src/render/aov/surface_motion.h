@@ -4,7 +4,6 @@
 
 #include "render/aov/surface_map.h"
 
-#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -20,8 +19,12 @@ public:
     SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera, const ScenePlaces& next,
                   const PinholeCamera& next_camera);
 
-    /// Of a surface's point under a pixel: columns and rows from this pixel's centre to its place in the next frame; zero to
-    /// the bit where neither it nor the camera has moved. NaN where it is then behind the eye.
+    /// Has neither the surface nor the camera moved? Its motion is then zero to the bit.
+    bool rests(std::uint32_t surface) const { return rests_[surface] != 0; }
+    bool background_rests() const { return camera_rests_; }
+
+    /// Of a surface's point under a pixel: columns and rows from this pixel's centre to its place in the next frame. NaN where
+    /// it is then behind the eye.
     Eigen::Vector2d of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const;
 
     /// The same of the background, infinitely far away along a ray.
@@ -30,10 +33,12 @@ public:
 private:
     Eigen::Vector2d to(const Vec3& next_point, int column, int row) const;
 
-    std::vector<std::optional<RigidMotion>> surfaces_;   // parts, then cords; nothing: it rests in the picture
+    std::vector<RigidMotion> surfaces_;   // parts, then cords
+    std::vector<char> rests_;             // of each
     std::vector<CordPlace> cords_now_, cords_next_;
     std::size_t parts_;
-    std::optional<Mat3> camera_turn_;                    // nothing: the camera rests
+    bool camera_rests_;
+    Mat3 camera_turn_;
     PinholeCamera next_camera_;
 };
 
