@@ -41,13 +41,13 @@ void fill_albedo(const SurfaceMap& map, const SceneDescription& scene, const std
     std::vector<Color> colors;
     for (const SurfacePart& part : parts) colors.push_back(part.color);
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
-    values.assign(3 * map.surface.size(), 0);
-    for (std::size_t i = 0; i < map.surface.size(); ++i) {
-        if (map.surface[i] == SurfaceMap::nothing) continue;
-        const Color& color = colors[map.surface[i]];
-        values[3 * i] = color.r;
-        values[3 * i + 1] = color.g;
-        values[3 * i + 2] = color.b;
+    values.resize(3 * map.surface.size());
+    std::uint8_t* to = values.data();
+    for (const std::uint32_t surface : map.surface) {
+        const Color color = surface == SurfaceMap::nothing ? Color{} : colors[surface];
+        *to++ = color.r;
+        *to++ = color.g;
+        *to++ = color.b;
     }
 }
 
@@ -64,13 +64,14 @@ void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, c
     }
     const std::array<float, 3> zero{};
     values.resize(3 * map.surface.size());
-    for_each_pixel(map, [&](std::size_t pixel, int column, int row) {
+    float* to = values.data();
+    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
         const float* known = surface == SurfaceMap::nothing ? zero.data()
                              : surface < parts.size()       ? everywhere[surface]
                                                             : nullptr;
         if (known != nullptr) {
-            std::copy_n(known, 3, values.data() + 3 * pixel);
+            for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = known[k];
             return;
         }
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
@@ -80,25 +81,26 @@ void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, c
                 ? Vec3(turns[surface] *
                        part_normal(parts[surface], places.parts[surface], map.triangle[pixel], ray, depth))
                 : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
-        for (std::size_t k = 0; k < 3; ++k) values[3 * pixel + k] = float(normal[Eigen::Index(k)]);
+        for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = float(normal[Eigen::Index(k)]);
     });
 }
 
 void fill_motion(const SurfaceMap& map, const SurfaceMotion& motion, const PinholeCamera& camera,
                  std::vector<float>& values) {
     values.resize(2 * map.surface.size());
-    for_each_pixel(map, [&](std::size_t pixel, int column, int row) {
+    float* to = values.data();
+    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
         if (surface == SurfaceMap::nothing ? motion.background_rests() : motion.rests(surface)) {
-            values[2 * pixel] = values[2 * pixel + 1] = 0.0f;
+            to[2 * pixel] = to[2 * pixel + 1] = 0.0f;
             return;
         }
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const Eigen::Vector2d way = surface == SurfaceMap::nothing
                                         ? motion.of_nothing(ray, column, row)
                                         : motion.of_surface(surface, map.depth[pixel] * ray, column, row);
-        values[2 * pixel] = float(way.x());
-        values[2 * pixel + 1] = float(way.y());
+        to[2 * pixel] = float(way.x());
+        to[2 * pixel + 1] = float(way.y());
     });
 }
 
