@@ -1,5 +1,6 @@
 #include "app/aov_folder.h"
 
+#include "app/frame_folder.h"
 #include "output/table_writer.h"
 #include "output/temporary_file.h"
 #include "render/aov/surface_part.h"
@@ -13,6 +14,8 @@ namespace tumble {
 std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame) {
     return folder / fmt::format("aov_{:06}.npz", frame);
 }
+
+std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder) { return numbers_in(folder, "aov_", ".npz"); }
 
 void AovFolder::write(std::int64_t frame, std::span<const std::byte> file) {
     if (!std::exchange(begun_, true) && aovs_.has(Aov::segmentation)) write_table();

@@ -8,11 +8,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
 namespace tumble {
 
 /// The file of frame n. Six digits, more where needed.
 std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame);
+
+/// The numbers of those that are in a folder, ascending.
+std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder);
 
 class AovFolder {
 public:

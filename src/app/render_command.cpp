@@ -42,7 +42,8 @@ struct Summary {
             fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), 0).string(),
                        aov_path(aovs->path(), frames - 1).filename().string(), names_of(aovs->aovs()));
         print_times(frames);
-        if (folder != nullptr) print_older_frames(frames);
+        if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
+        if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
     }
 
     std::string every_so_manieth(std::int64_t frames) const {
@@ -73,12 +74,12 @@ struct Summary {
     }
 
     /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
-    void print_older_frames(std::int64_t frames) const {
-        const std::vector<std::int64_t> there = frames_in(folder->path());
-        const auto older = std::lower_bound(there.begin(), there.end(), frames);
+    void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
+                     fs::path (&path)(const fs::path&, std::int64_t)) const {
+        const auto older = std::lower_bound(there.begin(), there.end(), scene.frame_count());
         if (older != there.end())
-            fmt::print(stderr, "note: {} older frames are still in the folder, from {} on\n", there.end() - older,
-                       frame_path(folder->path(), *older).string());
+            fmt::print(stderr, "note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
+                       path(where, *older).string());
     }
 };
 

@@ -22,7 +22,8 @@ constexpr std::size_t most_of_names = 1024;      // bytes of all headers of one 
 constexpr std::uint16_t deflated = 8, version = 20;
 constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, where zip's dates begin
 
-// Measured on frames of falling_boxes, all five outputs (docs/aovs.md).
+// Measured on 100 frames of falling_boxes, five AOVs, 28.6 MB each: levels 0 to 3 leave 2.99, 2.19, 2.19 and 2.16 MB;
+// 0 to 2 take the same time within what the machine's noise allows to say, 3 twice as much.
 constexpr std::uint32_t compression_level = 1;
 constexpr std::size_t compressor_memory = ISAL_DEF_LVL1_DEFAULT;
 

@@ -121,6 +121,11 @@ class Aovs(program.ProgramTest):
         self.assertIn("0 drawn", run.stderr)
         self.assertEqual(sorted(self.loaded("values", 3)), ["camera_to_world", "depth", "intrinsics", "motion"])
 
+    def test_older_files_are_noted(self):
+        self.check(0, "render", "scene.toml", "--aov", "depth", "--aov-folder", "values")
+        run = self.check(0, "render", "scene.toml", "--aov", "depth", "--aov-folder", "values", "--duration", "0.1")
+        self.assertIn("2 older AOVs are still in the folder, from values/aov_000002.npz on", run.stderr)
+
     def test_beside_a_clip_and_in_a_folder_of_their_own(self):
         self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "frames", "--aov", "segmentation", "--aov-folder", "values")
         self.assertEqual(self.names(), ["a.mp4", "frames"] + ["frames/" + name for name in program.frame_names(4)] +
