@@ -36,7 +36,8 @@ Vec3 normal_at(const AovFrame& frame, std::size_t pixel) {
 TEST(AovSurface, DepthOfAPlane) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
-    scene.bodies[0].position = Vec3(3.0, -0.7, 1.0);
+    scene.bodies[0].position = Vec3(3.0, -1.0, 1.0);
+    scene.bodies[0].shape = PlaneShape{Vec3::UnitY(), 0.3};
     scene.camera.target = Vec3(1.0, 0.4, 0.0);
     const AovFrame frame = made(scene);
     const WorldView view(scene);
@@ -133,6 +134,7 @@ SceneDescription random_scene(unsigned seed) {
     scene.camera.vertical_fov = between(5.0, 150.0);
     scene.bodies = {ground_plane()};
     scene.bodies[0].position.y() = between(-4.0, 0.0);
+    scene.bodies[0].shape = PlaneShape{Vec3::UnitY(), between(-0.5, 0.5)};
     scene.bodies[0].rotation = Quat(Eigen::AngleAxisd(between(-0.3, 0.3), Vec3::UnitZ()));
     const auto torus = torus_asset(1.0, 0.4, 12, 8);
     for (int i = 0; i < 12; ++i) {
