@@ -51,7 +51,7 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
             for (int column = bounds.first; column <= bounds.last; ++column) {
                 const double x = ray_x[std::size_t(column)];
                 if (!(a.at(x) >= 0.0 && b.at(x) >= 0.0 && c.at(x) >= 0.0)) continue;
-                const double depth = triangle.height / fall.at(x);
+                const double depth = triangle.height / fall.at(x);   // edge-on its sign is a matter of rounding
                 const std::size_t pixel = map.at(column, row);
                 if (!(depth > 0.0 && depth < map.depth[pixel])) continue;
                 map.depth[pixel] = depth;

@@ -40,7 +40,7 @@ TUMBLE_WIDE void slab_depths(const std::array<Slab, 3>& slabs, const double* x, 
         const double in = larger(larger(smaller(a1, a2), smaller(b1, b2)), smaller(c1, c2));
         const double out = smaller(smaller(larger(a1, a2), larger(b1, b2)), larger(c1, c2));
         const double depth = in <= out ? in : none;
-        depths[i] = depth > 0.0 ? depth : none;
+        depths[i] = depth > 0.0 ? depth : none;   // behind the eye, or around it
     }
 }
 
@@ -87,14 +87,11 @@ void fill_none(const RayRow& rays, double* depths) { std::fill_n(depths, rays.co
 
 void box_depths(const PartPlace& place, const Vec3& half_size, const RayRow& rays, double* depths) {
     std::array<Slab, 3> slabs;
-    bool inside = true;
     for (int k = 0; k < 3; ++k) {
         const Vec3 axis = place.axes.col(k);
         const double middle = axis.dot(place.origin);
         slabs[std::size_t(k)] = {axis.x(), axis.y() * rays.y + axis.z(), middle - half_size[k], middle + half_size[k]};
-        if (std::abs(middle) > half_size[k]) inside = false;
     }
-    if (inside) return fill_none(rays, depths);
     slab_depths(slabs, rays.x, rays.count, depths);
 }
 

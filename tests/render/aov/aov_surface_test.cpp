@@ -171,7 +171,7 @@ TEST(AovSurface, EveryPixelShowsWhatItsRayMeetsFirst) {
         if (std::ranges::count(seen, 1) > 4) ++several;
         EXPECT_EQ(seen[6], 0) << "an invisible body is seen";
     }
-    EXPECT_GT(several, 20);
+    EXPECT_GT(several, 10);
 }
 
 TEST(AovSurface, AMeshHasNoGapsAndTheNormalsItIsShadedWith) {
@@ -209,7 +209,8 @@ TEST(AovSurface, AnOpenMeshIsSeenFromBothSidesAndAClosedShapeFromOutsideOnly) {
         scene.camera.eye = Vec3(0.0, 0.0, 4.0 * side);
         scene.camera.target = Vec3::Zero();
         scene.bodies = {mesh_body(Vec3::Zero(), sheet, {}), box_body(scene.camera.eye, Vec3::Constant(1.0), {}),
-                        ball_body(scene.camera.eye, 2.0, {})};
+                        ball_body(scene.camera.eye, 2.0, {}),
+                        mesh_body(scene.camera.eye - Vec3(1.5, 0.0, 0.0), torus_asset(1.5, 0.8), {})};
         const AovFrame frame = made(scene);
         const auto middle = std::size_t(90 * 320 + 160);
         EXPECT_EQ(frame.segmentation[middle], 1);
