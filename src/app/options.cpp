@@ -86,8 +86,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     add_scene(*command, c.scene);
     command->add_option("-o,--output", c.clip,
                         "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
-                        ".webm (VP9), .gif. Without this and --frames: the scene's name with .mp4,\n"
-                        "in this folder")->type_name("CLIP");
+                        ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
+                        "name with .mp4, in this folder")->type_name("CLIP");
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->type_name("DIR");
     command->add_option("--aov", line.aovs,
                         "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/aovs.md)")
