@@ -1,6 +1,6 @@
 // Arrays of numbers as NumPy's np.load() reads them: an .npz file, which is a zip of .npy files, one an array
-// (numpy.org/doc/stable/reference/generated/numpy.lib.format.html). Compressed by ISA-L in a fraction of zlib's time. The bytes depend on
-// the arrays alone: there is no date in them.
+// (numpy.org/doc/stable/reference/generated/numpy.lib.format.html). Compressed by ISA-L in a fraction of zlib's time.
+// The bytes depend on the arrays alone: there is no date in them.
 #pragma once
 
 #include <cstddef>

@@ -127,7 +127,8 @@ class Aovs(program.ProgramTest):
         self.assertIn("2 older AOVs are still in the folder, from values/aov_000002.npz on", run.stderr)
 
     def test_beside_a_clip_and_in_a_folder_of_their_own(self):
-        self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "frames", "--aov", "segmentation", "--aov-folder", "values")
+        self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "frames", "--aov", "segmentation",
+                   "--aov-folder", "values")
         self.assertEqual(self.names(), ["a.mp4", "frames"] + ["frames/" + name for name in program.frame_names(4)] +
                          ["values"] + ["values/" + name for name in aov_names(4)] + ["values/segmentation.csv"])
 
@@ -164,7 +165,8 @@ class Aovs(program.ProgramTest):
 
     def test_wrong_usage(self):
         listed = "(there are depth, normal, segmentation, motion, albedo)"
-        for names, wrong in (("dept", "dept"), ("depth,Normal", "Normal"), ("depth,", ""), ("", ""), ("depth normal", "depth normal")):
+        for names, wrong in (("dept", "dept"), ("depth,Normal", "Normal"), ("depth,", ""), ("", ""),
+                             ("depth normal", "depth normal")):
             run = self.check(2, "render", "scene.toml", "--frames", "out", "--aov", names)
             self.assertEqual(run.stderr, f"error: --aov: there is no '{wrong}' {listed}\n")
         run = self.check(2, "render", "scene.toml", "-o", "a.mp4", "--aov", "depth")

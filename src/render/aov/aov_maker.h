@@ -58,7 +58,8 @@ class AovChanges {
 public:
     explicit AovChanges(const SceneDescription& scene) : path_(scene.camera) {}
 
-    /// Of every frame, in order. False: neither a body nor the camera has moved, now or to the next frame, since the call before.
+    /// Of every frame, in order. False: since the call before neither a body nor the camera has moved, in this frame or to
+    /// the next.
     bool follow(const AovPoses& poses);
 
 private:

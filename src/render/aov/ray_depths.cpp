@@ -1,5 +1,6 @@
 #include "render/aov/ray_depths.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -75,7 +75,7 @@ void SurfaceFinder::find_shape(const PlaneShape& plane, std::size_t index, const
                                const PinholeCamera& camera) {
     const Vec3 normal = place.axes * plane.normal;
     const double height = -normal.dot(place.origin) - plane.offset;
-    // A plane has no corners: all rows, by three points that are seen nowhere and everywhere.
+    // A plane has no corners: the whole picture, as of a hull that goes through the eye.
     const std::array<Vec3, 2> everywhere = {Vec3(0.0, 0.0, 1.0), Vec3(0.0, 0.0, -1.0)};
     find_rows(everywhere, index, camera,
               [&](const RayRow& rays, double* depths) { plane_depths(normal, height, rays, depths); });

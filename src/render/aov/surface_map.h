@@ -43,7 +43,6 @@ public:
     const SurfaceMap& find(const ScenePlaces& places, const PinholeCamera& camera);
 
 private:
-    void find_part(std::size_t index, const PartPlace& place, const PinholeCamera& camera);
     void find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
     void find_shape(const BoxShape& box, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
     void find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place, const PinholeCamera& camera);

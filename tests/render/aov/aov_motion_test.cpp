@@ -58,8 +58,9 @@ void expect_motion(const Moving& m) {
                 place = next_view.place(next.origin + next.orientation * on_body);
             }
             const Eigen::Vector2d expected = place - Eigen::Vector2d(column, row);
-            ASSERT_NEAR(frame.motion[2 * pixel], expected.x(), tolerance + 1e-6 * expected.norm()) << column << " " << row << " id " << id;
-            ASSERT_NEAR(frame.motion[2 * pixel + 1], expected.y(), tolerance + 1e-6 * expected.norm()) << column << " " << row << " id " << id;
+            const double near = tolerance + 1e-6 * expected.norm();
+            ASSERT_NEAR(frame.motion[2 * pixel], expected.x(), near) << column << " " << row << " id " << id;
+            ASSERT_NEAR(frame.motion[2 * pixel + 1], expected.y(), near) << column << " " << row << " id " << id;
         }
     for (const int pixels : seen) EXPECT_GT(pixels, 500);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace tumble {
@@ -123,7 +124,8 @@ TEST(AovSurface, ABallIsRound) {
 SceneDescription random_scene(unsigned seed) {
     std::mt19937 engine(seed);
     const auto between = [&](double low, double high) { return low + (high - low) * (double(engine()) / 4294967296.0); };
-    const auto vector = [&](double reach) { return Vec3(between(-reach, reach), between(-reach, reach), between(-reach, reach)); };
+    const auto within = [&](double reach) { return between(-reach, reach); };
+    const auto vector = [&](double reach) { return Vec3(within(reach), within(reach), within(reach)); };
     const auto turn = [&] { return Quat(Eigen::AngleAxisd(between(-3.0, 3.0), vector(1.0).normalized())); };
     SceneDescription scene = empty_scene();
     scene.output.width = 71;
