@@ -3,6 +3,7 @@
 #pragma once
 
 #include "output/video_format.h"
+#include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 
@@ -13,8 +14,10 @@ namespace tumble {
 
 struct RenderCommand {
     std::filesystem::path scene;
-    std::optional<std::filesystem::path> clip;     // neither this nor frames: the scene's name with .mp4
+    std::optional<std::filesystem::path> clip;     // neither this nor frames nor AOVs: the scene's name with .mp4
     std::optional<std::filesystem::path> frames;   // folder
+    AovSet aovs;
+    std::optional<std::filesystem::path> aov_folder;   // in place of the frames' folder
     SceneOverrides overrides;
     RenderOptions drawing;
     FrameTimes times = FrameTimes::constant_rate;

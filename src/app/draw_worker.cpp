@@ -1,5 +1,6 @@
 #include "app/draw_worker.h"
 
+#include "app/aov_file.h"
 #include "app/stage_time.h"
 #include "core/error.h"
 #include "core/image_mean.h"
@@ -27,7 +28,8 @@ namespace {
 struct Job {
     std::int64_t frame = 0;
     int slot = 0;
-    std::size_t moments = 1;
+    std::size_t moments = 1;   // none: no picture is wanted
+    bool aovs = false;
 };
 
 /// Messages are whole or not there (SOCK_SEQPACKET). False: nobody is at the other end.
@@ -59,7 +61,9 @@ WorkTime timed(const Work& work) {
 class FrameMaker {
 public:
     FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, WorkerMemory& memory)
-        : memory_(memory), renderer_(scene, options) {
+        : memory_(memory) {
+        if (forms.picture()) renderer_.emplace(scene, options);
+        if (!forms.aovs.empty()) aovs_.emplace(scene, forms.aovs);
         if (forms.video) video_.emplace(*forms.video, scene.output.width, scene.output.height);
         if (forms.png) png_.emplace();
     }
@@ -67,10 +71,23 @@ public:
     DrawnFrame make(const Job& job) {
         DrawnFrame drawn;
         drawn.frame = snapshot_.frame = job.frame;
+        if (job.moments > 0) make_picture(job, drawn);
+        if (job.aovs)
+            drawn.aovs = timed([&] {
+                memory_.read_aov_poses(job.slot, aov_poses_);
+                const std::span<const std::byte> file = aovs_->make(aov_poses_);
+                std::ranges::copy(file, memory_.aovs(job.slot).data());
+                drawn.aov_bytes = file.size();
+            });
+        return drawn;
+    }
+
+private:
+    void make_picture(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { expose(job); });
         const bool partly = !blurred_before_ && job.moments == 1;   // else another picture came before
         const std::vector<Rectangle> changed =
-            partly ? renderer_.changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
+            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
         const Image& picture = job.moments == 1 ? image_ : blurred_;
         blurred_before_ = job.moments > 1;
         drawn.unchanged = changed.empty();
@@ -85,21 +102,19 @@ public:
                 std::ranges::copy(file_, memory_.png(job.slot).data());
             });
         drawn.png_bytes = file_.size();
-        return drawn;
     }
 
-private:
     void expose(const Job& job) {
         for (std::size_t i = 0; i < job.moments; ++i) {
             memory_.read_poses(job.slot, i, snapshot_);
-            renderer_.render(snapshot_, image_);
+            renderer_->render(snapshot_, image_);
             if (job.moments > 1) mean_.add(image_);
         }
         if (job.moments > 1) mean_.take(blurred_);
     }
 
     WorkerMemory& memory_;
-    Renderer renderer_;
+    std::optional<Renderer> renderer_;
     Snapshot snapshot_;
     Image image_;          // the last moment that was drawn
     ImageMean mean_;
@@ -108,6 +123,8 @@ private:
     std::optional<VideoPixels> video_;
     std::optional<PngEncoder> png_;
     std::span<const std::byte> file_;
+    std::optional<AovFile> aovs_;
+    AovPoses aov_poses_;
 };
 
 /// What went wrong, without the "error: " that the program puts before it again.
@@ -173,8 +190,9 @@ DrawWorker::~DrawWorker() {
 
 DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
     for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(slot, i, exposure.moments[i]);
+    if (exposure.aovs) memory_->write_aov_poses(slot, *exposure.aovs);
     DrawnFrame drawn;
-    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size()}) || !receive_message(socket_, drawn))
+    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) || !receive_message(socket_, drawn))
         died(exposure.frame);
     if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
     return drawn;

@@ -27,8 +27,8 @@ struct DrawnFrame {
     std::int64_t frame = 0;
     bool failed = false;           // the reason is in the memory's words
     bool unchanged = false;        // the same picture as this worker's frame before
-    std::size_t png_bytes = 0;     // of the file in the slot
-    WorkTime drawing, conversion, png;
+    std::size_t png_bytes = 0, aov_bytes = 0;   // of the files in the slot
+    WorkTime drawing, conversion, png, aovs;
 };
 
 class DrawWorker {
@@ -42,7 +42,7 @@ public:
     DrawWorker(const DrawWorker&) = delete;
     DrawWorker& operator=(const DrawWorker&) = delete;
 
-    /// Draws one frame into the slot and waits for it. Throws RunError naming the frame where drawing fails, or the
+    /// Draws one frame into the slot and waits for it: the picture where it has moments, the AOVs where it has their poses. Throws RunError naming the frame where drawing fails, or the
     /// process has died.
     DrawnFrame draw(const Exposure& exposure, int slot);
 

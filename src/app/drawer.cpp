@@ -59,7 +59,7 @@ private:
 
 Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
                int most_moments)
-    : drawn_poses_(scene) {
+    : drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
     for (int i = 0; i < workers; ++i) {
         workers_.push_back(std::make_unique<DrawWorker>(scene, options, forms, slots_of_worker, most_moments));
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
@@ -96,9 +96,16 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
     stop();
 }
 
-/// The poses to draw; false: the frame shows what the one before shows. Where nothing moves while the shutter is open,
-/// one moment is left.
+/// What to draw; false: the frame shows what the one before shows.
 bool Drawer::follow(Exposure& exposure) {
+    if (!forms_.picture() || !follow_picture(exposure)) exposure.moments.clear();
+    if (exposure.aovs && !aov_changes_.follow(*exposure.aovs)) exposure.aovs.reset();
+    return !exposure.moments.empty() || exposure.aovs;
+}
+
+/// The poses to draw of the picture; false: it is that of the frame before. Where nothing moves while the shutter is
+/// open, one moment is left.
+bool Drawer::follow_picture(Exposure& exposure) {
     bool first = false, later = false;
     for (std::size_t i = 0; i < exposure.moments.size(); ++i)
         if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
@@ -114,7 +121,7 @@ void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder&
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<Exposure> pose = poses.pop()) {
             if (follow(*pose)) {
-                ++drawn_;
+                if (!pose->moments.empty()) ++drawn_;
                 return pose;
             }
             if (!order.add_repeated(pose->frame)) break;
@@ -129,8 +136,17 @@ void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder&
         times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
         times.conversion.add(drawn.conversion.wall, drawn.conversion.cpu);
         times.png.add(drawn.png.wall, drawn.png.cpu);
+        times.aovs.add(drawn.aovs.wall, drawn.aovs.cpu);
         Frame frame;
         frame.number = pose->frame;
+        if (pose->aovs) {
+            frame.aov_slot = slot;
+            frame.aovs = slots.memory().aovs(*slot).first(drawn.aov_bytes);
+        }
+        if (pose->moments.empty()) {
+            order.add_with_last_picture(std::move(frame));
+            continue;
+        }
         frame.slot = slot;
         frame.video = {slot, slots.memory().video(*slot).data()};
         frame.png = slots.memory().png(*slot).first(drawn.png_bytes);

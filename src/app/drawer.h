@@ -2,7 +2,8 @@
 // (draw_worker.h); whichever is free takes the next pose. The pixels do not depend on their number: every frame is what
 // a full redraw of its poses would be, and the poses are chosen (drawn_poses.h) before they are handed out.
 //
-// A frame in which nothing drawn has moved is not drawn: it repeats the one before.
+// A frame in which nothing drawn has moved is not drawn: it repeats the one before. AOVs (aov_maker.h) are of the true
+// poses: where only those have moved, the picture is repeated, but not the AOVs.
 #pragma once
 
 #include "app/bounded_queue.h"
@@ -31,10 +32,12 @@ struct Frame {
     std::shared_ptr<const std::byte> video;  // as a VideoPixels has it; null where it is not asked for
     std::span<const std::byte> png;          // the file; lives as long as `slot`
     std::shared_ptr<const void> slot;
+    std::span<const std::byte> aovs;         // the file (aov_file.h); lives as long as `aov_slot`
+    std::shared_ptr<const void> aov_slot;    // null where no AOVs are asked for
 };
 
 struct DrawingTimes {
-    StageTime drawing, conversion, png;
+    StageTime drawing, conversion, png, aovs;
 };
 
 class FrameOrder;
@@ -63,12 +66,15 @@ public:
 private:
     class Slots;
     bool follow(Exposure& exposure);
+    bool follow_picture(Exposure& exposure);
     void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times);
 
     std::vector<std::unique_ptr<DrawWorker>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
     std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time
     DrawnPoses drawn_poses_;
+    AovChanges aov_changes_;
+    FrameForms forms_;
     bool moves_ = false;                          // while the shutter was open for the frame before
     std::int64_t drawn_ = 0;
 };

@@ -1,17 +1,21 @@
 // Motion blur: a frame as the mean, in linear light, of pictures at several moments while the shutter is open.
 #pragma once
 
+#include "render/aov/aov_maker.h"
 #include "sim/snapshot.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace tumble {
 
-/// What one frame shows: its moments, in order; a single one without motion blur.
+/// What one frame shows: its moments, in order; a single one without motion blur. What is not asked for, or is the same
+/// as in the frame before, is left out.
 struct Exposure {
     std::int64_t frame = 0;
     std::vector<Snapshot> moments;
+    std::optional<AovPoses> aovs;   // the true poses at the frame's own time, where the shutter opens
 };
 
 /// Each frame is simulated in so many equal parts; the first `moments` of them begin while the shutter is open.

@@ -17,9 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The n of "frame_N.png" with six digits or more, if that is what the name is.
-std::optional<std::int64_t> frame_number(const std::string& name) {
-    constexpr std::string_view before = "frame_", after = ".png";
-    if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
+std::optional<std::int64_t> number_of(const std::string& name, std::string_view before, std::string_view after) {
+    if (!name.starts_with(before) || !name.ends_with(after) || name.size() < before.size() + after.size())
+        return std::nullopt;
     const char* first = name.data() + before.size();
     const char* last = name.data() + name.size() - after.size();
     std::int64_t number = 0;
@@ -32,11 +32,13 @@ std::optional<std::int64_t> frame_number(const std::string& name) {
 
 fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder / fmt::format("frame_{:06}.png", frame); }
 
-std::vector<std::int64_t> frames_in(const fs::path& folder) {
+std::vector<std::int64_t> frames_in(const fs::path& folder) { return numbers_in(folder, "frame_", ".png"); }
+
+std::vector<std::int64_t> numbers_in(const fs::path& folder, std::string_view before, std::string_view after) {
     std::error_code error;
     std::vector<std::int64_t> numbers;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (const auto number = frame_number(entry->path().filename().string())) numbers.push_back(*number);
+        if (const auto number = number_of(entry->path().filename().string(), before, after)) numbers.push_back(*number);
     if (error) throw InputError({folder.string(), 0, 0}, "cannot be read as a folder: " + error.message());
     std::sort(numbers.begin(), numbers.end());
     return numbers;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace tumble {
@@ -12,6 +13,9 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, std::int64
 
 /// The numbers of the frames that are in the folder, ascending. Throws InputError where it is no folder.
 std::vector<std::int64_t> frames_in(const std::filesystem::path& folder);
+
+/// The same of any files whose name is `before`, a number of six digits or more, and `after`.
+std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::string_view before, std::string_view after);
 
 /// A folder to write frames into: made where it is missing, and taken away again if nothing ever came into it.
 class FrameFolder {

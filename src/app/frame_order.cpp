@@ -20,6 +20,13 @@ void FrameOrder::add(Frame frame, std::size_t worker, bool unchanged) {
     changed_.notify_all();
 }
 
+void FrameOrder::add_with_last_picture(Frame frame) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t number = frame.number;
+    waiting_.emplace(number, Waiting{std::move(frame), std::nullopt, true});
+    changed_.notify_all();
+}
+
 bool FrameOrder::add_repeated(std::int64_t number) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return stopped_ || number < next_ + most_ahead; });
@@ -62,10 +69,17 @@ std::optional<Frame> FrameOrder::next() {
 /// Frames come here in order, so that "the worker's frame before" is known by now.
 Frame FrameOrder::told_apart(Waiting waiting) {
     Frame& frame = waiting.frame;
+    TUMBLE_CHECK_EQ(frame.number > 0 || waiting.worker || frame.aov_slot, true);
+    if (!frame.aov_slot) {
+        frame.aovs = last_.aovs;
+        frame.aov_slot = last_.aov_slot;
+    }
     if (!waiting.worker) {
-        TUMBLE_CHECK_GT(frame.number, 0);
-        std::swap(last_.number, frame.number);
-        last_.repeated = true;
+        frame.repeated = frame.number > 0;
+        frame.video = last_.video;
+        frame.png = last_.png;
+        frame.slot = last_.slot;
+        last_ = std::move(frame);
         return last_;
     }
     std::int64_t& worker = picture_of_worker_[*waiting.worker];

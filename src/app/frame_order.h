@@ -21,6 +21,9 @@ public:
     /// A frame that a worker has drawn; `unchanged`: it is the same picture as the frame it drew before.
     void add(Frame frame, std::size_t worker, bool unchanged);
 
+    /// A frame that has AOVs of its own, and the picture of the one before it (none, where no pictures are drawn).
+    void add_with_last_picture(Frame frame);
+
     /// A frame that is the same as the one before it. Waits while far too many are ahead. False: all is over.
     bool add_repeated(std::int64_t number);
 
@@ -37,7 +40,7 @@ public:
 private:
     struct Waiting {
         Frame frame;
-        std::optional<std::size_t> worker;   // none: repeated
+        std::optional<std::size_t> worker;   // none: the picture is repeated
         bool unchanged = false;
     };
     Frame told_apart(Waiting waiting);

@@ -38,6 +38,21 @@ void read_size(const std::string& text, SceneOverrides& overrides) {
     overrides.height = height;
 }
 
+/// "depth,normal" to a set.
+AovSet read_aovs(const std::string& text) {
+    AovSet aovs, all;
+    for (const Aov aov : all_aovs) all.add(aov);
+    for (std::size_t first = 0; first <= text.size();) {
+        const std::size_t end = std::min(text.find(',', first), text.size());
+        const std::string name = text.substr(first, end - first);
+        const std::optional<Aov> aov = aov_named(name);
+        if (!aov) throw InputError(fmt::format("--aov: there is no '{}' (there are {})", name, names_of(all)));
+        aovs.add(*aov);
+        first = end + 1;
+    }
+    return aovs;
+}
+
 /// What the user may say on the command line; each command takes what it knows.
 struct CommandLine {
     RenderCommand render;
@@ -45,7 +60,7 @@ struct CommandLine {
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
-    std::string render_size, info_size;
+    std::string render_size, info_size, aovs;
 };
 
 void add_scene(CLI::App& command, std::filesystem::path& scene) {
@@ -71,9 +86,13 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     add_scene(*command, c.scene);
     command->add_option("-o,--output", c.clip,
                         "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
-                        ".webm (VP9), .gif. Without this and --frames: the scene's name with .mp4,\n"
-                        "in this folder")->type_name("CLIP");
+                        ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
+                        "name with .mp4, in this folder")->type_name("CLIP");
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->type_name("DIR");
+    command->add_option("--aov", line.aovs,
+                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/aovs.md)")
+        ->type_name("LIST");
+    command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")->type_name("DIR");
     command->add_option("--size", line.render_size, "Picture size, in place of the scene's")->type_name("WxH");
     add_frames_of_time(*command, c.overrides);
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
@@ -101,7 +120,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml -o clip.webm --size 640x360\n"
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
         "  tumble render scene.toml --speed 0.25             slow motion\n"
-        "  tumble render scene.toml --frames one --duration 0  writes the first frame only");
+        "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
+        "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
+        "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all");
     return command;
 }
 
@@ -205,6 +226,7 @@ int run_command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     if (!line.render_size.empty()) read_size(line.render_size, line.render.overrides);
+    if (render->get_option("--aov")->count() > 0) line.render.aovs = read_aovs(line.aovs);
     if (!line.info_size.empty()) read_size(line.info_size, line.info.overrides);
 
     if (render->parsed()) run_render(line.render);

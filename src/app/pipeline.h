@@ -1,13 +1,15 @@
 // The whole street at work at once:
 //
 //   simulation ──poses──> drawing processes ──frames──┬──> PNG files
+//                                                     ├──> AOV files
 //                                                     └──> video (ffmpeg)
 //
-// What a frame becomes (planes for ffmpeg, a PNG file) is made where it is drawn; here it is only written. Each arrow is a
+// What a frame becomes (planes for ffmpeg, a PNG file, its AOVs) is made where it is drawn; here it is only written. Each arrow is a
 // bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the clip is. The first error
 // of any stage stops all of them.
 #pragma once
 
+#include "app/aov_folder.h"
 #include "app/drawer.h"
 #include "app/frame_folder.h"
 #include "app/stage_time.h"
@@ -28,7 +30,7 @@ class StageGroup;
 struct PipelineTimes {
     StageTime simulation;
     DrawingTimes drawing;
-    StageTime files, video;
+    StageTime files, aov_files, video;
 };
 
 class Pipeline {
@@ -37,7 +39,7 @@ public:
     /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
     /// the outputs want.
     Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
-             Shutter shutter = {});
+             AovFolder* aovs = nullptr, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
     /// Throws the first error of any stage; RunError when interrupted. Frames written by then are whole, and stay.
@@ -47,7 +49,10 @@ public:
 
 private:
     void simulate();
+    Exposure expose(std::int64_t frame);
+    Snapshot after_the_last();
     void write_frames();
+    void write_aovs();
     void write_video();
     bool hand_on(const Frame& frame);
     std::int64_t finished() const;
@@ -57,10 +62,11 @@ private:
     Drawer& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;
+    AovFolder* aovs_;
     Shutter shutter_;
     BoundedQueue<Exposure> poses_;
-    BoundedQueue<Frame> for_png_, for_video_;
-    std::atomic<std::int64_t> written_{0}, filmed_{0};
+    BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
+    std::atomic<std::int64_t> written_{0}, aovs_written_{0}, filmed_{0};
     PipelineTimes times_;
 };
 

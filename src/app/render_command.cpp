@@ -3,6 +3,7 @@
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/speed.h"
+#include "core/error.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@ struct Summary {
     const SceneDescription& scene;
     const Pipeline& pipeline;
     const FrameFolder* folder;
+    const AovFolder* aovs;
     const VideoWriter* video;
     const Drawer& drawer;
     ProcessEnd workers_end;
@@ -36,8 +38,12 @@ struct Summary {
         if (folder != nullptr)
             fmt::print(stderr, "wrote {} to {}\n", frame_path(folder->path(), 0).string(),
                        frame_path(folder->path(), frames - 1).filename().string());
+        if (aovs != nullptr)
+            fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), 0).string(),
+                       aov_path(aovs->path(), frames - 1).filename().string(), names_of(aovs->aovs()));
         print_times(frames);
-        if (folder != nullptr) print_older_frames(frames);
+        if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
+        if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
     }
 
     std::string every_so_manieth(std::int64_t frames) const {
@@ -57,6 +63,8 @@ struct Summary {
                                        seconds, double(frames) / seconds, drawer.drawn(), t.simulation.cpu.load(),
                                        t.drawing.drawing.cpu.load());
         if (folder != nullptr) text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
+        if (aovs != nullptr)
+            text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
         if (video != nullptr)
             text += fmt::format(", conversion {:.2f} s, video {:.2f} s", t.drawing.conversion.cpu.load(),
                                 t.video.cpu.load() + video->encoder_seconds());
@@ -66,19 +74,30 @@ struct Summary {
     }
 
     /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
-    void print_older_frames(std::int64_t frames) const {
-        const std::vector<std::int64_t> there = frames_in(folder->path());
-        const auto older = std::lower_bound(there.begin(), there.end(), frames);
+    void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
+                     fs::path (&path)(const fs::path&, std::int64_t)) const {
+        const auto older = std::lower_bound(there.begin(), there.end(), scene.frame_count());
         if (older != there.end())
-            fmt::print(stderr, "note: {} older frames are still in the folder, from {} on\n", there.end() - older,
-                       frame_path(folder->path(), *older).string());
+            fmt::print(stderr, "note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
+                       path(where, *older).string());
     }
 };
+
+/// The folder that the AOVs go to, if any are asked for.
+std::optional<fs::path> aov_folder(const RenderCommand& command) {
+    if (command.aovs.empty() && command.aov_folder)
+        throw InputError("--aov-folder: --aov must say what to write there, as in --aov depth,normal");
+    if (command.aovs.empty()) return std::nullopt;
+    if (!command.aov_folder && !command.frames)
+        throw InputError("--aov: --frames or --aov-folder must say where to write it");
+    return command.aov_folder ? command.aov_folder : command.frames;
+}
 
 }  // namespace
 
 void run_render(const RenderCommand& command) {
     const double start = wall_seconds();
+    const std::optional<fs::path> aovs_to = aov_folder(command);
     SceneDescription scene = load_scene(command.scene, command.overrides);
     const double clip_fps = scene.output.fps;
     apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
@@ -86,10 +105,10 @@ void run_render(const RenderCommand& command) {
     SceneDescription in_parts = scene;
     divide_frames(in_parts, shutter.parts);
     std::optional<fs::path> clip = command.clip;
-    if (!clip && !command.frames) clip = command.scene.stem().string() + ".mp4";
+    if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
     // What can be wrong with the outputs is found out before anything is simulated or written.
-    FrameForms forms{std::nullopt, command.frames.has_value()};
+    FrameForms forms{std::nullopt, command.frames.has_value(), command.aovs};
     if (clip) {
         forms.video = video_format(*clip, clip_fps).pixels;
         find_ffmpeg();
@@ -101,18 +120,22 @@ void run_render(const RenderCommand& command) {
     World world(in_parts, command.threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
+    std::optional<FrameFolder> own_aov_folder;
+    if (aovs_to && aovs_to != command.frames) own_aov_folder.emplace(*aovs_to);
+    std::optional<AovFolder> aovs;
+    if (aovs_to) aovs.emplace(*aovs_to, scene, command.aovs);
     std::optional<VideoWriter> video;
     if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.times);
 
     Pipeline pipeline(world, scene.frame_count(), drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
-                      shutter);
+                      aovs ? &*aovs : nullptr, shutter);
     {
         Progress progress(scene.frame_count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     const ProcessEnd workers_end = drawer.finish();
     if (!command.quiet)
-        Summary{scene, pipeline, folder ? &*folder : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
+        Summary{scene, pipeline, folder ? &*folder : nullptr, aovs ? &*aovs : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
                 clip_fps, wall_seconds() - start}
             .print();
 }

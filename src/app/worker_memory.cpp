@@ -1,5 +1,6 @@
 #include "app/worker_memory.h"
 
+#include "app/aov_file.h"
 #include "core/check.h"
 #include "core/error.h"
 #include "output/png_writer.h"
@@ -25,13 +26,17 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 }  // namespace
 
 WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
-    : bodies_(scene.bodies.size()),
+    : motion_(forms.aovs.has(Aov::motion)),
+      bodies_(scene.bodies.size()),
+      most_moments_(std::size_t(most_moments)),
       poses_size_((1 + bodies_ * numbers_of_body) * sizeof(double)),
-      video_at_(whole_pages(std::size_t(most_moments) * poses_size_)),
+      video_at_(whole_pages((most_moments_ + (forms.aovs.empty() ? 0 : motion_ ? 2 : 1)) * poses_size_)),
       video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
       png_at_(video_at_ + whole_pages(video_size_)),
       png_size_(forms.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
-      slot_size_(png_at_ + whole_pages(png_size_)),
+      aovs_at_(png_at_ + whole_pages(png_size_)),
+      aovs_size_(forms.aovs.empty() ? 0 : aov_file_bound(forms.aovs, scene.output.width, scene.output.height)),
+      slot_size_(aovs_at_ + whole_pages(aovs_size_)),
       words_at_(slot_size_ * std::size_t(slots)),
       size_(words_at_ + words_size) {
     // Pages that are never written take no memory: a PNG file is far smaller than the room for it.
@@ -64,6 +69,17 @@ void WorkerMemory::read_poses(int slot, std::size_t moment, Snapshot& snapshot) 
         std::copy_n(from + 3, 4, body.orientation.coeffs().data());
         from += numbers_of_body;
     }
+}
+
+void WorkerMemory::write_aov_poses(int slot, const AovPoses& poses) {
+    write_poses(slot, most_moments_, poses.now);
+    TUMBLE_CHECK_EQ(poses.next.has_value(), motion_);
+    if (motion_) write_poses(slot, most_moments_ + 1, *poses.next);
+}
+
+void WorkerMemory::read_aov_poses(int slot, AovPoses& poses) const {
+    read_poses(slot, most_moments_, poses.now);
+    if (motion_) read_poses(slot, most_moments_ + 1, poses.next.emplace());
 }
 
 void WorkerMemory::write_words(const std::string& words) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "output/video_format.h"
+#include "render/aov/aov_maker.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
 
@@ -18,6 +19,9 @@ namespace tumble {
 struct FrameForms {
     std::optional<PixelForm> video;
     bool png = false;
+    AovSet aovs;
+
+    bool picture() const { return video.has_value() || png; }
 };
 
 class WorkerMemory {
@@ -32,8 +36,13 @@ public:
     void write_poses(int slot, std::size_t moment, const Snapshot& snapshot);
     void read_poses(int slot, std::size_t moment, Snapshot& snapshot) const;
 
+    /// Of the AOVs: those of the next frame only where the forms want motion.
+    void write_aov_poses(int slot, const AovPoses& poses);
+    void read_aov_poses(int slot, AovPoses& poses) const;
+
     std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
     std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // room for the largest
+    std::span<std::byte> aovs(int slot) const { return part(slot, aovs_at_, aovs_size_); }   // likewise
 
     /// Why a frame failed; cut short where it is long.
     void write_words(const std::string& words);
@@ -44,7 +53,9 @@ private:
         return {memory_ + std::size_t(slot) * slot_size_ + at, size};
     }
 
-    std::size_t bodies_, poses_size_, video_at_, video_size_, png_at_, png_size_, slot_size_, words_at_, size_;
+    bool motion_;
+    std::size_t bodies_, most_moments_, poses_size_, video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_,
+        slot_size_, words_at_, size_;
     std::byte* memory_;
 };
 

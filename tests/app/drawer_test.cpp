@@ -1,4 +1,5 @@
 // The drawing processes: the same bytes from any number of them, an error for each that dies, and none left behind.
+#include "app/aov_file.h"
 #include "app/drawer.h"
 #include "core/error.h"
 #include "core/image_mean.h"
@@ -18,7 +19,7 @@
 namespace tumble {
 namespace {
 
-constexpr FrameForms both{PixelForm::yuv420, true};
+constexpr FrameForms both{PixelForm::yuv420, true, {}};
 
 SceneDescription two_boxes() {
     SceneDescription scene;
@@ -52,7 +53,7 @@ Snapshot at_frame(std::int64_t n) {
     return snapshot;
 }
 
-Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}}; }
+Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
 
 /// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
 Exposure blurred(std::int64_t n) {
@@ -70,7 +71,7 @@ Exposure blurred(std::int64_t n) {
 struct Seen {
     std::int64_t number;
     bool repeated;
-    std::vector<std::byte> video, png;
+    std::vector<std::byte> video, png, aovs;
     friend bool operator==(const Seen&, const Seen&) = default;
 };
 
@@ -91,8 +92,9 @@ std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64
         drawer.run(
             poses,
             [&](const Frame& frame) {
-                seen.push_back({frame.number, frame.repeated, {}, {frame.png.begin(), frame.png.end()}});
-                seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
+                seen.push_back({frame.number, frame.repeated, {}, {frame.png.begin(), frame.png.end()},
+                                {frame.aovs.begin(), frame.aovs.end()}});
+                if (frame.video) seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
                 meanwhile(frame.number);
                 return true;
             },
@@ -141,6 +143,59 @@ TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
             EXPECT_NE(first[n].png, first[n - 1].png) << n;
         }
     }
+}
+
+AovSet depth_and_motion() {
+    AovSet aovs;
+    aovs.add(Aov::depth);
+    aovs.add(Aov::motion);
+    return aovs;
+}
+
+/// Frames of which some differ by less than is drawn.
+Snapshot trembling(std::int64_t n) {
+    Snapshot snapshot = at_frame(n);
+    snapshot.bodies[1].origin.x() += n % 5 == 0 ? 1e-7 : 0.0;
+    return snapshot;
+}
+
+Exposure with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
+
+TEST(Drawer, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
+    const SceneDescription scene = two_boxes();
+    FrameForms with = both, alone;
+    with.aovs = alone.aovs = depth_and_motion();
+    const auto without_aovs = [](std::int64_t n) { return Exposure{n, {trembling(n)}, {}}; };
+    std::vector<Seen> pictures, first;
+    {
+        Drawer drawer(scene, {}, both, 2);
+        pictures = draw(drawer, scene, 24, [](std::int64_t) {}, without_aovs);
+    }
+    for (const int workers : {1, 2, 3}) {
+        Drawer drawer(scene, {}, with, workers);
+        const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, with_aovs);
+        ASSERT_EQ(seen.size(), 24u);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+        EXPECT_EQ(drawer.drawn(), 11);
+
+        Drawer no_pictures(scene, {}, alone, workers);
+        const std::vector<Seen> aovs = draw(no_pictures, scene, 24, [](std::int64_t) {}, with_aovs);
+        ASSERT_EQ(aovs.size(), 24u);
+        for (std::size_t n = 0; n < aovs.size(); ++n) EXPECT_TRUE(aovs[n].aovs == first[n].aovs) << n;
+        EXPECT_EQ(no_pictures.drawn(), 0);
+    }
+    AovFile file(scene, depth_and_motion());
+    for (std::size_t n = 0; n < first.size(); ++n) {
+        EXPECT_TRUE(std::ranges::equal(first[n].aovs, file.make(*with_aovs(std::int64_t(n)).aovs))) << n;
+        EXPECT_EQ(first[n].number, pictures[n].number);
+        EXPECT_EQ(first[n].repeated, pictures[n].repeated) << n;
+        EXPECT_TRUE(first[n].video == pictures[n].video && first[n].png == pictures[n].png) << n;
+    }
+    // In the pictures nothing moves from frame 15 on, but the values tell 20 from 21.
+    EXPECT_TRUE(first[20].repeated && first[21].repeated);
+    EXPECT_NE(first[20].aovs, first[21].aovs);
+    EXPECT_EQ(first[22].aovs, first[23].aovs);
 }
 
 // Of work in a process of its own: this one must stay without OpenGL, so that the next tests can fork.

@@ -49,6 +49,30 @@ TEST(FrameOrder, ARepeatedFrameShowsTheOneBefore) {
     }
 }
 
+TEST(FrameOrder, AovsGoTheirOwnWay) {
+    FrameOrder order(1);
+    const auto with_aovs = [](Frame frame) {
+        frame.aov_slot = std::make_shared<std::int64_t>(frame.number);
+        return frame;
+    };
+    const auto aovs_of = [](const Frame& frame) { return *static_cast<const std::int64_t*>(frame.aov_slot.get()); };
+    order.add(with_aovs(numbered(0)), 0, false);
+    Frame no_picture;
+    no_picture.number = 1;
+    order.add_with_last_picture(with_aovs(no_picture));
+    order.add(numbered(2), 0, false);
+    ASSERT_TRUE(order.add_repeated(3));
+    const std::int64_t pictures[] = {0, 0, 2, 2}, aovs[] = {0, 1, 1, 1};
+    for (std::int64_t n = 0; n < 4; ++n) {
+        const std::optional<Frame> frame = order.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->number, n);
+        EXPECT_EQ(slot_of(*frame), pictures[n]);
+        EXPECT_EQ(aovs_of(*frame), aovs[n]);
+        EXPECT_EQ(frame->repeated, n % 2 == 1);
+    }
+}
+
 TEST(FrameOrder, UnchangedIsMeantOfTheWorkersOwnFrame) {
     // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. "Unchanged" since its own last frame is a repetition only where
     // that is also the picture just before.

@@ -78,8 +78,8 @@ BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset>
     return body;
 }
 
-std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius) {
-    constexpr std::uint32_t around = 64, across = 32;
+std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius, std::uint32_t around,
+                                             std::uint32_t across) {
     auto asset = std::make_shared<MeshAsset>();
     for (std::uint32_t i = 0; i < around; ++i)
         for (std::uint32_t j = 0; j < across; ++j) {

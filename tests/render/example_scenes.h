@@ -15,8 +15,9 @@ BodyDescription ball_body(const Vec3& position, double radius, Color color, cons
 BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color,
                           const Quat& rotation = Quat::Identity());
 
-/// A ring in the plane y = 0, around the y axis.
-std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius);
+/// A ring in the plane y = 0, around the y axis, of 2 around x across triangles.
+std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius, std::uint32_t around = 64,
+                                             std::uint32_t across = 32);
 
 /// The poses that the description starts from.
 Snapshot first_snapshot(const SceneDescription& scene);

@@ -1,0 +1,42 @@
+// Where the AOVs go: aov_000000.npz, aov_000001.npz, ... and, with segmentation, the table of what its numbers mean.
+#pragma once
+
+#include "render/aov/aov_kind.h"
+#include "scene/description.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// The file of frame n. Six digits, more where needed.
+std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame);
+
+/// The numbers of those that are in a folder, ascending.
+std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder);
+
+class AovFolder {
+public:
+    /// A folder that is there (frame_folder.h). The scene must outlive it.
+    AovFolder(const std::filesystem::path& folder, const SceneDescription& scene, const AovSet& aovs)
+        : folder_(folder), scene_(scene), aovs_(aovs) {}
+
+    const std::filesystem::path& path() const { return folder_; }
+    const AovSet& aovs() const { return aovs_; }
+
+    /// Writes one frame's file, and the table before the first. Throws RunError naming the file.
+    void write(std::int64_t frame, std::span<const std::byte> file);
+
+private:
+    void write_table() const;
+
+    std::filesystem::path folder_;
+    const SceneDescription& scene_;
+    AovSet aovs_;
+    bool begun_ = false;
+};
+
+}  // namespace tumble

@@ -1,0 +1,169 @@
+#include "output/npz_archive.h"
+
+#include "core/check.h"
+#include "core/error.h"
+
+#include <fmt/format.h>
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);   // what the arrays' kinds say
+
+constexpr std::size_t npy_alignment = 64;        // bytes: the values of an .npy file start at a multiple of it
+constexpr std::size_t most_of_names = 1024;      // bytes of all headers of one array: below 300
+constexpr std::uint16_t deflated = 8, version = 20;
+constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, where zip's dates begin
+
+// Measured on 100 frames of falling_boxes, five AOVs, 28.6 MB each: levels 0 to 3 leave 2.99, 2.19, 2.19 and 2.16 MB;
+// 0 to 2 take the same time within what the machine's noise allows to say, 3 twice as much.
+constexpr std::uint32_t compression_level = 1;
+constexpr std::size_t compressor_memory = ISAL_DEF_LVL1_DEFAULT;
+
+/// The head of an .npy file, format 1.0.
+std::string npy_head(const std::string& kind, const ArrayShape& shape) {
+    std::string dimensions;
+    for (const std::size_t length : shape) dimensions += fmt::format("{}, ", length);
+    std::string words = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", kind, dimensions);
+    const std::size_t before = 10;   // magic, version and length
+    while ((before + words.size() + 1) % npy_alignment != 0) words += ' ';
+    words += '\n';
+    std::string head = "\x93NUMPY";
+    head += '\x01';
+    head += '\0';
+    head += char(words.size() & 0xff);
+    head += char(words.size() >> 8);
+    return head + words;
+}
+
+std::size_t compressed_bound(std::size_t bytes) { return bytes + bytes / 8 + 1024; }
+
+/// Little-endian numbers one after the other.
+class Bytes {
+public:
+    Bytes& u16(std::size_t value) { return number(value, 2); }
+    Bytes& u32(std::size_t value) { return number(value, 4); }
+    Bytes& text(std::string_view value) {
+        bytes_ += value;
+        return *this;
+    }
+    std::span<const std::byte> all() const { return std::as_bytes(std::span(bytes_)); }
+
+private:
+    Bytes& number(std::size_t value, int size) {
+        for (int i = 0; i < size; ++i) bytes_ += char(value >> (8 * i) & 0xff);
+        return *this;
+    }
+    std::string bytes_;
+};
+
+void copy_to(std::vector<std::byte>& file, std::size_t& used, std::span<const std::byte> bytes) {
+    if (file.size() < used + bytes.size()) file.resize(used + bytes.size());
+    std::memcpy(file.data() + used, bytes.data(), bytes.size());
+    used += bytes.size();
+}
+
+std::uint32_t checksum_of(std::uint32_t before, std::span<const std::byte> bytes) {
+    return crc32_gzip_refl(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+}
+
+}  // namespace
+
+struct NpzArchive::Compressor {
+    isal_zstream stream;
+    std::vector<std::uint8_t> memory = std::vector<std::uint8_t>(compressor_memory);
+};
+
+NpzArchive::NpzArchive() : compressor_(std::make_unique<Compressor>()) {}
+
+NpzArchive::~NpzArchive() = default;
+
+void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const float> values) {
+    add_bytes(name, "<f4", shape, std::as_bytes(values));
+}
+void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const double> values) {
+    add_bytes(name, "<f8", shape, std::as_bytes(values));
+}
+void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const std::int32_t> values) {
+    add_bytes(name, "<i4", shape, std::as_bytes(values));
+}
+void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const std::uint8_t> values) {
+    add_bytes(name, "|u1", shape, std::as_bytes(values));
+}
+
+/// Behind what is there; returns the number of bytes.
+std::uint32_t NpzArchive::compress(std::span<const std::byte> head, std::span<const std::byte> values) {
+    const std::size_t room = compressed_bound(head.size() + values.size());
+    if (file_.size() < used_ + room) file_.resize(used_ + room);
+    isal_zstream& stream = compressor_->stream;
+    isal_deflate_init(&stream);
+    stream.level = compression_level;
+    stream.level_buf = compressor_->memory.data();
+    stream.level_buf_size = static_cast<std::uint32_t>(compressor_->memory.size());
+    stream.gzip_flag = IGZIP_DEFLATE;
+    stream.flush = NO_FLUSH;
+    stream.next_out = reinterpret_cast<std::uint8_t*>(file_.data() + used_);
+    stream.avail_out = static_cast<std::uint32_t>(room);
+    for (const std::span<const std::byte> part : {head, values}) {
+        stream.end_of_stream = part.data() == values.data() ? 1 : 0;
+        // The interface is not const; the input is only read.
+        stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(part.data()));
+        stream.avail_in = static_cast<std::uint32_t>(part.size());
+        const int result = isal_deflate(&stream);
+        TUMBLE_CHECK_EQ(result, COMP_OK);
+        TUMBLE_CHECK_EQ(stream.avail_in, 0u);
+    }
+    TUMBLE_CHECK_GT(stream.avail_out, 0u);
+    return stream.total_out;
+}
+
+void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const ArrayShape& shape,
+                           std::span<const std::byte> values) {
+    const std::string text = npy_head(kind, shape);
+    const std::span<const std::byte> head = std::as_bytes(std::span(text));
+    if (used_ + bytes_bound(values.size()) > std::numeric_limits<std::uint32_t>::max())
+        throw RunError(fmt::format("'{}' does not fit into an .npz file: it would have more than 4 GiB", name));
+
+    Member member;
+    member.name = fmt::format("{}.npy", name);
+    member.offset = static_cast<std::uint32_t>(used_);
+    member.size = static_cast<std::uint32_t>(head.size() + values.size());
+    member.checksum = checksum_of(checksum_of(0, head), values);
+    const std::size_t local = 30 + member.name.size();
+    used_ += local;   // written below, when the compressed size is known
+    member.packed = compress(head, values);
+    const std::size_t end = used_ + member.packed;
+    used_ = member.offset;
+    copy_to(file_, used_, Bytes().u32(0x04034b50).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
+                              .u32(member.checksum).u32(member.packed).u32(member.size).u16(member.name.size()).u16(0)
+                              .text(member.name).all());
+    used_ = end;
+    members_.push_back(std::move(member));
+}
+
+std::span<const std::byte> NpzArchive::finish() {
+    const std::size_t directory = used_;
+    for (const Member& m : members_)
+        copy_to(file_, used_, Bytes().u32(0x02014b50).u16(version).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
+                                  .u32(m.checksum).u32(m.packed).u32(m.size).u16(m.name.size()).u16(0).u16(0).u16(0).u16(0)
+                                  .u32(0).u32(m.offset).text(m.name).all());
+    const std::size_t size = used_ - directory;
+    copy_to(file_, used_, Bytes().u32(0x06054b50).u16(0).u16(0).u16(members_.size()).u16(members_.size()).u32(size)
+                              .u32(directory).u16(0).all());
+    const std::size_t all = std::exchange(used_, 0);
+    members_.clear();
+    return std::span<const std::byte>(file_).first(all);
+}
+
+std::size_t NpzArchive::bytes_bound(std::size_t bytes_of_values) {
+    return compressed_bound(bytes_of_values) + most_of_names;
+}
+
+}  // namespace tumble

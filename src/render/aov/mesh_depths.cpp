@@ -1,0 +1,76 @@
+#include "render/aov/mesh_depths.h"
+
+#include "render/aov/pixel_bounds.h"
+
+namespace tumble {
+namespace {
+
+/// A triangle as rays (x, y, 1) meet it. Olano and Greer 1997, Triangle Scan Conversion using 2D Homogeneous Coordinates:
+/// a ray d passes on the inner side of the edge a b where (a x b) . d has the sign of the triangle's own volume with the
+/// eye; so nothing needs to be cut off behind the eye.
+struct Triangle {
+    std::array<Vec3, 3> edges;   // opposite to each corner, turned to be positive inside
+    Vec3 normal;                 // not of unit length
+    double height;               // normal . corner
+
+    /// False: it is seen edge-on, or from behind and `closed` says that this cannot be.
+    bool set(const std::array<Vec3, 3>& corners, bool closed) {
+        // From differences: of the large products little would be left where the triangle is small and far.
+        normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        height = normal.dot(corners[0]);
+        const bool front = height < 0.0;
+        if (!(height < 0.0 || height > 0.0) || (closed && !front)) return false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            edges[i] = corners[(i + 1) % 3].cross(corners[(i + 2) % 3]);
+            if (front) edges[i] = -edges[i];
+        }
+        return true;
+    }
+};
+
+struct Row {
+    double across, rest;   // across x + rest
+    Row(const Vec3& v, double ray_y) : across(v.x()), rest(v.y() * ray_y + v.z()) {}
+    double at(double x) const { return across * x + rest; }
+};
+
+}  // namespace
+
+void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
+                    std::span<const double> ray_x, SurfaceMap& map) {
+    for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+        const std::array<Vec3, 3> corners = {mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]],
+                                             mesh.vertices[mesh.indices[t + 2]]};
+        Triangle triangle;
+        if (!triangle.set(corners, mesh.closed)) continue;
+        const PixelBounds bounds = pixel_bounds(corners, camera);
+        for (int row = bounds.top; !bounds.empty() && row <= bounds.bottom; ++row) {
+            const double y = camera.ray_y(row);
+            const Row a(triangle.edges[0], y), b(triangle.edges[1], y), c(triangle.edges[2], y);
+            const Row fall(triangle.normal, y);
+            for (int column = bounds.first; column <= bounds.last; ++column) {
+                const double x = ray_x[std::size_t(column)];
+                if (!(a.at(x) >= 0.0 && b.at(x) >= 0.0 && c.at(x) >= 0.0)) continue;
+                const double depth = triangle.height / fall.at(x);   // edge-on its sign is a matter of rounding
+                const std::size_t pixel = map.at(column, row);
+                if (!(depth > 0.0 && depth < map.depth[pixel])) continue;
+                map.depth[pixel] = depth;
+                map.surface[pixel] = surface;
+                map.triangle[pixel] = std::uint32_t(t / 3);
+            }
+        }
+    }
+}
+
+std::array<double, 3> corner_shares(const std::array<Vec3, 3>& corners, const Vec3& ray) {
+    std::array<double, 3> shares;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        shares[i] = corners[(i + 1) % 3].cross(corners[(i + 2) % 3]).dot(ray);
+        sum += shares[i];
+    }
+    for (double& share : shares) share /= sum;
+    return shares;
+}
+
+}  // namespace tumble

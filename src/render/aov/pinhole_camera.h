@@ -1,0 +1,29 @@
+// The camera as computer vision writes it (and OpenCV): x to the right, y down, z forward, all in m from the eye; and
+//   column = focal x / z + center_x,   row = focal y / z + center_y
+// where a pixel's centre has whole numbers, and (0, 0) is the top left pixel.
+#pragma once
+
+#include "core/vector.h"
+#include "render/camera_view.h"
+
+namespace tumble {
+
+struct PinholeCamera {
+    explicit PinholeCamera(const CameraView& view);
+
+    int width, height;            // pixels
+    double focal;                 // pixels, for both axes: pixels are square
+    double center_x, center_y;    // pixels
+    Mat3 axes;                    // columns: the camera's x, y and z in the world
+    Vec3 eye;                     // m, world
+
+    /// The ray through a pixel's centre is (x, y, 1).
+    double ray_x(int column) const { return (column - center_x) / focal; }
+    double ray_y(int row) const { return (row - center_y) / focal; }
+
+    Vec3 from_world(const Vec3& point) const { return axes.transpose() * (point - eye); }
+
+    friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
+};
+
+}  // namespace tumble

@@ -1,0 +1,45 @@
+#include "render/aov/pixel_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// Nearer to the eye's plane than this part of its distance from the axis, a point says little of where it is seen.
+constexpr double steepest = 1e-6;
+
+/// A place on the screen to a whole pixel; far outside is as good as just outside.
+int to_pixel(double place, int size) { return int(std::clamp(place, -1.0, double(size))); }
+
+}  // namespace
+
+PixelBounds pixel_bounds(std::span<const Vec3> points, const PinholeCamera& camera) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    double left = infinite, right = -infinite, up = infinite, down = -infinite;
+    bool before = false, behind = false;
+    for (const Vec3& p : points) {
+        if (p.z() > 0.0) before = true;
+        if (!(p.z() > steepest * std::max(std::abs(p.x()), std::abs(p.y())))) {
+            behind = true;
+            continue;
+        }
+        const double column = camera.focal * p.x() / p.z() + camera.center_x;
+        const double row = camera.focal * p.y() / p.z() + camera.center_y;
+        left = std::min(left, column);
+        right = std::max(right, column);
+        up = std::min(up, row);
+        down = std::max(down, row);
+    }
+    if (!before) return {};
+    if (behind) return {0, camera.width - 1, 0, camera.height - 1};
+    PixelBounds bounds;
+    bounds.first = std::max(to_pixel(std::floor(left), camera.width), 0);
+    bounds.last = std::min(to_pixel(std::ceil(right), camera.width), camera.width - 1);
+    bounds.top = std::max(to_pixel(std::floor(up), camera.height), 0);
+    bounds.bottom = std::min(to_pixel(std::ceil(down), camera.height), camera.height - 1);
+    return bounds;
+}
+
+}  // namespace tumble
