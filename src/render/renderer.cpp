@@ -55,7 +55,7 @@ struct Renderer::State {
           meshes(gl, looks),
           occlusion_texture(gl),
           shadow_map(gl, shaders, frame_block),
-          programs(gl, shaders, looks, !scene.cords.empty()),
+          programs(gl, shaders, looks, !scene.cords.empty(), framebuffer.samples() > 1),
           planes(gl, shaders, looks),
           full_redraw(options.full_redraw),
           times(options.times) {
@@ -181,7 +181,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
     clock.ends(RenderStage::bodies);
-    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view);
+    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(RenderStage::planes);
 
     s.framebuffer.resolve(s.changed);
