@@ -1,10 +1,7 @@
 #version 410 core
-// An infinite plane. Compiled with GRID, CHECKER or neither; TOUCHED where shadows or bodies' darkening may reach, with
-// FAR_MAP where the far shadow map is in use; OTHER_PLANES gives the number of those that it may meet.
+// An infinite plane. Compiled with GRID, CHECKER or neither; TOUCHED where bodies' darkening may reach, SHADOWED
+// where shadows may as well, with FAR_MAP where the far map is in use; OTHER_PLANES gives the number of those that it may meet.
 #define SUNLIT
-#ifdef TOUCHED
-#define SHADOWED
-#endif
 #include "lighting.glsl"
 #include "pattern.glsl"
 
@@ -24,6 +21,8 @@ uniform sampler2D occlusion_atlas;
 flat in vec3 v_window;
 flat in vec4 v_rim;
 flat in vec2 v_texel;
+#endif
+#ifdef SHADOWED
 flat in vec3 v_shadow_x;
 flat in vec3 v_shadow_y;
 flat in vec3 v_shadow_z;
@@ -45,7 +44,7 @@ float here(vec3 coefficients) {
     return coefficients.x + gl_FragCoord.x * coefficients.y + gl_FragCoord.y * coefficients.z;
 }
 
-#ifdef TOUCHED
+#ifdef SHADOWED
 // `far`: how far the ray goes to the plane, in lengths of the view ray.
 float sun_of_plane(float far) {
     vec3 at = vec3(here(v_shadow_x), here(v_shadow_y), here(v_shadow_z)) * far + v_shadow_eye;
@@ -109,7 +108,7 @@ void main() {
     surface.veil = v_rough.z;
     surface.open = openness(cells, far);
     surface.sun = 1.0;
-#ifdef TOUCHED
+#ifdef SHADOWED
     surface.sun = sun_of_plane(far);
 #endif
     float share = haze_share(squared * far * far, v_facing.z);

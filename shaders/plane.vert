@@ -37,6 +37,8 @@ flat out vec3 v_rough;          // surface_roughness(), surface_veil()
 flat out vec3 v_window;         // texels of the atlas a cell of the pattern, and at the eye's foot; see plane.frag
 flat out vec4 v_rim;         // its first and last texels, which are open
 flat out vec2 v_texel;        // a texel's size in texture coordinates
+#endif
+#ifdef SHADOWED
 flat out vec3 v_shadow_x;       // of the view ray in the near shadow map
 flat out vec3 v_shadow_y;
 flat out vec3 v_shadow_z;
@@ -73,6 +75,8 @@ void main() {
     v_window = vec3(texels, vec2(window_u.w, window_v.w) - texels * vec2(plane_u.w, plane_v.w));
     v_rim = window_rim;
     v_texel = atlas.xy;
+#endif
+#ifdef SHADOWED
     vec3 lift = plane_normal.xyz * shadow_offset;
     v_shadow_x = over_screen(shadow_x.xyz);
     v_shadow_y = over_screen(shadow_y.xyz);

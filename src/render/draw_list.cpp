@@ -25,8 +25,7 @@ constexpr double shells_per_doubling = 8.0;   // of the distance
 
 struct Item {
     std::size_t mesh;
-    bool patterned;
-    Sunlight sun;
+    bool patterned, lit;
     double distance;
     Instance instance;
     int shell() const { return int(std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30)))); }
@@ -67,7 +66,7 @@ Item cord_item(const CordDescription& cord, std::size_t number, const Snapshot& 
     const Vec3 scale(cord.radius, std::max(0.5 * length, 1e-3 * cord.radius), cord.radius);
     return {cylinder_mesh,
             false,
-            Sunlight::shadowed,
+            true,
             middle.norm(),
             {to_glm(middle, 0.0), to_glm(turn), to_glm(scale, cord.radius),
              glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f),
@@ -82,7 +81,7 @@ void add_faces(Item item, std::size_t body, std::uint8_t faces, const Quat& orie
     for (int face = 0; face < 6; ++face) {
         if ((faces >> face & 1) == 0) continue;
         const Vec3 normal = axes.col(face / 2) * (face % 2 == 0 ? -1.0 : 1.0);
-        item.sun = normal.dot(light) < 0.0 ? Sunlight::shadowed : Sunlight::away;
+        item.lit = normal.dot(light) < 0.0;
         item.instance.tile.y = float(face);
         item.instance.tile.z = surface_alpha(body, std::size_t(face));
         items.push_back(item);
@@ -103,14 +102,14 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
 // Appends the items to the instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
 std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, bool in_shells) {
     std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
-        return std::tuple(in_shells ? a.shell() : 0, a.mesh, a.patterned, a.sun, a.distance) <
-               std::tuple(in_shells ? b.shell() : 0, b.mesh, b.patterned, b.sun, b.distance);
+        return std::tuple(in_shells ? a.shell() : 0, a.mesh, a.patterned, a.lit, a.distance) <
+               std::tuple(in_shells ? b.shell() : 0, b.mesh, b.patterned, b.lit, b.distance);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
-            batches.back().sun != item.sun)
-            batches.push_back({item.mesh, item.patterned, item.sun, instances.size(), 0});
+            batches.back().lit != item.lit)
+            batches.push_back({item.mesh, item.patterned, item.lit, instances.size(), 0});
         instances.push_back(item.instance);
         ++batches.back().count;
     }
@@ -133,7 +132,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool in_view = visibility.bodies[i] && wanted[i] != 0;
         const bool casts = scene.light.shadows && casting[i] != 0 && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
-        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, Sunlight::shadowed, ball.center.norm(),
+        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
                            instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
                                        shadows.near_holds(ball.center, ball.radius))};
         if (casts) casters.push_back(item);

@@ -30,13 +30,10 @@ struct Instance {
 inline constexpr std::size_t box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
 
-/// What the sun does to a surface: nothing where it is turned away; it shines on it wholly; or shadows may fall on it.
-enum class Sunlight { away, open, shadowed };
-
 struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
-    Sunlight sun = Sunlight::shadowed;
+    bool lit = true;                   // false: faces turned away from the sun, which need no look for shadows
     std::size_t first = 0, count = 0;  // of the instances
 };
 

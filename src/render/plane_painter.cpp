@@ -39,7 +39,8 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 
 }  // namespace
 
-PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks)
+PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                           bool shadows)
     : gl_(&gl),
       other_planes_(other_planes(looks)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
@@ -55,8 +56,9 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
             connect(made);
             return made;
         };
-        const std::string size = shadow_size();
-        programs.emplace(Programs{program({}), program({"TOUCHED", size}), program({"TOUCHED", "FAR_MAP", size})});
+        std::vector<std::string> touched = {"TOUCHED"};
+        if (shadows) touched = with(touched, {"SHADOWED", shadow_size()});
+        programs.emplace(Programs{program({}), program(touched), program(with(touched, {"FAR_MAP"}))});
     }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());

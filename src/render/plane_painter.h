@@ -14,7 +14,8 @@ namespace tumble {
 
 class PlanePainter {
 public:
-    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks);
+    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                 bool shadows);
 
     /// All planes without bodies and shadows, and the sky: what stays behind all frames.
     void draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks, const CameraView& view) const;

@@ -7,8 +7,8 @@
 namespace tumble {
 namespace {
 
-std::size_t index_of(DrawKind kind, bool patterned, Sunlight sun) {
-    const std::size_t which = kind == DrawKind::box ? std::size_t(sun) : kind == DrawKind::ball ? 3 : 4;
+std::size_t index_of(DrawKind kind, bool patterned, bool lit) {
+    const std::size_t which = kind == DrawKind::box ? (lit ? 0 : 1) : kind == DrawKind::ball ? 2 : 3;
     return 2 * which + (patterned ? 1 : 0);
 }
 
@@ -23,26 +23,27 @@ void connect(const ShaderProgram& program) {
 }
 
 SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                                 bool has_cords, bool multisample)
-    : multisample_(multisample) {
+                                 bool has_cords, bool multisample, bool shadows)
+    : multisample_(multisample), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
-            for (const Sunlight sun : {Sunlight::away, Sunlight::open, Sunlight::shadowed})
-                add(gl, shaders, look.kind, look.pattern != Pattern::plain, sun);
-    if (has_cords) add(gl, shaders, DrawKind::mesh, false, Sunlight::shadowed);
+            for (const bool lit : {true, false}) add(gl, shaders, look.kind, look.pattern != Pattern::plain, lit);
+    if (has_cords) add(gl, shaders, DrawKind::mesh, false, true);
 }
 
 void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned,
-                          Sunlight sun) {
-    auto& program = programs_[index_of(kind, patterned, sun)];
+                          bool lit) {
+    auto& program = programs_[index_of(kind, patterned, lit)];
     if (program) return;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
     files.defines.push_back(shadow_size());
     if (multisample_) files.defines.emplace_back("MULTISAMPLE");
-    if (kind != DrawKind::box || sun != Sunlight::away) files.defines.emplace_back("SUNLIT");
-    if (kind != DrawKind::box || sun == Sunlight::shadowed) files.defines.emplace_back("SHADOWED");
+    if (kind != DrawKind::box || lit) {
+        files.defines.emplace_back("SUNLIT");
+        if (shadows_) files.defines.emplace_back("SHADOWED");
+    }
     if (patterned) files.defines.emplace_back("PATTERNED");
     program.emplace(gl, shaders, files);
     connect(*program);
@@ -53,7 +54,7 @@ void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& 
         const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                               : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                            : DrawKind::mesh;
-        programs_[index_of(kind, batch.patterned, batch.sun)]->use();
+        programs_[index_of(kind, batch.patterned, batch.lit)]->use();
         meshes.draw(batch);
     }
 }

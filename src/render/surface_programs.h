@@ -26,15 +26,15 @@ class SurfacePrograms {
 public:
     /// Compiles what the scene's bodies need.
     SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                    bool has_cords, bool multisample);
+                    bool has_cords, bool multisample, bool shadows);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
-    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, Sunlight sun);
+    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);
 
-    bool multisample_;
-    std::array<std::optional<ShaderProgram>, 10> programs_;  // by kind, pattern and light
+    bool multisample_, shadows_;
+    std::array<std::optional<ShaderProgram>, 8> programs_;  // by kind, pattern and light
 };
 
 }  // namespace tumble
