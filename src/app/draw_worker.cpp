@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <malloc.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -23,6 +24,8 @@
 
 namespace tumble {
 namespace {
+
+constexpr int kept_memory = 32 << 20;   // bytes: the most that mallopt(3) grants the first of them
 
 struct Job {
     std::int64_t frame = 0;
@@ -127,6 +130,9 @@ std::string reason(const std::exception& error) {
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    // What a frame needs is taken again for the next: given back to the system, it would come as a thousand new pages.
+    ::mallopt(M_MMAP_THRESHOLD, kept_memory);
+    ::mallopt(M_TRIM_THRESHOLD, kept_memory);
     ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: a core for each worker
 
     Job job;
