@@ -15,7 +15,7 @@ constexpr int least_tile = 5, most_tile = 64;
 constexpr int ball_tile = 16;
 constexpr int largest_window = 1024;  // texels; bodies beyond it leave the plane open
 constexpr int window_step = 16;       // texels; a window that moves has the whole plane drawn anew
-constexpr int most_rows = 8192;       // OpenGL 4.2 grants 16384
+constexpr int most_rows = 8192;       // OpenGL 4.1 grants 16384
 
 struct PlaneInView {
     std::size_t body;
