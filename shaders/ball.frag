@@ -1,8 +1,11 @@
 #version 410 core
-#include "frame.glsl"
 #include "body.glsl"
 
-flat in vec3 v_tile;
+in vec3 v_local;                    // m, from the ball's middle
+flat in vec4 v_tile;                // its tile's middle in the occlusion atlas, and half its width and height
+#ifndef PATTERNED
+flat in vec4 v_octants;             // what every other octant has more of diffuse colour, and less of all
+#endif
 
 // 1 on every other octant, 0 on the rest, filtered over the pixel: shows how the ball turns.
 float octant(vec3 direction) {
@@ -19,16 +22,14 @@ vec2 octahedral(vec3 n) {
 
 void main() {
     vec3 direction = normalize(v_local);
-
-    vec3 albedo = v_color.rgb;
+    float open = textureLod(occlusion_atlas, v_tile.xy + octahedral(direction) * v_tile.zw, 0.0).r;
+    vec3 diffuse = v_diffuse;
 #ifdef PATTERNED
-    albedo = patterned(albedo, v_look.y, v_local, direction, v_scale.w);
+    float paint = triplanar_paint(v_pattern, v_local, direction);
 #else
-    albedo = mix(albedo, vec3(1.0), ball_contrast * octant(direction) * (1.0 - v_look.x));
-    albedo *= 1.0 - ball_contrast * octant(direction) * v_look.x;   // metal has no paler paint
+    float octants = octant(direction);
+    diffuse += octants * v_octants.rgb;
+    float paint = 1.0 - octants * v_octants.w;
 #endif
-    vec2 texel = v_tile.xy + (0.5 + 0.5 * octahedral(direction)) * max(v_tile.z - 1.0, 0.0) + 0.5;
-    float open = texture(occlusion_atlas, (v_tile.z > 0.0 ? texel : vec2(0.5)) * atlas.xy).r;
-    vec3 normal = rotate(v_orientation, direction);
-    pixel = vec4(shade(body_surface(normal, albedo, open)), v_look.w);
+    pixel = body_pixel(v_local, direction, diffuse, paint, open);
 }

@@ -1,38 +1,51 @@
-// The fragment's side of body.vert, shared by all kinds of bodies.
-in vec3 v_position;
-#if !defined(BOX) || defined(PATTERNED)
-in vec3 v_local;
+// The fragment's side of body.vert, shared by all kinds of bodies. Directions and places are in the body's own axes (of
+// a box, its face's: two along it and one outward), where the sun and the eye are the same for all its pixels.
+in vec4 v_haze;
+#ifdef SUNLIT
+flat in vec3 v_to_light;
 #endif
-#ifndef AWAY_FROM_SUN
+#ifdef SHADOWED
 in vec4 v_shadow;
 #endif
-in vec4 v_haze;
-flat in vec4 v_orientation;
-flat in vec4 v_scale;
-flat in vec4 v_color;
-flat in vec4 v_look;
+flat in vec3 v_eye;             // the eye's place
+flat in vec3 v_up;
+flat in vec3 v_diffuse;
+flat in vec3 v_f0;
+flat in vec4 v_rough;           // surface_roughness(), surface_veil(), the surface's number as alpha
+#ifdef PATTERNED
+flat in vec2 v_pattern;         // its kind; a cell's size, m
+#endif
 
 layout(location = 0) out vec4 pixel;
 
-#include "rotate.glsl"
 #include "lighting.glsl"
 #include "pattern.glsl"
 
 // The share of the sky's light at a place in the atlas, in texture coordinates.
 uniform sampler2D occlusion_atlas;
 
-Surface body_surface(vec3 normal, vec3 albedo, float open) {
+// `paint`: what a pattern leaves of all its light.
+vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) {
+    vec3 to_eye = v_eye - place;
+    to_eye *= inversesqrt(max(dot(to_eye, to_eye), 1e-30));
     Surface surface;
-    surface.position = v_position;
-    surface.to_eye = -normalize(v_position);
-    surface.normal = normal;
-#ifndef AWAY_FROM_SUN
-    surface.shadow = v_shadow;
+    surface.n_v = dot(normal, to_eye);
+    surface.up = dot(normal, v_up);
+    surface.eye_up = dot(to_eye, v_up);
+    surface.n_l = 0.0;
+    surface.l_v = 0.0;
+    surface.sun = 1.0;
+#ifdef SUNLIT
+    surface.n_l = dot(normal, v_to_light);
+    surface.l_v = dot(to_eye, v_to_light);
 #endif
-    surface.albedo = albedo;
-    surface.roughness = v_color.w;
-    surface.metallic = v_look.x;
+#ifdef SHADOWED
+    surface.sun = sun_visible(v_shadow);
+#endif
+    surface.diffuse = diffuse;
+    surface.f0 = v_f0;
+    surface.rough = v_rough.xy;
+    surface.veil = v_rough.z;
     surface.open = open;
-    surface.haze = v_haze;
-    return surface;
+    return vec4(displayed(shade(surface) * paint * v_haze.w + v_haze.rgb), v_rough.w);
 }

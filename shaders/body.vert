@@ -1,43 +1,50 @@
 #version 410 core
-// Compiled for each kind of body: BOX, BALL or MESH is defined.
+// Compiled for each kind of body: BOX, BALL or MESH is defined; SUNLIT where it may be turned to the sun, and
+// SHADOWED where shadows may fall on it.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "look.glsl"
 #include "sky.glsl"
+#include "material.glsl"
 #include "shadow_place.glsl"
 
 #ifdef MESH
 uniform sampler2D occlusion_atlas;
 #endif
 
-out vec3 v_position;                // relative to the eye
-#if !defined(BOX) || defined(PATTERNED)
-out vec3 v_local;                   // body axes, from the body's origin, m
-#endif
 out vec4 v_haze;                    // light of the air before it; w: share of its own light that comes through
-#ifndef AWAY_FROM_SUN
+#ifdef SUNLIT
+flat out vec3 v_to_light;
+#endif
+#ifdef SHADOWED
 out vec4 v_shadow;                  // place in the shadow maps
+#endif
+flat out vec3 v_eye;                // see body.glsl
+flat out vec3 v_up;
+flat out vec3 v_diffuse;
+flat out vec3 v_f0;
+flat out vec4 v_rough;
+#ifdef PATTERNED
+flat out vec2 v_pattern;
 #endif
 #ifdef BOX
 out vec2 v_on_face;                 // m, from the face's middle along its axes
-flat out vec2 v_half;               // m, half the face's size
-flat out vec3 v_normal;             // world axes: of the face, and its two own
-flat out vec3 v_along_a;
-flat out vec3 v_along_b;
+flat out vec4 v_face;               // m: half the face's size; that without the bevel's width
 flat out vec4 v_tile;               // place of the face's middle in the occlusion atlas, and of a metre along its axes
-flat out vec2 v_groove;             // m: how far from the edge it is, and half its width
+flat out vec3 v_edges;              // m: bevel, how far from the edge the groove is, half its width
+#else
+out vec3 v_local;                   // m, body axes
 #endif
 #ifdef BALL
-flat out vec3 v_tile;               // corner and edge of its tile in the atlas
+flat out vec4 v_tile;               // its tile's middle in the occlusion atlas, and half its width and height
+#ifndef PATTERNED
+flat out vec4 v_octants;            // what every other octant has more of diffuse colour, and less of all
+#endif
 #endif
 #ifdef MESH
-out vec3 v_normal;                  // world axes
+out vec3 v_normal;                  // body axes
 out float v_open;                   // share of the sky's light
 #endif
-flat out vec4 v_orientation;
-flat out vec4 v_scale;              // w: pattern's cell
-flat out vec4 v_color;              // w: roughness
-flat out vec4 v_look;               // metallic, pattern, bevel, the surface's number as alpha
 
 void main() {
 #ifdef BOX
@@ -46,45 +53,62 @@ void main() {
     float side = float(face % 2 * 2 - 1);
     vec2 corner = vec2(mesh_position.x, mesh_position.y * side);
     vec3 on_cube = face < 2 ? vec3(side, corner) : face < 4 ? vec3(corner.y, side, corner.x) : vec3(corner, side);
-    vec3 outward = face < 2 ? vec3(side, 0.0, 0.0) : face < 4 ? vec3(0.0, side, 0.0) : vec3(0.0, 0.0, side);
+    // Its axes a and b are the box's next two.
+    int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    vec3 unit_a = vec3(a == 0, a == 1, a == 2), unit_b = vec3(b == 0, b == 1, b == 2);
+    vec3 outward = side * vec3(axis == 0, axis == 1, axis == 2);
 #else
     vec3 on_cube = mesh_position;
 #endif
     vec3 local = on_cube * instance_scale.xyz;
-#if !defined(BOX) || defined(PATTERNED)
-    v_local = local;
-#endif
-    v_position = placed(local);
-    v_orientation = instance_orientation;
-    v_scale = instance_scale;
-    v_color = instance_color;
-    // A bevel narrower than a pixel would glitter: it grows with the distance instead.
-    float pixel = haze.y * length(instance_position.xyz);
-    float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
-    v_look = vec4(instance_look.xy, min(max(instance_position.w, pixel), 0.5 * thinnest), instance_tile.z);
-    float squared = dot(v_position, v_position);
-    float share = haze_share(squared);
-    v_haze = vec4(share * sky(v_position * inversesqrt(max(squared, 1e-30))), 1.0 - share);
-    gl_Position = clip_from_relative * vec4(v_position, 1.0);
+    vec3 position = placed(local);
+    gl_Position = clip_from_relative * vec4(position, 1.0);
 
+    float squared = dot(position, position);
+    vec3 direction = position * inversesqrt(max(squared, 1e-30));
+    float share = haze_share(squared, haze.x);
+    v_haze = vec4(share * sky(direction.y, dot(direction, to_light.xyz)), 1.0 - share);
+
+    float roughness = instance_color.w, metallic = instance_look.x;
+    v_diffuse = surface_diffuse(instance_color.rgb, metallic);
+    v_f0 = surface_f0(instance_color.rgb, metallic);
+    v_rough = vec4(surface_roughness(roughness), surface_veil(roughness, metallic), instance_tile.z);
+#ifdef PATTERNED
+    v_pattern = vec2(instance_look.y, instance_scale.w);
+#endif
+
+    v_eye = rotate_back(instance_orientation, -instance_position.xyz);
+    v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
+    vec3 light = rotate_back(instance_orientation, to_light.xyz);
 #ifdef BOX
-    // The face's axes a and b are the box's next two; a tile has a texel's centre at each corner of its face.
-    int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
-    vec3 unit_a = vec3(a == 0, a == 1, a == 2), unit_b = vec3(b == 0, b == 1, b == 2);
-    v_half = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
+    v_eye -= outward * abs(dot(outward, instance_scale.xyz));   // from the face's middle
+    v_eye = vec3(dot(v_eye, unit_a), dot(v_eye, unit_b), dot(v_eye, outward));
+    v_up = vec3(dot(v_up, unit_a), dot(v_up, unit_b), dot(v_up, outward));
+    light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
+    vec2 half_size = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
+    // A tile has a texel's centre at each corner of its face.
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
     float span = max(instance_tile.x - 1.0, 0.0);
     vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * span : vec2(0.5);
-    v_tile = vec4(middle, 0.5 * span / v_half) * atlas.xyxy;
-    v_groove = vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest);
-    v_along_a = rotate(instance_orientation, unit_a);
-    v_along_b = rotate(instance_orientation, unit_b);
-    v_normal = rotate(instance_orientation, outward);
-    vec3 lift = v_normal;
+    v_tile = vec4(middle, 0.5 * span / half_size) * atlas.xyxy;
+    // A bevel narrower than a pixel would glitter: it grows with the distance instead.
+    float pixel = haze.y * length(instance_position.xyz);
+    float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
+    float bevel = min(max(instance_position.w, pixel), 0.5 * thinnest);
+    v_face = vec4(half_size, half_size - bevel);
+    v_edges = vec3(bevel, vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest));
+    vec3 lift = rotate(instance_orientation, outward);
+#else
+    v_local = local;
 #endif
 #ifdef BALL
-    v_tile = vec3(instance_look.zw, instance_tile.x);
+    float half_span = max(0.5 * (instance_tile.x - 1.0), 0.0);
+    v_tile = vec4(instance_tile.x > 0.0 ? instance_look.zw + 0.5 + half_span : vec2(0.5), vec2(half_span)) * atlas.xyxy;
+#ifndef PATTERNED
+    // Paler paint; metal has none.
+    v_octants = ball_contrast * vec4((1.0 - metallic) * (1.0 - metallic - v_diffuse), metallic);
+#endif
     vec3 lift = rotate(instance_orientation, mesh_normal);
 #endif
 #ifdef MESH
@@ -92,10 +116,13 @@ void main() {
     int probe = int(instance_look.z) + int(mesh_probe);
     ivec2 texel = ivec2(probe % width, int(instance_look.w) + probe / width);
     v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? texel : ivec2(0), 0).r;
-    v_normal = rotate(instance_orientation, normalize(mesh_normal / instance_scale.xyz));
-    vec3 lift = v_normal;
+    v_normal = normalize(mesh_normal / instance_scale.xyz);
+    vec3 lift = rotate(instance_orientation, v_normal);
 #endif
-#ifndef AWAY_FROM_SUN
-    v_shadow = shadow_place(v_position, lift, instance_tile.w > 0.0);
+#ifdef SUNLIT
+    v_to_light = light;
+#endif
+#ifdef SHADOWED
+    v_shadow = shadow_place(position, lift, instance_tile.w > 0.0);
 #endif
 }

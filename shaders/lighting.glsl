@@ -1,21 +1,24 @@
 // From a surface point to the light it sends to the eye, and from light to the bytes of the screen.
+// llvmpipe reads a uniform in a fragment shader lane by lane, forty instructions each: what is constant comes as a flat
+// output of the vertex shader instead, and directions only as the cosines that the light needs.
 #include "look.glsl"
 #include "sky.glsl"
-#if !defined(OPEN) && !defined(AWAY_FROM_SUN)
-#include "shadow_place.glsl"
+#ifdef SHADOWED
 #include "shadow.glsl"
 #endif
 
 struct Surface {
-    vec3 position;      // relative to the eye
-    vec3 to_eye;        // unit
-    vec3 normal;        // unit, bent at bevels
-    vec4 shadow;        // its place in the shadow maps
-    vec3 albedo;        // linear
-    float roughness;
-    float metallic;
+    float n_v;          // cosines: of the normal (bent at bevels) and the way to the eye,
+    float n_l;          // the normal and the way to the sun,
+    float l_v;          // the ways to the sun and to the eye
+    float up;           // how far the normal points upward
+    float eye_up;       // and the way to the eye
+    vec3 diffuse;       // linear
+    vec3 f0;            // what it reflects when looked at straight
+    vec2 rough;         // see surface_roughness() of material.glsl
+    float veil;
     float open;         // share of the sky's light that other bodies leave
-    vec4 haze;          // light of the air before it; w: share of its own light that comes through
+    float sun;          // share of the sun's light that shadows leave
 };
 
 float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
@@ -45,30 +48,21 @@ vec3 displayed(vec3 light) {
 }
 
 vec3 shade(Surface s) {
-    float n_v = clamp(dot(s.normal, s.to_eye), 1e-3, 1.0);
-
-    vec3 f0 = mix(vec3(dielectric_reflectance), s.albedo, s.metallic);
-    vec3 diffuse = s.albedo * (1.0 - s.metallic);
-    vec3 from_sky = mix(bounce_light, sky_light, 0.5 + 0.5 * s.normal.y) * s.open;
-    vec3 light = diffuse * from_sky;
-    float roughness = max(s.roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
-#ifndef AWAY_FROM_SUN
-    float n_l = clamp(dot(s.normal, to_light.xyz), 0.0, 1.0);
-    float sun = n_l * mix(1.0, s.open, occlusion_of_sun);
-#ifndef OPEN
-    sun *= sun_visible(s.shadow);
-#endif
-    vec3 middle = normalize(to_light.xyz + s.to_eye);
-    float n_h = clamp(dot(s.normal, middle), 0.0, 1.0);
-    float grazing = 1.0 - clamp(dot(to_light.xyz, middle), 0.0, 1.0);
+    float n_v = clamp(s.n_v, 1e-3, 1.0);
+    vec3 light = s.diffuse * (mix(bounce_light, sky_light, 0.5 + 0.5 * s.up) * s.open);
+#ifdef SUNLIT
+    float n_l = clamp(s.n_l, 0.0, 1.0);
+    float per_half = inversesqrt(max(2.0 + 2.0 * s.l_v, 1e-6));      // 1 / |sun + eye|
+    float n_h = clamp((s.n_l + s.n_v) * per_half, 0.0, 1.0);
+    float grazing = 1.0 - clamp((1.0 + s.l_v) * per_half, 0.0, 1.0);
     float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
-    vec3 fresnel = f0 + (1.0 - f0) * (grazing2 * grazing2 * grazing);
-    light += (diffuse + fresnel * min(specular_lobe(roughness, n_h, n_l, n_v), 16.0)) * sun_light * sun;
+    vec3 fresnel = s.f0 + (1.0 - s.f0) * (grazing2 * grazing2 * grazing);
+    float sun = n_l * (1.0 - occlusion_of_sun + occlusion_of_sun * s.open) * s.sun;
+    light += (s.diffuse + fresnel * min(specular_lobe(s.rough.x, n_h, n_l, n_v), 16.0)) * (sun_light * sun);
 #endif
 
-    vec2 environment = environment_scale(roughness, n_v);
-    light += blurred_sky(reflect(-s.to_eye, s.normal), roughness) * (f0 * environment.x + environment.y) *
-             (s.open * mix(1.0, mix(veil_of_rough, 1.0, s.metallic), roughness));
-
-    return displayed(light * s.haze.w + s.haze.rgb);
+    vec2 environment = environment_scale(s.rough.x, n_v);
+    float mirrored_up = 2.0 * s.n_v * s.up - s.eye_up;
+    light += blurred_sky(mirrored_up, s.rough) * (s.f0 * environment.x + environment.y) * (s.open * s.veil);
+    return light;
 }

@@ -1,16 +1,16 @@
 #version 410 core
-#include "frame.glsl"
 #include "body.glsl"
 
+in vec3 v_local;                    // m
 in vec3 v_normal;
 in float v_open;
 
 void main() {
     vec3 normal = normalize(v_normal);
     normal = gl_FrontFacing ? normal : -normal;   // an open mesh shows its inside too
-    vec3 albedo = v_color.rgb;
+    float paint = 1.0;
 #ifdef PATTERNED
-    albedo = patterned(albedo, v_look.y, v_local, rotate_back(v_orientation, normal), v_scale.w);
+    paint = triplanar_paint(v_pattern, v_local, normal);
 #endif
-    pixel = vec4(shade(body_surface(normal, albedo, v_open)), v_look.w);
+    pixel = body_pixel(v_local, normal, v_diffuse, paint, v_open);
 }

@@ -16,12 +16,18 @@ float grid(vec2 p, vec2 width, float line) {
     return 1.0 - (1.0 - i.x) * (1.0 - i.y);
 }
 
-vec3 patterned(vec3 albedo, float pattern, vec3 local, vec3 local_normal, float cell) {
-    // A body's pattern on the two axes that its face is turned to least (triplanar, unblended).
+// What a body's pattern of this kind (look.pattern: 1 grid, 2 checker) leaves of its colour.
+float pattern_paint(float kind, vec2 p, vec2 width) {
+    return kind > 1.5 ? 1.0 - 2.0 * ground_contrast * checker(p, width)
+                      : 1.0 - grid_line_contrast * grid(p, width, 2.0 * grid_line_width);
+}
+
+float triplanar_paint(vec2 pattern, vec3 local, vec3 local_normal) {
+    // On the two axes that its face is turned to least, unblended.
     vec3 a = abs(local_normal);
-    vec2 p = (a.x > a.y && a.x > a.z ? local.yz : (a.y > a.z ? local.xz : local.xy)) / cell;
-    vec3 spread = fwidth(local) / cell;
-    vec2 width = a.x > a.y && a.x > a.z ? spread.yz : (a.y > a.z ? spread.xz : spread.xy);
-    if (pattern > 1.5) return albedo * (1.0 - 2.0 * ground_contrast * checker(p, width));
-    return albedo * (1.0 - grid_line_contrast * grid(p, width, 2.0 * grid_line_width));
+    bool along_x = a.x > a.y && a.x > a.z, along_y = a.y > a.z;
+    vec3 spread = fwidth(local);
+    vec2 p = along_x ? local.yz : along_y ? local.xz : local.xy;
+    vec2 width = along_x ? spread.yz : along_y ? spread.xz : spread.xy;
+    return pattern_paint(pattern.x, p / pattern.y, width / pattern.y);
 }

@@ -1,77 +1,117 @@
 #version 410 core
-// An infinite plane. Compiled with GRID, CHECKER or neither; OPEN where neither shadows nor bodies' darkening reach;
-// OTHER_PLANES gives the number of those that it may meet.
-#include "frame.glsl"
+// An infinite plane. Compiled with GRID, CHECKER or neither; TOUCHED where bodies' darkening may reach, SHADOWED
+// where shadows may as well, with FAR_MAP where the far map is in use; OTHER_PLANES gives the number of those that it may meet.
+#define SUNLIT
 #include "lighting.glsl"
 #include "pattern.glsl"
 
-uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
-uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
-uniform vec4 plane_v;
-uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic, the surface's number as alpha
-#ifndef OPEN
+flat in vec3 v_fall;            // see plane.vert
+flat in vec3 v_along_u;
+flat in vec3 v_along_v;
+flat in vec3 v_rise;
+flat in vec3 v_sunward;
+flat in vec4 v_length_x;
+flat in vec4 v_length_y;
+flat in vec4 v_facing;
+flat in vec3 v_diffuse;
+flat in vec4 v_f0;
+flat in vec3 v_rough;
+#ifdef TOUCHED
 uniform sampler2D occlusion_atlas;
-uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
-uniform vec4 window_v;
-uniform vec4 window_rim;        // its first and last texels, which are open
+flat in vec3 v_window;
+flat in vec4 v_rim;
+flat in vec2 v_texel;
+#endif
+#ifdef SHADOWED
+flat in vec3 v_shadow_x;
+flat in vec3 v_shadow_y;
+flat in vec3 v_shadow_z;
+flat in vec3 v_shadow_eye;
+#ifdef FAR_MAP
+flat in vec4 v_far;
+flat in vec3 v_far_lift;
+#endif
 #endif
 #ifdef OTHER_PLANES
-uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height above it
-uniform float other_reach;                 // m
+flat in vec4 v_others[OTHER_PLANES];
 #endif
 
 layout(location = 0) out vec4 pixel;
 
 const float farthest = 1e6;     // in heights above the plane: keeps the numbers finite at the horizon
 
+float here(vec3 coefficients) {
+    return coefficients.x + gl_FragCoord.x * coefficients.y + gl_FragCoord.y * coefficients.z;
+}
+
+#ifdef SHADOWED
+// `far`: how far the ray goes to the plane, in lengths of the view ray.
+float sun_of_plane(float far) {
+    vec3 at = vec3(here(v_shadow_x), here(v_shadow_y), here(v_shadow_z)) * far + v_shadow_eye;
+    const float margin = 5.0 / SHADOW_TEXELS;
+    float from_middle = max(abs(at.x - 0.5), abs(at.y - 0.5));
+    float inside = from_middle < 0.5 - margin ? 1.0 : 0.0;
+#ifdef FAR_MAP
+    vec3 in_far = at + v_far_lift;
+    in_far.xy = in_far.xy * v_far.x + v_far.yz;
+    float from_edge = 0.5 - max(abs(in_far.x - 0.5), abs(in_far.y - 0.5));   // it fades out at its rim
+    float in_near = inside;
+    inside = max(in_near, clamp((from_edge - margin) * 16.0, 0.0, 1.0));
+    at = mix(in_far + vec3(1.0, 0.0, 0.0), at, in_near);
+#endif
+    return mix(1.0, filtered_shadow(at.xy * SHADOW_TEXELS - 0.5, clamp(at.z, 0.0, 1.0)), inside);
+}
+#endif
+
 // What the bodies, and in a corner the other planes, leave of the sky's light.
-float openness(vec3 position) {
+float openness(vec2 cells, float far) {
     float open = 1.0;
-#ifndef OPEN
-    vec2 texel = vec2(dot(window_u.xyz, position), dot(window_v.xyz, position)) + vec2(window_u.w, window_v.w);
-    open = textureLod(occlusion_atlas, (clamp(texel, window_rim.xy, window_rim.zw) + 0.5) * atlas.xy, 0.0).r;
+#ifdef TOUCHED
+    vec2 texel = clamp(cells * v_window.x + v_window.yz, v_rim.xy, v_rim.zw);
+    open = textureLod(occlusion_atlas, (texel + 0.5) * v_texel, 0.0).r;
 #endif
 #ifdef OTHER_PLANES
-    for (int i = 0; i < OTHER_PLANES; ++i) {
-        vec4 other = other_planes[i];
-        float rise = dot(other.xyz, plane_normal.xyz);
-        float height = (dot(other.xyz, position) + other.w) / other_reach;
-        open *= 1.0 - corner_darkness * clamp(1.0 - height - rise, 0.0, 1.0);
-    }
+    for (int i = 0; i < OTHER_PLANES; ++i)
+        open *= 1.0 - corner_darkness * clamp(1.0 - (here(v_others[i].xyz) * far + v_others[i].w), 0.0, 1.0);
 #endif
     return open;
 }
 
 void main() {
-    vec3 ray = ray_origin.xyz + gl_FragCoord.x * ray_dx.xyz + gl_FragCoord.y * ray_dy.xyz;
     // Where the ray meets the plane: exact for every pixel, however far. The sample may lie past the pixel's centre.
-    float slope = max(-dot(plane_normal.xyz, ray), 1.0 / farthest);
-    vec3 position = ray * (plane_normal.w / slope);
+    float fall = max(here(v_fall), 1.0 / farthest);
+    float far = v_length_x.w / fall;
+    float squared = v_length_x.x + gl_FragCoord.x * (v_length_x.y + gl_FragCoord.x * v_length_x.z) +
+                    gl_FragCoord.y * (v_length_y.x + gl_FragCoord.y * v_length_y.y);
+    float per_length = inversesqrt(squared);
 
-    vec2 p = vec2(dot(plane_u.xyz, position), dot(plane_v.xyz, position)) + vec2(plane_u.w, plane_v.w);
-    vec2 width = max(abs(dFdx(p)), abs(dFdy(p)));          // the pixel's footprint in cells
-    vec3 albedo = plane_color.rgb;
-    float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);   // a box filter still ripples far out
+    vec2 cells = vec2(here(v_along_u), here(v_along_v)) * far + v_length_y.zw;
+    vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));              // the pixel's footprint
+    float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);     // a box filter still ripples far out
+    float paint = 1.0;
 #ifdef CHECKER
-    albedo *= 1.0 - 2.0 * ground_contrast * mix(0.5, checker(p, width), distinct);
+    paint = 1.0 - 2.0 * ground_contrast * mix(0.5, checker(cells, width), distinct);
 #endif
 #ifdef GRID
-    albedo *= 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(p, width, grid_line_width), distinct);
+    paint = 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(cells, width, grid_line_width), distinct);
 #endif
 
     Surface surface;
-    surface.position = position;
-    surface.to_eye = -normalize(ray);
-    surface.normal = plane_normal.xyz;
-#ifndef OPEN
-    surface.shadow = shadow_place(position, plane_normal.xyz, in_near_map(position));
+    surface.n_v = fall * per_length;
+    surface.n_l = v_facing.x;
+    surface.l_v = -here(v_sunward) * per_length;
+    surface.up = v_facing.y;
+    surface.eye_up = -here(v_rise) * per_length;
+    surface.diffuse = v_diffuse * paint;
+    surface.f0 = v_f0.rgb * (1.0 - v_f0.w + v_f0.w * paint);
+    surface.rough = v_rough.xy;
+    surface.veil = v_rough.z;
+    surface.open = openness(cells, far);
+    surface.sun = 1.0;
+#ifdef SHADOWED
+    surface.sun = sun_of_plane(far);
 #endif
-    surface.albedo = albedo;
-    surface.roughness = plane_color.w;
-    surface.metallic = plane_look.x;
-    surface.open = openness(position);
-    float share = haze_share(dot(position, position));
-    surface.haze = vec4(share * sky(-surface.to_eye), 1.0 - share);
-    pixel = vec4(shade(surface), plane_look.y);
+    float share = haze_share(squared * far * far, v_facing.z);
+    vec3 light = shade(surface) * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
+    pixel = vec4(displayed(light), v_facing.w);
 }

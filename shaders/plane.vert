@@ -1,5 +1,99 @@
 #version 410 core
-// The part of the screen that an infinite plane covers, as a polygon in clip space (render/plane_patch.h).
+// The part of the screen that an infinite plane covers, as a polygon in clip space (render/plane_patch.h), and what is
+// the same for all its pixels: of what changes over the screen, the coefficients (1, x, y in pixels). With six other
+// planes these are 89 components: OpenGL promises 60, llvmpipe and the makers of GPUs give 124 and more.
+#include "frame.glsl"
+#include "look.glsl"
+#include "material.glsl"
+
 layout(location = 0) in vec3 clip_position;
 
-void main() { gl_Position = vec4(clip_position, 1.0); }
+uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
+uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
+uniform vec4 plane_v;
+uniform vec4 plane_color;       // linear; w: roughness
+uniform vec4 plane_look;        // metallic, the surface's number as alpha
+#ifdef TOUCHED
+uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
+uniform vec4 window_v;
+uniform vec4 window_rim;        // its first and last texels, which are open
+#endif
+#ifdef OTHER_PLANES
+uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height above it
+uniform float other_reach;                 // m
+#endif
+
+flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: how steeply it meets the plane,
+flat out vec3 v_along_u;        // how far it goes along the plane's axes,
+flat out vec3 v_along_v;
+flat out vec3 v_rise;           // upward,
+flat out vec3 v_sunward;        // to the sun
+flat out vec4 v_length_x;       // its squared length: 1, x, x^2; w: the eye's height above the plane
+flat out vec4 v_length_y;       // y, y^2; z, w: of the pattern at the eye's foot
+flat out vec4 v_facing;         // how far the plane faces the sun, and upward; distance haze; the surface's number
+flat out vec3 v_diffuse;
+flat out vec4 v_f0;             // w: how metallic
+flat out vec3 v_rough;          // surface_roughness(), surface_veil()
+#ifdef TOUCHED
+flat out vec3 v_window;         // texels of the atlas a cell of the pattern, and at the eye's foot; see plane.frag
+flat out vec4 v_rim;         // its first and last texels, which are open
+flat out vec2 v_texel;        // a texel's size in texture coordinates
+#endif
+#ifdef SHADOWED
+flat out vec3 v_shadow_x;       // of the view ray in the near shadow map
+flat out vec3 v_shadow_y;
+flat out vec3 v_shadow_z;
+flat out vec3 v_shadow_eye;     // the eye in it, lifted off the plane
+#ifdef FAR_MAP
+flat out vec4 v_far;            // the near map in the far one: scale, offset
+flat out vec3 v_far_lift;       // farther off the plane, in the near map
+#endif
+#endif
+#ifdef OTHER_PLANES
+flat out vec4 v_others[OTHER_PLANES];   // over the reach: rising of the view ray, height of the eye less the plane's own
+#endif
+
+vec3 over_screen(vec3 direction) {
+    return vec3(dot(direction, ray_origin.xyz), dot(direction, ray_dx.xyz), dot(direction, ray_dy.xyz));
+}
+
+void main() {
+    gl_Position = vec4(clip_position, 1.0);
+    v_fall = over_screen(-plane_normal.xyz);
+    v_along_u = over_screen(plane_u.xyz);
+    v_along_v = over_screen(plane_v.xyz);
+    v_rise = vec3(ray_origin.y, ray_dx.y, ray_dy.y);
+    v_sunward = over_screen(to_light.xyz);
+    v_length_x = vec4(dot(ray_origin.xyz, ray_origin.xyz), 2.0 * dot(ray_origin.xyz, ray_dx.xyz),
+                      dot(ray_dx.xyz, ray_dx.xyz), plane_normal.w);
+    v_length_y = vec4(2.0 * dot(ray_origin.xyz, ray_dy.xyz), dot(ray_dy.xyz, ray_dy.xyz), plane_u.w, plane_v.w);
+    v_facing = vec4(dot(plane_normal.xyz, to_light.xyz), plane_normal.y, haze.x, plane_look.y);
+    v_diffuse = surface_diffuse(plane_color.rgb, plane_look.x);
+    v_f0 = vec4(surface_f0(plane_color.rgb, plane_look.x), plane_look.x);
+    v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_look.x));
+#ifdef TOUCHED
+    float texels = length(window_u.xyz) / length(plane_u.xyz);
+    v_window = vec3(texels, vec2(window_u.w, window_v.w) - texels * vec2(plane_u.w, plane_v.w));
+    v_rim = window_rim;
+    v_texel = atlas.xy;
+#endif
+#ifdef SHADOWED
+    vec3 lift = plane_normal.xyz * shadow_offset;
+    v_shadow_x = over_screen(shadow_x.xyz);
+    v_shadow_y = over_screen(shadow_y.xyz);
+    v_shadow_z = over_screen(shadow_z.xyz);
+    vec3 lifted = vec3(dot(shadow_x.xyz, lift), dot(shadow_y.xyz, lift), dot(shadow_z.xyz, lift));
+    v_shadow_eye = vec3(shadow_x.w, shadow_y.w, shadow_z.w) + lifted * shadow_texels.x;
+#ifdef FAR_MAP
+    v_far = shadow_far;
+    v_far_lift = lifted * (shadow_texels.y - shadow_texels.x);
+#endif
+#endif
+#ifdef OTHER_PLANES
+    for (int i = 0; i < OTHER_PLANES; ++i) {
+        vec4 other = other_planes[i];
+        v_others[i] = vec4(over_screen(other.xyz) / other_reach,
+                           other.w / other_reach + dot(other.xyz, plane_normal.xyz));
+    }
+#endif
+}

@@ -6,7 +6,7 @@ float filtered_shadow(vec2 t, float depth) {
     vec2 base = floor(t);
     vec2 f = t - base;
     vec2 low = 1.0 - f;
-    vec2 texel = vec2(0.5, 1.0) / shadow_texels.z;
+    const vec2 texel = vec2(0.5, 1.0) / SHADOW_TEXELS;
     vec2 at = base * texel;   // the corner that texels -1, 0 | 0, 1 share is at base
     vec4 a = textureGather(shadow_map, at, depth);
     vec4 b = textureGather(shadow_map, at + vec2(2.0, 0.0) * texel, depth);

@@ -12,8 +12,3 @@ vec4 shadow_place(vec3 position, vec3 face_normal, bool near) {
     uv = clamp(uv, margin, 1.0 - margin);
     return vec4((uv + vec2(near ? 0.0 : 1.0, 0.0)) * size - 0.5, depth, inside * to_light.w);
 }
-
-bool in_near_map(vec3 position) {
-    vec2 across = vec2(dot(shadow_x.xyz, position) + shadow_x.w, dot(shadow_y.xyz, position) + shadow_y.w);
-    return max(abs(across.x - 0.5), abs(across.y - 0.5)) < 0.5 - 5.0 / shadow_texels.z;
-}

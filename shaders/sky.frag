@@ -1,11 +1,16 @@
 #version 410 core
-#define OPEN
-#include "frame.glsl"
 #include "lighting.glsl"
+
+flat in vec3 v_ray_x;           // the view ray's parts over the screen: 1, x, y in pixels
+flat in vec3 v_ray_y;
+flat in vec3 v_ray_z;
+flat in vec3 v_to_light;
 
 layout(location = 0) out vec4 pixel;
 
 void main() {
-    vec3 ray = ray_origin.xyz + gl_FragCoord.x * ray_dx.xyz + gl_FragCoord.y * ray_dy.xyz;
-    pixel = vec4(displayed(sky(normalize(ray))), 1.0);
+    vec3 at = vec3(1.0, gl_FragCoord.xy);
+    vec3 ray = vec3(dot(v_ray_x, at), dot(v_ray_y, at), dot(v_ray_z, at));
+    ray *= inversesqrt(dot(ray, ray));
+    pixel = vec4(displayed(sky(ray.y, dot(ray, v_to_light))), 1.0);
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <malloc.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -24,6 +25,8 @@
 
 namespace tumble {
 namespace {
+
+constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;   // bytes
 
 struct Job {
     std::int64_t frame = 0;
@@ -144,6 +147,10 @@ std::string reason(const std::exception& error) {
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    // What a frame needs is taken again for the next: given back to the system, it would come as hundreds of new pages.
+    // Larger blocks do go back.
+    ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
+    ::mallopt(M_TRIM_THRESHOLD, kept_memory);
     ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: a core for each worker
 
     Job job;

@@ -10,6 +10,9 @@ namespace {
 // The integral of clamp(x, 0, 1).
 double ramp_area(double x) { return x <= 0.0 ? 0.0 : x >= 1.0 ? x - 0.5 : 0.5 * x * x; }
 
+// The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
+int below(double x) { return int(x + 2.0) - 2; }
+
 // An edge in a picture seen along its main direction: m counts along, n across.
 class Walk {
 public:
@@ -29,45 +32,48 @@ public:
             side_ = -side_;
         }
         if (!(m1 > m0)) return;
+        const std::ptrdiff_t row = std::ptrdiff_t(4) * drawn_.width;
         count_m_ = across_ ? drawn_.height : drawn_.width;
         count_n_ = across_ ? drawn_.width : drawn_.height;
-        const double slope = (n1 - n0) / (m1 - m0);
-        const int first = int(std::floor(std::max(m0, 0.0))), last = int(std::floor(std::min(m1, count_m_ - 0.5)));
+        step_m_ = across_ ? row : 4;
+        step_n_ = across_ ? 4 : row;
+        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope);
+        if (!(std::max(m0, 0.0) < count_m_)) return;
+        const int first = below(std::max(m0, 0.0)), last = below(std::min(m1, count_m_ - 0.5));
         for (int m = first; m <= last; ++m) {
             const double from = std::max(double(m), m0), to = std::min(m + 1.0, m1), length = to - from;
             if (length <= 0.0) continue;
-            const double line = n0 + (0.5 * (from + to) - m0) * slope, half = 0.5 * std::abs(slope) * length;
-            const int end = int(std::floor(std::clamp(line + half, -1.0, double(count_n_))));
-            for (int n = int(std::floor(std::clamp(line - half, -1.0, double(count_n_)))); n <= end; ++n)
-                pixel(m, n, line, half, length);
+            const double line = n0 + (0.5 * (from + to) - m0) * slope, half = steepness * length;
+            if (!(line + half >= 0.0 && line - half < count_n_)) continue;
+            const int end = std::min(below(line + half), count_n_ - 1);
+            for (int n = std::max(below(std::max(line - half, 0.0)), 0); n <= end; ++n) pixel(m, n, line, half, length);
         }
     }
 
 private:
-    const std::uint8_t* at(int m, int n) const { return across_ ? drawn_.at(n, m) : drawn_.at(m, n); }
-
     // The pixel that the edge passes, over `length` of it, at height `line`. A share of its colour comes from the neighbour
     // over the edge, or the one behind it where the edge runs aslant. An edge that something hides meets other surfaces.
     void pixel(int m, int n, double line, double half, double length) {
-        if (n < 0 || n >= count_n_) return;
-        const std::uint8_t here = at(m, n)[3];
-        bool is_inner = here == inner_;
+        const std::ptrdiff_t at = m * step_m_ + n * step_n_;
+        const std::uint8_t* const drawn = drawn_.pixels.data() + at;
+        bool is_inner = drawn[3] == inner_;
         if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - line) * side_ > 0.0;   // the number does not tell
-        if (!is_inner && outer_ != 0 && here != outer_) return;
+        if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
         const int step = is_inner ? -side_ : side_;
-        for (int other = n + step; other != n + 3 * step && other >= 0 && other < count_n_; other += step) {
-            const std::uint8_t* from = at(m, other);
-            if (is_inner ? (outer_ == 0 ? from[3] == inner_ : from[3] != outer_) : from[3] != inner_) continue;
-            const int x = across_ ? n : m, y = across_ ? m : n;
-            if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
-            const double after = share_before(n + 1.0 - line, half);   // of the strip, on the side of greater n
-            // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
-            const double share = std::min(length * (step > 0 ? after : 1.0 - after), 0.5);
-            const int weight = int(256.0 * share + 0.5);
-            std::uint8_t* to = frame_.at(x, y);
-            for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
-            return;
+        const std::uint8_t* from = drawn;
+        for (int other = n + step;; other += step) {
+            if (other == n + 3 * step || other < 0 || other >= count_n_) return;
+            from += step * step_n_;
+            if (is_inner ? (outer_ == 0 ? from[3] != inner_ : from[3] == outer_) : from[3] == inner_) break;
         }
+        const int x = across_ ? n : m, y = across_ ? m : n;
+        if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
+        const double after = share_before(n + 1.0 - line, half);   // of the strip, on the side of greater n
+        // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
+        const double share = std::min(length * (step > 0 ? after : 1.0 - after), 0.5);
+        const int weight = int(256.0 * share + 0.5);
+        std::uint8_t* const to = frame_.pixels.data() + at;
+        for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
     }
 
     const Image& drawn_;
@@ -75,6 +81,7 @@ private:
     Image& frame_;
     bool across_ = false;   // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
+    std::ptrdiff_t step_m_ = 0, step_n_ = 0;   // bytes
     std::uint8_t inner_ = 0, outer_ = 0;
 };
 

@@ -71,11 +71,15 @@ void Framebuffer::copy(const Target& from, const Target& to, const std::vector<R
                              GL_NEAREST);
 }
 
-void Framebuffer::begin_background() const {
-    bind(background_);
+void Framebuffer::begin_all(const Target& target) const {
+    bind(target);
     gl_->ClearDepth(1.0);
     gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
 }
+
+void Framebuffer::begin_background() const { begin_all(background_); }
+
+void Framebuffer::begin_whole() const { begin_all(drawn_); }
 
 void Framebuffer::begin(const std::vector<Rectangle>& rectangles) const {
     bind(drawn_);

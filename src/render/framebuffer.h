@@ -23,6 +23,10 @@ public:
     /// Makes the background the target of what is drawn next, over its whole area, and clears its depths.
     void begin_background() const;
 
+    /// Makes the picture the target of what is drawn next, over its whole area, and clears its depths: for a background
+    /// that is not worth keeping.
+    void begin_whole() const;
+
     /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
     /// colours and depths; everywhere else depth is nearest.
     void begin(const std::vector<Rectangle>& rectangles) const;
@@ -39,6 +43,7 @@ private:
     };
     Target make_target(int samples, bool with_depth) const;
     void bind(const Target& target) const;
+    void begin_all(const Target& target) const;
     void copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles, GLbitfield what) const;
 
     const GlFunctions* gl_;

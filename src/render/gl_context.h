@@ -9,8 +9,8 @@
 
 namespace tumble {
 
-/// The version asked for: core profile, for textureGather on shadow maps (4.0) and instancing (3.3).
-inline constexpr int gl_major = 4, gl_minor = 1;
+/// The version asked for: core profile, for textureGather on shadow maps (4.0) and instances from a base (4.2).
+inline constexpr int gl_major = 4, gl_minor = 2;
 
 class GlContext {
 public:

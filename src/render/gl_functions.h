@@ -35,7 +35,7 @@
     X(PFNGLDISABLEPROC, Disable)                                               \
     X(PFNGLDRAWARRAYSPROC, DrawArrays)                                         \
     X(PFNGLDRAWBUFFERPROC, DrawBuffer)                                         \
-    X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                   \
+    X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance) \
     X(PFNGLENABLEPROC, Enable)                                                 \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
     X(PFNGLFINISHPROC, Finish)                                                 \

@@ -56,12 +56,17 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
 
 void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) const {
     gl_->BindVertexArray(array_.name());
-    gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
-    GLuint location = first_instance_attribute;
-    for (const Attribute& attribute : instance_attributes)
-        gl_->VertexAttribPointer(location++, attribute.components, GL_FLOAT, GL_FALSE, sizeof(Instance),
-                                 offset(first * sizeof(Instance) + attribute.offset));
-    gl_->DrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, GLsizei(count));
+    // Once: Mesa compiles a vertex shader a second time for an array whose pointers keep changing.
+    if (instances != instances_) {
+        gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
+        GLuint location = first_instance_attribute;
+        for (const Attribute& attribute : instance_attributes)
+            gl_->VertexAttribPointer(location++, attribute.components, GL_FLOAT, GL_FALSE, sizeof(Instance),
+                                     offset(attribute.offset));
+        instances_ = instances;
+    }
+    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, GLsizei(count),
+                                           GLuint(first));
     gl_->BindVertexArray(0);
 }
 

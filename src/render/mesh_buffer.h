@@ -30,6 +30,7 @@ private:
     const GlFunctions* gl_;
     GlObject array_, vertices_, indices_, probes_;
     GLsizei index_count_;
+    mutable GLuint instances_ = 0;   // the buffer that the array points to
     bool closed_;
 };
 

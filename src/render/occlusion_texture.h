@@ -4,6 +4,8 @@
 #include "render/gl_object.h"
 #include "render/occlusion_atlas.h"
 
+#include <vector>
+
 namespace tumble {
 
 class OcclusionTexture {
@@ -19,9 +21,13 @@ public:
     int height() const { return height_; }
 
 private:
+    void send(const OcclusionAtlas& atlas, int first_row, int end_row, int columns);
+
     const GlFunctions* gl_;
     GlObject texture_;
     int height_ = 0, filled_ = 0;  // rows
+    int columns_ = 0;              // of the windows, that were sent
+    std::vector<float> shares_;    // on their way
 };
 
 }  // namespace tumble

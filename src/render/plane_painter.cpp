@@ -32,17 +32,18 @@ std::vector<std::string> defines(Pattern pattern, int others) {
     return all;
 }
 
-std::vector<std::string> with(std::vector<std::string> all, const char* one_more) {
-    all.emplace_back(one_more);
+std::vector<std::string> with(std::vector<std::string> all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
     return all;
 }
 
 }  // namespace
 
-PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks)
+PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                           bool shadows)
     : gl_(&gl),
       other_planes_(other_planes(looks)),
-      sky_(gl, shaders, {"plane.vert", "sky.frag", {}}),
+      sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array),
       corners_(gl, GlKind::buffer) {
     connect(sky_);
@@ -50,10 +51,14 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
         auto& programs = planes_[std::size_t(look.pattern)];
         if (look.kind != DrawKind::plane || programs) continue;
         const std::vector<std::string> all = defines(look.pattern, other_planes_);
-        programs.emplace(Programs{ShaderProgram(gl, shaders, {"plane.vert", "plane.frag", all}),
-                                  ShaderProgram(gl, shaders, {"plane.vert", "plane.frag", with(all, "OPEN")})});
-        connect(programs->touched);
-        connect(programs->open);
+        const auto program = [&](const std::vector<std::string>& more) {
+            ShaderProgram made(gl, shaders, {"plane.vert", "plane.frag", with(all, more)});
+            connect(made);
+            return made;
+        };
+        std::vector<std::string> touched = {"TOUCHED"};
+        if (shadows) touched = with(touched, {"SHADOWED", shadow_size()});
+        programs.emplace(Programs{program({}), program(touched), program(with(touched, {"FAR_MAP"}))});
     }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -83,12 +88,13 @@ void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const 
 
 void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
                                 const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                                const CameraView& view) const {
+                                const CameraView& view, bool far_shadows) const {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const ShaderProgram& program = planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->touched;
+        const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
+        const ShaderProgram& program = far_shadows ? programs.touched_far : programs.touched;
         if (areas[i].empty()) continue;
         upload_polygon(planes[i].corners);
         set_uniforms(program, planes[i], planes, looks);

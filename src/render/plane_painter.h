@@ -14,19 +14,19 @@ namespace tumble {
 
 class PlanePainter {
 public:
-    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks);
+    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                 bool shadows);
 
     /// All planes without bodies and shadows, and the sky: what stays behind all frames.
     void draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks, const CameraView& view) const;
 
     /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
     void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas, const SceneLooks& looks,
-              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view) const;
-
+              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view, bool far_shadows) const;
 
 private:
     struct Programs {
-        ShaderProgram touched, open;
+        ShaderProgram open, touched, touched_far;   // the last where the far shadow map is in use
     };
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
                       const SceneLooks& looks) const;

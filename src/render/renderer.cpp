@@ -55,8 +55,8 @@ struct Renderer::State {
           meshes(gl, looks),
           occlusion_texture(gl),
           shadow_map(gl, shaders, frame_block),
-          programs(gl, shaders, looks, !scene.cords.empty()),
-          planes(gl, shaders, looks),
+          programs(gl, shaders, looks, !scene.cords.empty(), framebuffer.samples() > 1, scene.light.shadows),
+          planes(gl, shaders, looks, scene.light.shadows),
           full_redraw(options.full_redraw),
           times(options.times) {
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
@@ -74,12 +74,30 @@ struct Renderer::State {
         }
     }
 
-    void move_camera(const Snapshot& snapshot) {
+    // False: it is where it was.
+    bool move_camera(const Snapshot& snapshot) {
         CameraDescription now = path.at(snapshot);
-        if (same_place(now, camera)) return;
+        if (same_place(now, camera)) return false;
         camera = std::move(now);
         view = view.from(camera);
         changes.forget();
+        return true;
+    }
+
+    // What is behind all bodies; kept while the camera stands still.
+    void draw_background(const std::vector<PlanePatch>& patches, bool camera_moved) {
+        background_kept = background_kept && !changes.background_changed();
+        if (camera_moved) {
+            framebuffer.begin_whole();
+            planes.draw_background(patches, looks, view);
+            return;
+        }
+        if (!background_kept) {
+            framebuffer.begin_background();
+            planes.draw_background(patches, looks, view);
+            background_kept = true;
+        }
+        framebuffer.begin(changed);
     }
 
     DrawnParts drawn;
@@ -104,6 +122,7 @@ struct Renderer::State {
     ShadowMap shadow_map;
     SurfacePrograms programs;
     PlanePainter planes;
+    bool background_kept = false;
     std::vector<Rectangle> changed;
     bool full_redraw;
     RenderTimes* times;
@@ -121,7 +140,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.context->make_current();  // there may be other renderers in this thread
     StageClock clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
-    s.move_camera(whole);
+    const bool camera_moved = s.move_camera(whole);
     const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
     if (follows && !s.full_redraw && s.changes.unmoved(snapshot)) {
         s.changed.clear();
@@ -168,11 +187,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
     clock.ends(RenderStage::shadow);
 
-    if (s.changes.background_changed()) {
-        s.framebuffer.begin_background();
-        s.planes.draw_background(planes, s.looks, s.view);
-    }
-    s.framebuffer.begin(s.changed);
+    s.draw_background(planes, camera_moved);
     clock.ends(RenderStage::background);
 
     s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
@@ -181,7 +196,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
     s.programs.draw(s.meshes, list.visible);
     clock.ends(RenderStage::bodies);
-    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view);
+    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(RenderStage::planes);
 
     s.framebuffer.resolve(s.changed);

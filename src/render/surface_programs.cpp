@@ -1,5 +1,9 @@
 #include "render/surface_programs.h"
 
+#include "render/shadow_map.h"
+
+#include <fmt/format.h>
+
 namespace tumble {
 namespace {
 
@@ -10,6 +14,8 @@ std::size_t index_of(DrawKind kind, bool patterned, bool lit) {
 
 }  // namespace
 
+std::string shadow_size() { return fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels); }
+
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
@@ -17,7 +23,8 @@ void connect(const ShaderProgram& program) {
 }
 
 SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                                 bool has_cords) {
+                                 bool has_cords, bool multisample, bool shadows)
+    : multisample_(multisample), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
             for (const bool lit : {true, false}) add(gl, shaders, look.kind, look.pattern != Pattern::plain, lit);
@@ -31,7 +38,12 @@ void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& sh
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
-    if (kind == DrawKind::box && !lit) files.defines.emplace_back("AWAY_FROM_SUN");
+    files.defines.push_back(shadow_size());
+    if (multisample_) files.defines.emplace_back("MULTISAMPLE");
+    if (kind != DrawKind::box || lit) {
+        files.defines.emplace_back("SUNLIT");
+        if (shadows_) files.defines.emplace_back("SHADOWED");
+    }
     if (patterned) files.defines.emplace_back("PATTERNED");
     program.emplace(gl, shaders, files);
     connect(*program);

@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace tumble {
@@ -15,6 +16,9 @@ namespace tumble {
 inline constexpr GLuint frame_block = 0;
 inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1;
 
+/// What the shaders that look for shadows must have defined.
+std::string shadow_size();
+
 /// Ties a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
@@ -22,13 +26,14 @@ class SurfacePrograms {
 public:
     /// Compiles what the scene's bodies need.
     SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                    bool has_cords);
+                    bool has_cords, bool multisample, bool shadows);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
     void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);
 
+    bool multisample_, shadows_;
     std::array<std::optional<ShaderProgram>, 8> programs_;  // by kind, pattern and light
 };
 

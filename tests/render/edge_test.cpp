@@ -98,7 +98,8 @@ TEST(BlendEdges, LeavesHiddenEdgesAlone) {
 class Silhouettes {
 public:
     Silhouettes() {
-        for (const char* file : {"box.frag", "ball.frag", "mesh.frag"}) shaders_.replace(file, "pixel = vec4(", "pixel = vec4(vec3(1.0), v_look.w); // ");
+        for (const char* file : {"box.frag", "ball.frag", "mesh.frag"})
+            shaders_.replace(file, "pixel = ", "pixel = vec4(vec3(1.0), v_rough.w); // ");
         shaders_.replace("sky.frag", "pixel = ", "pixel = vec4(0.0, 0.0, 0.0, 1.0); // ");
     }
     // Root of the mean squared error over the pixels that are partly covered. `inside`: whether a point is covered.

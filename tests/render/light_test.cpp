@@ -24,7 +24,7 @@ SceneDescription shadow_scene() {
 // With the shading left out, what is on the screen is the scene file's colour: decoded and encoded exactly once.
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
-    shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_color.rgb), 1.0); // ");
+    shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_diffuse), 1.0); // ");
     for (const Color color :
          {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
         SceneDescription scene = empty_scene();

@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -25,7 +28,7 @@ std::string failure(const RenderOptions& options) {
 
 TEST(Shaders, ABrokenOneIsNamedWithItsLine) {
     ShaderCopy shaders;
-    const int line = shaders.replace("box.frag", "vec3 albedo = v_color.rgb;", "vec3 albedo = nonsense;");
+    const int line = shaders.replace("box.frag", "vec2 on_face = v_on_face;", "vec2 on_face = nonsense;");
     const std::string message = failure(shaders.options());
     EXPECT_NE(message.find((shaders.folder() / "box.frag").string() + ":" + std::to_string(line)), std::string::npos)
         << message;
@@ -74,12 +77,27 @@ TEST(Shaders, DefinesComeAfterTheVersionAndFilesOnce) {
     EXPECT_EQ(source.text.rfind("#version", 0), 0u);
     EXPECT_EQ(source.text.find("#define NUMBER 5"), source.text.find('\n') + 1);
     std::size_t times = 0;
-    for (std::size_t at = source.text.find("layout(std140)"); at != std::string::npos;
-         at = source.text.find("layout(std140)", at + 1))
+    for (std::size_t at = source.text.find("struct Surface"); at != std::string::npos;
+         at = source.text.find("struct Surface", at + 1))
         ++times;
     EXPECT_EQ(times, 1u);
     EXPECT_EQ(source.with_file_names("0:3(3): error: x\n"), source.files[1].string() + ":1(3): error: x\n");
     EXPECT_EQ(source.with_file_names("note 0:7\n"), "note 0:7\n");
+}
+
+// llvmpipe reads a uniform of a fragment shader lane by lane, at forty instructions each.
+TEST(Shaders, FragmentsReadNoUniforms) {
+    int fragments = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(find_shader_folder())) {
+        if (entry.path().extension() != ".frag") continue;
+        ++fragments;
+        std::istringstream lines(read_shader(find_shader_folder(), entry.path().filename().string()).text);
+        for (std::string line; std::getline(lines, line);) {
+            const bool reads = line.starts_with("uniform") || line.find(") uniform") != std::string::npos;
+            EXPECT_FALSE(reads && line.find("sampler") == std::string::npos) << entry.path() << ": " << line;
+        }
+    }
+    EXPECT_GE(fragments, 5);
 }
 
 }  // namespace
