@@ -88,6 +88,13 @@ void add_faces(Item item, std::size_t body, std::uint8_t faces, const Quat& orie
     }
 }
 
+// The half box has the faces on the high sides: mirrored so that they are those in the sun.
+void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& light) {
+    const Vec3 there = orientation.conjugate() * light;
+    for (int axis = 0; axis < 3; ++axis)
+        if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
+}
+
 std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
     switch (look.kind) {
         case DrawKind::ball:
@@ -95,18 +102,31 @@ std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const Camera
         case DrawKind::mesh:
             return first_scene_mesh + look.mesh;
         default:
-            return box_mesh;
+            return half_box_mesh;
     }
 }
 
 // Appends the items to the instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
-std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, bool in_shells) {
-    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
-        return std::tuple(in_shells ? a.shell() : 0, a.mesh, a.patterned, a.lit, a.distance) <
-               std::tuple(in_shells ? b.shell() : 0, b.mesh, b.patterned, b.lit, b.distance);
+std::vector<Batch> append_batches(const std::vector<Item>& items, std::vector<Instance>& instances, bool in_shells) {
+    struct Key {
+        std::uint64_t order;   // shell, mesh, shader
+        float distance;
+        std::uint32_t item;
+    };
+    std::vector<Key> keys;
+    keys.reserve(items.size());
+    for (const Item& item : items) {
+        const std::uint64_t shell = in_shells ? std::uint64_t(item.shell() + 100000) : 0;
+        keys.push_back({shell << 40 | std::uint64_t(item.mesh) << 2 | (item.patterned ? 2u : 0u) | (item.lit ? 1u : 0u),
+                        float(item.distance), std::uint32_t(keys.size())});
+    }
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return std::tie(a.order, a.distance, a.item) < std::tie(b.order, b.distance, b.item);
     });
     std::vector<Batch> batches;
-    for (const Item& item : items) {
+    instances.reserve(instances.size() + items.size());
+    for (const Key& key : keys) {
+        const Item& item = items[key.item];
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
             batches.back().lit != item.lit)
             batches.push_back({item.mesh, item.patterned, item.lit, instances.size(), 0});
@@ -135,7 +155,10 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
                            instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
                                        shadows.near_holds(ball.center, ball.radius))};
-        if (casts) casters.push_back(item);
+        if (casts) {
+            casters.push_back(item);
+            if (look.kind == DrawKind::box) turn_to_light(casters.back().instance, snapshot.bodies[i].orientation, light);
+        }
         if (!in_view) continue;
         if (look.kind == DrawKind::box) {
             add_faces(item, i, visibility.faces[i], snapshot.bodies[i].orientation, light, visible);

@@ -10,10 +10,10 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 }  // namespace
 
 MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks) : gl_(&gl), instances_(gl, GlKind::buffer) {
-    const auto add = [&](const DrawMesh& mesh) {
-        meshes_.emplace_back(gl, MeshData{mesh.vertices, mesh.indices, {}, true});
+    const auto add = [&](const DrawMesh& mesh, bool closed = true) {
+        meshes_.emplace_back(gl, MeshData{mesh.vertices, mesh.indices, {}, closed});
     };
-    add(make_box());
+    add(make_half_box(), false);   // mirrored as needed: no side of its triangles is the front
     add(make_face());
     for (std::size_t level = 0; level < ball_levels; ++level) add(make_ball(int(level)));
     add(make_cylinder(cylinder_sides));

@@ -134,7 +134,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const std::vector<DrawnItem>& items = state.items;
     const double near_distance = state.near_distance;
     const ShadowFit& shadows = state.shadows;
-    const Visibility visibility = find_visible(s.looks, snapshot, s.view);
+    const Visibility visibility = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
     TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();

@@ -67,7 +67,12 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
         bottom = std::max(bottom, corners.back().y());
     }
     if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
-    corners = convex_hull(std::move(corners));
+    // What is small needs no finer look: the tiles around it.
+    if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
+        corners = {{leftmost, top}, {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}};
+    } else {
+        corners = convex_hull(std::move(corners));
+    }
     for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
         // The hull's reach to both sides within this row of tiles.
