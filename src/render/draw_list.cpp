@@ -32,11 +32,10 @@ struct Item {
 };
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
-std::size_t ball_mesh_for(double radius, double distance, const CameraView& view) {
-    const double pixels = radius / (std::max(distance - radius, 1e-3 * radius) * view.pixel_size());
+std::size_t ball_mesh_for(double radius, double error) {   // m
     std::size_t level = 0;
     double angle = icosahedron_angle;
-    while (level + 1 < ball_levels && pixels * angle * angle / 8.0 > outline_error) {
+    while (level + 1 < ball_levels && radius * angle * angle / 8.0 > error) {
         ++level;
         angle *= 0.5;
     }
@@ -95,15 +94,24 @@ void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& ligh
         if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
 }
 
-std::size_t mesh_of(const BodyLook& look, const BoundingBall& ball, const CameraView& view) {
+std::size_t mesh_of(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const CameraView& view) {
     switch (look.kind) {
         case DrawKind::ball:
-            return ball_mesh_for(ball.radius, ball.center.norm(), view);
+            return ball_mesh_for(ball.radius, outline_error * view.pixel_size() *
+                                                  std::max(ball.center.norm() - ball.radius, 1e-3 * ball.radius));
         case DrawKind::mesh:
-            return first_scene_mesh + look.mesh;
+            return scene_mesh(look.mesh, level_in_view(look, looks, ball.center, view));
         default:
             return half_box_mesh;
     }
+}
+
+// As fine as the shadow map that it is drawn into.
+std::size_t caster_mesh(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const ShadowFit& shadows) {
+    const double texel = !shadows.has_far || shadows.near_holds(ball.center, ball.radius) ? shadows.near_texel
+                         : std::min(shadows.near_texel, shadows.far_texel);
+    if (look.kind == DrawKind::ball) return ball_mesh_for(ball.radius, most_detail_error * texel);
+    return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
 }
 
 // Appends the items to the instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
@@ -152,12 +160,13 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool in_view = visibility.bodies[i] && wanted[i] != 0;
         const bool casts = scene.light.shadows && casting[i] != 0 && view.sees_swept(ball.center, ball.radius, light);
         if (!in_view && !casts) continue;
-        const Item item = {mesh_of(look, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
+        const Item item = {mesh_of(look, looks, ball, view), look.pattern != Pattern::plain, true, ball.center.norm(),
                            instance_of(look, snapshot.bodies[i], view, atlas.places[i], i,
                                        shadows.near_holds(ball.center, ball.radius))};
         if (casts) {
             casters.push_back(item);
             if (look.kind == DrawKind::box) turn_to_light(casters.back().instance, snapshot.bodies[i].orientation, light);
+            if (look.kind != DrawKind::box) casters.back().mesh = caster_mesh(look, looks, ball, shadows);
         }
         if (!in_view) continue;
         if (look.kind == DrawKind::box) {

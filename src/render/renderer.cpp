@@ -45,7 +45,8 @@ struct Renderer::State {
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks, view.eye()),
           changes(scene, looks, view),
-          edges(looks, view),
+          details(looks),
+          edges(looks, view, details),
           drawn_image(scene.output.width, scene.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
@@ -91,6 +92,7 @@ struct Renderer::State {
     ShadowStage stage;
     OcclusionMaker occlusion;
     ChangeFinder changes;
+    MeshDetails details;
     EdgeFinder edges;
     Image drawn_image;  // as it was drawn, with surface numbers in alpha
     std::unique_ptr<GlContext> context;
@@ -156,7 +158,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(RenderStage::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
-    s.meshes.upload(list.instances);
+    s.meshes.upload(list, s.details);
     const FrameUniforms uniforms =
         make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height());
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());

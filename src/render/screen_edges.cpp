@@ -58,9 +58,8 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
     }
 }
 
-EdgeFinder::EdgeFinder(const SceneLooks& looks, const CameraView& view) : looks_(&looks), view_(&view) {
-    for (const MeshLook& mesh : looks.meshes) meshes_.emplace_back(mesh.asset->surface);
-}
+EdgeFinder::EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details)
+    : looks_(&looks), view_(&view), details_(&details) {}
 
 const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
                                                 const std::vector<char>& wanted, const Visibility& visibility,
@@ -73,7 +72,7 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
         const BodyLook& look = looks_->bodies[i];
         if (look.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
         if (look.kind == DrawKind::ball) add_ball(i, items[i]);
-        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], looks_->meshes[look.mesh], meshes_[look.mesh]);
+        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
     }
     return found_;
 }
@@ -131,8 +130,19 @@ void EdgeFinder::add_ball(std::size_t body, const DrawnItem& item) {
     }
 }
 
-void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const MeshLook& mesh, const MeshEdges& edges) {
-    const TriangleMesh& surface = mesh.asset->surface;
+// Of the level that is drawn.
+void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item) {
+    const BodyLook& look = looks_->bodies[body];
+    const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
+    const TriangleMesh& surface =
+        level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
+    const std::pair key(look.mesh, level);
+    auto edges = meshes_.find(key);
+    if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
+    add_outline(body, state, surface, edges->second);
+}
+
+void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges) {
     const Vec3 origin = view_->relative(state.origin);
     const Vec3 eye = state.orientation.conjugate() * -origin;   // in the mesh's frame
     const Mat3 axes = state.orientation.toRotationMatrix();

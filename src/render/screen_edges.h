@@ -3,11 +3,13 @@
 #pragma once
 
 #include "render/drawn_items.h"
+#include "render/mesh_detail.h"
 #include "render/plane_patch.h"
 #include "render/visibility.h"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace tumble {
@@ -31,7 +33,8 @@ struct MeshEdges {
 
 class EdgeFinder {
 public:
-    EdgeFinder(const SceneLooks& looks, const CameraView& view);
+    /// All of them must outlive it.
+    EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details);
 
     /// Of the items that are wanted, in scene order. Valid until the next call. What comes beside the eye has none.
     const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
@@ -41,12 +44,14 @@ public:
 private:
     void add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces);
     void add_ball(std::size_t body, const DrawnItem& item);
-    void add_mesh(std::size_t body, const BodyState& state, const MeshLook& mesh, const MeshEdges& edges);
+    void add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item);
+    void add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges);
     void add_corner(const PlanePatch& a, const PlanePatch& b);
 
     const SceneLooks* looks_;
     const CameraView* view_;
-    std::vector<MeshEdges> meshes_;
+    MeshDetails* details_;
+    std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;   // by mesh and level; made when needed
     std::vector<ScreenEdge> found_;
 };
 
