@@ -123,23 +123,30 @@ void OcclusionMaker::State::follow(const Snapshot& snapshot) {
         finder = OccluderFinder(occluders);
         return;
     }
+    const auto has_moved = [&](std::size_t i) {
+        const BodyState& state = snapshot.bodies[i];
+        return poses[i].origin != state.origin || poses[i].orientation.coeffs() != state.orientation.coeffs();
+    };
     std::size_t count = 0;
+    for (std::size_t i = 0; i < bodies; ++i) count += has_moved(i) ? 1 : 0;
+    if (count == 0) return;
+    moved_much = double(count) > most_moved * double(bodies);
     std::vector<Occluder> now;
     for (std::size_t i = 0; i < bodies; ++i) {
+        if (!has_moved(i)) continue;
         const BodyState& state = snapshot.bodies[i];
-        if (poses[i].origin == state.origin && poses[i].orientation.coeffs() == state.orientation.coeffs()) continue;
         poses[i] = {state.origin, state.orientation};
         made[i].faces = 0;
-        ++count;
         now.clear();
         add_occluders(looks, i, state, reference, now);
         const auto place = occluders.begin() + first[i];
-        moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
-        moved.insert(moved.end(), now.begin(), now.end());
+        if (!moved_much) {
+            moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
+            moved.insert(moved.end(), now.begin(), now.end());
+        }
         std::copy(now.begin(), now.end(), place);
     }
-    moved_much = double(count) > most_moved * double(bodies);
-    if (count > 0) finder = OccluderFinder(occluders);
+    finder = OccluderFinder(occluders);
 }
 
 void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraView& view) {

@@ -14,7 +14,7 @@ constexpr double least_approach = 0.02;   // sine of the elevation
 std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, double margin) {
     const PlaneAxes axes = plane_axes(plane.normal);
     double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
-    for (const Vec3& corner : item.corners) {
+    for (const Vec3& corner : item.corners()) {
         const double u = axes.u.dot(corner), v = axes.v.dot(corner);
         low_u = std::min(low_u, u - margin);
         high_u = std::max(high_u, u + margin);
@@ -48,10 +48,8 @@ void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach,
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0 || !view.sees_swept(item.center, item.radius, light.direction)) return;
     if (approach < least_approach) return marks.mark_all();
-    std::array<Vec3, 8> feet;
-    for (std::size_t i = 0; i < 8; ++i)
-        feet[i] = item.corners[i] +
-                  light.direction * ((plane.normal.dot(item.corners[i]) + plane.height) / approach);
+    std::array<Vec3, 8> feet = item.corners();
+    for (Vec3& foot : feet) foot += light.direction * ((plane.normal.dot(foot) + plane.height) / approach);
     marks.mark_hull(feet, light.margin(item) / approach);
 }
 

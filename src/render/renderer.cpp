@@ -60,6 +60,7 @@ struct Renderer::State {
           planes(gl, shaders, looks),
           full_redraw(options.full_redraw),
           times(options.times) {
+        drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
@@ -144,10 +145,11 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
 
     ShadowMarks shadow_marks = s.changes.shadow_marks();
     if (s.full_redraw) shadow_marks.mark_all();
+    const bool all_shadows = shadow_marks.all();
     std::vector<char> wanted, casting;
     for (const DrawnItem& item : items) {
-        wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
-        casting.push_back(item.exists() && shadow_marks.touched_by(item) ? 1 : 0);
+        wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
+        casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) ? 1 : 0);
     }
     const OcclusionAtlas& atlas = s.occlusion.atlas();
     const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);

@@ -13,6 +13,9 @@ namespace {
 // A ball's outline as a polygon leaves the true one by no more than this.
 constexpr double circle_error = 0.03;   // pixels
 
+// A box that is smaller shows a step between its own faces in a pixel or two, which no one sees.
+constexpr double inner_edge_pixels = 3.0;   // of its longest edge
+
 // A mesh's edge is a crease when its faces' normals differ by more than this.
 constexpr double crease_cosine = 0.9;
 
@@ -78,16 +81,19 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
 }
 
 void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces) {
+    const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
-        if (!before_eye(item.corners[i], *view_)) return;
-        corners[i] = view_->pixel(item.corners[i]);
+        if (!before_eye(places[i], *view_)) return;
+        corners[i] = view_->pixel(places[i]);
     }
+    const double depth = item.center.dot(view_->forward());
+    const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
     std::array<bool, 6> front{};   // turned to the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
-        const Vec3& on_face = item.corners[face % 2 == 1 ? bit : 0];
-        front[face] = (item.corners[bit] - item.corners[0]).dot(on_face) * (face % 2 == 1 ? 1.0 : -1.0) < 0.0;
+        const Vec3& on_face = places[face % 2 == 1 ? bit : 0];
+        front[face] = (places[bit] - places[0]).dot(on_face) * (face % 2 == 1 ? 1.0 : -1.0) < 0.0;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t along = std::size_t(1) << axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -100,6 +106,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
             }
             if (!front[face]) continue;
             const bool both = front[other];
+            if (both && !inner_edges) continue;
             if ((faces >> face & 1) == 0 && !(both && (faces >> other & 1) != 0)) continue;
             const std::size_t corner = (sides & 1) << a | (sides >> 1) << b;
             found_.push_back(directed(corners[corner], corners[corner | along], corners[corner ^ bit],

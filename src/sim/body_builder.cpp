@@ -71,7 +71,11 @@ Collider BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, con
 Collider BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin) {
     if (const auto* plane = std::get_if<PlaneShape>(&shape)) return HalfSpace{plane->normal, plane->offset};
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) return Ball{sphere->radius};
-    if (const auto* box = std::get_if<BoxShape>(&shape)) return std::make_shared<const Polyhedron>(make_box(box->size));
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        auto& known = boxes_[{box->size.x(), box->size.y(), box->size.z()}];
+        if (!known) known = std::make_shared<const Polyhedron>(make_box(box->size));
+        return known;
+    }
     return mesh_collider(*std::get<MeshShape>(shape).asset, meshes_as_surfaces, origin);
 }
 

@@ -5,6 +5,7 @@
 #include "sim/body.h"
 #include "sim/collision/compound.h"
 
+#include <array>
 #include <map>
 #include <memory>
 
@@ -32,6 +33,7 @@ private:
         std::shared_ptr<const Compound> made;
     };
     std::map<const void*, KnownCompound> compounds_;
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by size: one is 2 KB
 };
 
 }  // namespace tumble

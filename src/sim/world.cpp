@@ -77,6 +77,7 @@ struct World::State {
           old_angular_velocity(scene.bodies.size(), Vec3::Zero()), before_forces(scene.bodies.size()),
           after_forces(scene.bodies.size()) {
         BodyBuilder builder;
+        bodies.reserve(scene.bodies.size());
         for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);
