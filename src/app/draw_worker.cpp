@@ -92,7 +92,7 @@ public:
 private:
     void expose(const Job& job) {
         for (std::size_t i = 0; i < job.moments; ++i) {
-            memory_.read_poses(job.slot, i, snapshot_);
+            memory_.read_poses(i, snapshot_);
             renderer_.render(snapshot_, image_);
             if (job.moments > 1) mean_.add(image_);
         }
@@ -175,7 +175,7 @@ DrawWorker::~DrawWorker() {
 }
 
 DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
-    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(slot, i, exposure.moments[i]);
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
     DrawnFrame drawn;
     if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size()}) || !receive_message(socket_, drawn))
         died(exposure.frame);

@@ -59,6 +59,7 @@ struct Renderer::State {
           programs(gl, shaders, looks, !scene.cords.empty()),
           planes(gl, shaders, looks),
           full_redraw(options.full_redraw),
+          draw_hidden(options.draw_hidden),
           times(options.times) {
         drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
@@ -108,7 +109,7 @@ struct Renderer::State {
     SurfacePrograms programs;
     PlanePainter planes;
     std::vector<Rectangle> changed;
-    bool full_redraw;
+    bool full_redraw, draw_hidden;
     RenderTimes* times;
 };
 
@@ -137,7 +138,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const std::vector<DrawnItem>& items = state.items;
     const double near_distance = state.near_distance;
     const ShadowFit& shadows = state.shadows;
-    const Visibility visibility = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
+    const Visibility visibility = s.draw_hidden ? everything_visible(s.looks, s.view)
+                                                : find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
     TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();

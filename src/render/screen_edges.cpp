@@ -24,8 +24,8 @@ bool before_eye(const Vec3& point, const CameraView& view) { return point.dot(vi
 // With `inside` on the inner side.
 ScreenEdge directed(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& inside, std::uint8_t inner,
                     std::uint8_t outer) {
-    if (turn(a, b, inside) >= 0.0) return {a.x(), a.y(), b.x(), b.y(), inner, outer};
-    return {b.x(), b.y(), a.x(), a.y(), inner, outer};
+    const ScreenPoint &from = turn(a, b, inside) >= 0.0 ? a : b, &to = &from == &a ? b : a;
+    return {float(from.x()), float(from.y()), float(to.x()), float(to.y()), inner, outer};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace tumble {
 
 struct ScreenEdge {
-    double x0, y0, x1, y1;   // pixels from the top left corner
+    float x0, y0, x1, y1;    // pixels from the top left corner
     std::uint8_t inner;      // the surface (surface_ids.h) on the side to which the way from 0 to 1 turns from x to y
     std::uint8_t outer;      // the one on the other side; 0: anything that is not `inner`
 };

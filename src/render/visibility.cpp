@@ -200,4 +200,13 @@ Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const
     return result;
 }
 
+Visibility everything_visible(const SceneLooks& looks, const CameraView& view) {
+    Visibility all{ScreenCover(view), {}, {}};
+    for (const BodyLook& look : looks.bodies) {
+        all.bodies.push_back(look.kind != DrawKind::hidden && look.kind != DrawKind::plane);
+        all.faces.push_back(look.kind == DrawKind::box ? 0x3f : 0);
+    }
+    return all;
+}
+
 }  // namespace tumble

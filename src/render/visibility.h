@@ -51,4 +51,7 @@ struct Visibility {
 /// (pixel_cover.h).
 Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample = false);
 
+/// As if nothing hid anything.
+Visibility everything_visible(const SceneLooks& looks, const CameraView& view);
+
 }  // namespace tumble
