@@ -124,6 +124,8 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
         std::nth_element(reaches.begin(), middle, reaches.end());
         looks.typical_reach = *middle;
     }
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
     looks.window_cell = window_cell_for(scene, looks);
     return looks;
 }

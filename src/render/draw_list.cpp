@@ -12,7 +12,7 @@ namespace tumble {
 namespace {
 
 // A ball's outline may leave the true circle by this much.
-constexpr double outline_error = 0.15;  // pixels
+constexpr double outline_error = 0.15;  // pixels, or texels of a shadow map
 
 // The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
 constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
@@ -107,10 +107,12 @@ std::size_t mesh_of(const BodyLook& look, const SceneLooks& looks, const Boundin
 }
 
 // As fine as the shadow map that it is drawn into.
-std::size_t caster_mesh(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const ShadowFit& shadows) {
+std::size_t caster_mesh(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const CameraView& view,
+                        const ShadowFit& shadows) {
     const double texel = !shadows.has_far || shadows.near_holds(ball.center, ball.radius) ? shadows.near_texel
                          : std::min(shadows.near_texel, shadows.far_texel);
-    if (look.kind == DrawKind::ball) return ball_mesh_for(ball.radius, most_detail_error * texel);
+    if (look.kind == DrawKind::ball)
+        return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view) : ball_mesh_for(ball.radius, outline_error * texel);
     return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
 }
 
@@ -150,7 +152,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool patterned = look.pattern != Pattern::plain;
         const double distance = ball.center.norm();
         if (casts) {
-            const std::size_t mesh = look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, shadows);
+            const std::size_t mesh = look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
             casters.push_back(make_item(mesh, false, true, distance, i, 0, false));
         }
         if (!in_view) continue;

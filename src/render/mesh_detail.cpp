@@ -71,7 +71,7 @@ double deviation_of_level(const BodyLook& look, std::size_t level) {
 
 std::size_t level_for(const BodyLook& look, const SceneLooks& looks, double deviation) {
     const std::size_t triangles = looks.meshes[look.mesh].asset->indices.size() / 3;
-    if (triangles <= few_triangles || triangles > many_triangles) return 0;
+    if (looks.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles) return 0;
     std::size_t level = 0;
     while (level + 1 < mesh_levels && deviation_of_level(look, level + 1) <= deviation) ++level;
     return level;

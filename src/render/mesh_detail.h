@@ -1,7 +1,7 @@
 // A mesh with as few triangles as its size in the picture needs. Level 0 is the mesh itself; each level after it may leave
 // the true surface twice as far as the one before. Which level is drawn depends on the distance alone: the deviation stays
 // below a quarter of a pixel (of a texel, in a shadow map), so changing over cannot be seen.
-// Levels are made when they are first needed: most scenes need few.
+// Levels are made when they are first needed. A scene whose meshes have few triangles together is drawn as it is.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -25,6 +25,9 @@ struct MeshDetail {
 inline constexpr double most_detail_error = 0.25;
 
 inline constexpr std::size_t mesh_levels = 8;
+
+/// Triangles of all bodies together that are drawn whole, however far away: 20 ms a frame at most.
+inline constexpr std::size_t most_whole_triangles = 200'000;
 
 /// How far level `level` may be off, m: 0 for level 0, then 1/512 of the mesh's radius, doubled with each.
 double deviation_of_level(const BodyLook& look, std::size_t level);

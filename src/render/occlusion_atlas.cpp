@@ -219,7 +219,7 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     const Vec3 middle = center_of(body);
     const double size = 2.0 * (look.kind == DrawKind::mesh ? look.bound_radius : look.half_size.maxCoeff());
     const double pixels = size / (std::max((middle + reference - view.eye()).norm(), 1e-30) * view.pixel_size());
-    const float detail = float(darkening_detail(pixels, sizes.few, sizes.all));
+    const float detail = looks.bodies.size() < crowd ? 1.0f : float(darkening_detail(pixels, sizes.few, sizes.all));
     Made& known = made[body];
     if (known.detail != detail) known = {0, detail};
     const std::uint8_t wanted = look.kind == DrawKind::box ? visible : std::uint8_t(1);

@@ -132,4 +132,18 @@ std::vector<Rectangle> TileMarks::rectangles() const {
     return cell_rectangles(grid_, [&](int column, int row) { return at(column, row); });
 }
 
+Rectangle TileMarks::bounds() const {
+    int x0 = grid_.columns, y0 = grid_.rows, x1 = 0, y1 = 0;
+    for (int row = 0; row < grid_.rows; ++row)
+        for (int column = 0; column < grid_.columns; ++column) {
+            if (!at(column, row)) continue;
+            x0 = std::min(x0, column);
+            x1 = std::max(x1, column + 1);
+            y0 = std::min(y0, row);
+            y1 = std::max(y1, row + 1);
+        }
+    if (x0 >= x1) return {0, 0, 0, 0};
+    return {x0 * grid_.cell, y0 * grid_.cell, (x1 - x0) * grid_.cell, (y1 - y0) * grid_.cell};
+}
+
 }  // namespace tumble

@@ -112,8 +112,7 @@ bool ScreenCover::hides(std::span<const Vec3> corners) const {
 
 namespace {
 
-// From so many bodies in view on it pays to look pixel by pixel at the small ones among them.
-constexpr std::size_t crowd = 2000;
+// What is smaller than this is looked at pixel by pixel in a crowd.
 constexpr double small = 48.0;   // pixels across
 
 struct Candidate {

@@ -33,7 +33,7 @@ private:
 };
 
 /// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall of a box.
-SceneDescription crowd() {
+SceneDescription crowded_scene() {
     Random random(3);
     SceneDescription scene = empty_scene();
     scene.output.samples = 1;
@@ -55,11 +55,12 @@ SceneDescription crowd() {
 }
 
 TEST(ManyBodies, LeavingOutWhatIsHiddenChangesNoByte) {
-    const SceneDescription scene = crowd();
+    const SceneDescription scene = crowded_scene();
     RenderOptions everything;
     everything.draw_hidden = true;
     EXPECT_EQ(drawn(scene), drawn(scene, everything));
     const SceneLooks looks = make_scene_looks(scene);
+    EXPECT_GT(looks.mesh_triangles, most_whole_triangles) << "so that meshes are simplified";
     const CameraView view(scene.camera, scene.output.width, scene.output.height);
     const auto count = [](const Visibility& v) { return std::count(v.bodies.begin(), v.bodies.end(), true); };
     const auto coarse = count(find_visible(looks, first_snapshot(scene), view));
@@ -69,7 +70,7 @@ TEST(ManyBodies, LeavingOutWhatIsHiddenChangesNoByte) {
 
 TEST(ManyBodies, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
     for (const int samples : {1, 4}) {   // with 4: smooth edges
-        SceneDescription scene = crowd();
+        SceneDescription scene = crowded_scene();
         scene.output.samples = samples;
         RenderOptions full;
         full.full_redraw = true;
@@ -119,6 +120,8 @@ TEST(ManyBodies, DarkeningGoesOverFromOneValueToAll) {
         SceneDescription scene = empty_scene();
         scene.camera.eye = Vec3(0.0, 1.0, away);
         scene.bodies = {ground_plane(), box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 200, 200})};
+        for (std::size_t i = 0; i < crowd; ++i)
+            scene.bodies.push_back(box_body(Vec3(0.0, 50.0 + 9.0 * double(i), 0.0), Vec3::Ones(), {200, 200, 200}));
         const SceneLooks looks = make_scene_looks(scene);
         const CameraView view(scene.camera, scene.output.width, scene.output.height);
         OcclusionMaker maker(looks, Vec3::Zero());
@@ -186,7 +189,9 @@ TEST(MeshDetail, IsOffByNoMoreThanAskedFor) {
 TEST(MeshDetail, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), torus_asset(1.0, 0.3), {1, 2, 3})};
-    const SceneLooks looks = make_scene_looks(scene);
+    SceneLooks looks = make_scene_looks(scene);
+    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), CameraView(scene.camera, 320, 180)), 0u) << "few triangles";
+    looks.mesh_triangles = most_whole_triangles + 1;
     const BodyLook& look = looks.bodies[0];
     const CameraView view(scene.camera, scene.output.width, scene.output.height);
     Random random(4);
