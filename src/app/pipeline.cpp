@@ -13,7 +13,7 @@ namespace {
 
 // Enough to even out frames of different cost, few enough to be nothing beside one frame's pixels.
 constexpr std::size_t waiting_poses = 8;
-constexpr std::size_t waiting_pose_bytes = 32 << 20;   // or fewer, where there are very many bodies
+constexpr std::size_t waiting_pose_bytes = 16 << 20;   // or fewer, where there are very many bodies
 // Each holds a slot of the process that drew it: more waiting here than there are slots would not make it go on.
 constexpr std::size_t waiting_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
