@@ -77,7 +77,7 @@ public:
         if (job.moments > 0) make_picture(job, drawn);
         if (job.aovs)
             drawn.aovs = timed([&] {
-                memory_.read_aov_poses(job.slot, aov_poses_);
+                memory_.read_aov_poses(aov_poses_);
                 const std::span<const std::byte> file = aovs_->make(aov_poses_);
                 std::ranges::copy(file, memory_.aovs(job.slot).data());
                 drawn.aov_bytes = file.size();
@@ -109,7 +109,7 @@ private:
 
     void expose(const Job& job) {
         for (std::size_t i = 0; i < job.moments; ++i) {
-            memory_.read_poses(job.slot, i, snapshot_);
+            memory_.read_poses(i, snapshot_);
             renderer_->render(snapshot_, image_);
             if (job.moments > 1) mean_.add(image_);
         }
@@ -196,8 +196,8 @@ DrawWorker::~DrawWorker() {
 }
 
 DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
-    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(slot, i, exposure.moments[i]);
-    if (exposure.aovs) memory_->write_aov_poses(slot, *exposure.aovs);
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
+    if (exposure.aovs) memory_->write_aov_poses(*exposure.aovs);
     DrawnFrame drawn;
     if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) || !receive_message(socket_, drawn))
         died(exposure.frame);

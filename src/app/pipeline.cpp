@@ -13,9 +13,15 @@ namespace {
 
 // Enough to even out frames of different cost, few enough to be nothing beside one frame's pixels.
 constexpr std::size_t waiting_poses = 8;
+constexpr std::size_t waiting_pose_bytes = 16 << 20;   // or fewer, where there are very many bodies
 // Each holds a slot of the process that drew it: more waiting here than there are slots would not make it go on.
 constexpr std::size_t waiting_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
+
+std::size_t poses_that_may_wait(std::size_t bodies, const Shutter& shutter) {
+    const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.moments);
+    return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
+}
 
 }  // namespace
 
@@ -36,7 +42,7 @@ Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const Fram
       video_(video),
       aovs_(aovs),
       shutter_(shutter),
-      poses_(waiting_poses),
+      poses_(poses_that_may_wait(world.snapshot().bodies.size(), shutter)),
       for_png_(waiting_frames),
       for_aovs_(waiting_frames),
       for_video_(waiting_frames) {}

@@ -1,6 +1,6 @@
-// What a drawing process and the program share: slots, one for each frame on its way. Poses go in; what is made of the
-// frame comes out: its pixels as ffmpeg takes them, its PNG file. The memory has no name, so that none is left behind
-// however the processes end.
+// What a drawing process and the program share: room for the poses of the frame that is drawn, and slots, one for each frame
+// on its way out. Poses go in; what is made of the frame comes out: its pixels as ffmpeg takes them, its PNG file, its AOVs.
+// The memory has no name, so that none is left behind however the processes end.
 #pragma once
 
 #include "output/video_format.h"
@@ -32,13 +32,14 @@ public:
     WorkerMemory(const WorkerMemory&) = delete;
     WorkerMemory& operator=(const WorkerMemory&) = delete;
 
-    /// Of one moment of the frame: its time, origins and orientations, which is all that drawing needs.
-    void write_poses(int slot, std::size_t moment, const Snapshot& snapshot);
-    void read_poses(int slot, std::size_t moment, Snapshot& snapshot) const;
+    /// Of one moment of the frame to draw next: its time, origins and orientations, and the centre of mass of the body that
+    /// the camera follows, which is all that drawing needs. There is room for one frame's.
+    void write_poses(std::size_t moment, const Snapshot& snapshot);
+    void read_poses(std::size_t moment, Snapshot& snapshot) const;
 
     /// Of the AOVs: those of the next frame only where the forms want motion.
-    void write_aov_poses(int slot, const AovPoses& poses);
-    void read_aov_poses(int slot, AovPoses& poses) const;
+    void write_aov_poses(const AovPoses& poses);
+    void read_aov_poses(AovPoses& poses) const;
 
     std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
     std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // room for the largest
@@ -50,12 +51,18 @@ public:
 
 private:
     std::span<std::byte> part(int slot, std::size_t at, std::size_t size) const {
-        return {memory_ + std::size_t(slot) * slot_size_ + at, size};
+        return {memory_ + slots_at_ + std::size_t(slot) * slot_size_ + at, size};
     }
 
+    std::span<double> poses(std::size_t moment) const {
+        return {reinterpret_cast<double*>(memory_ + words_size + moment * poses_size_), poses_size_ / sizeof(double)};
+    }
+
+    static constexpr std::size_t words_size = 4096;
+    std::optional<std::size_t> followed_;
     bool motion_;
-    std::size_t bodies_, most_moments_, poses_size_, video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_,
-        slot_size_, words_at_, size_;
+    std::size_t bodies_, most_moments_, poses_size_, slots_at_, video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_,
+        slot_size_, size_;
     std::byte* memory_;
 };
 

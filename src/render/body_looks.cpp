@@ -2,9 +2,11 @@
 
 #include "render/mesh_occluders.h"
 #include "render/mesh_probes.h"
+#include "render/occlusion_atlas.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -77,6 +79,26 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
 
 void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
 
+// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers.
+double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
+    constexpr double stragglers = 0.02, margin = 1.1;
+    double extent = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> at;
+        for (std::size_t i = 0; i < looks.bodies.size(); ++i)
+            if (looks.bodies[i].reach > 0.0) at.push_back(scene.bodies[i].position[axis]);
+        if (at.empty()) break;
+        const auto skipped = std::ptrdiff_t(stragglers * double(at.size()));
+        std::nth_element(at.begin(), at.begin() + skipped, at.end());
+        const double low = at[std::size_t(skipped)];
+        std::nth_element(at.begin(), at.end() - 1 - skipped, at.end());
+        extent = std::max(extent, *(at.end() - 1 - skipped) - low);
+    }
+    double cell = std::exp2(std::floor(std::log2(looks.typical_reach / OcclusionAtlas::texels_per_reach)));
+    while (margin * extent > cell * (OcclusionAtlas::largest_window - 64)) cell *= 2.0;
+    return cell;
+}
+
 }  // namespace
 
 SceneLooks make_scene_looks(const SceneDescription& scene) {
@@ -91,6 +113,7 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
             look.metallic = float(body.surface.metallic);
             look.pattern = body.surface.pattern;
         }
+        if (look.kind == DrawKind::plane) looks.planes.push_back(looks.bodies.size());
         looks.bodies.push_back(look);
     }
     std::vector<double> reaches;
@@ -101,6 +124,9 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
         std::nth_element(reaches.begin(), middle, reaches.end());
         looks.typical_reach = *middle;
     }
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
+    looks.window_cell = window_cell_for(scene, looks);
     return looks;
 }
 

@@ -49,13 +49,21 @@ struct MeshLook {
     std::vector<OccluderBox> occluders;
     std::vector<MeshProbe> probes;
     std::vector<std::uint32_t> probe_of_vertex;
+    std::vector<MeshProbe> coarse_probes;          // for meshes that are small in the picture
+    std::vector<std::uint32_t> coarse_of_probe;
 };
 
 struct SceneLooks {
     std::vector<BodyLook> bodies;  // in scene order
     std::vector<MeshLook> meshes;  // each once, in order of first use
+    std::vector<std::size_t> planes;   // which bodies are planes
     double typical_reach = 1.0;    // m, the median of the bodies'
+    std::size_t mesh_triangles = 0;    // of all bodies together
+    double window_cell = 0.25;     // m, of the texels that planes are darkened by; a power of two
 };
+
+/// From so many bodies on, small ones are looked at pixel by pixel and darkened coarsely; with fewer it would gain little.
+inline constexpr std::size_t crowd = 2000;
 
 SceneLooks make_scene_looks(const SceneDescription& scene);
 

@@ -32,7 +32,10 @@ CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), keys_
 
 Vec3 CameraPath::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
-    return snapshot.bodies.at(*camera_.follow).origin - camera_.follow_start;
+    const BodyState& body = snapshot.bodies.at(*camera_.follow);
+    // The scene does not know where the centre of mass is; but the body is rigid, so it is where it was, body frame.
+    const Vec3 center = body.orientation.conjugate() * (body.center_of_mass - body.origin);
+    return body.center_of_mass - (camera_.follow_start + camera_.follow_start_rotation * center);
 }
 
 CameraDescription CameraPath::at(const Snapshot& snapshot) const {

@@ -1,6 +1,7 @@
 // Where a moving camera is: a function of the scene and one snapshot alone, so that every process that draws finds the
 // same place. Three movements, one after the other: along the keyframes; in a circle about the target, by
-// orbit * t around `up`; along with a body, eye and target by the way that its origin has gone.
+// orbit * t around `up`; along with a body, eye and target by the way that its centre of mass has gone (a body that tumbles
+// turns around that, and its origin swings).
 #pragma once
 
 #include "core/number_track.h"

@@ -9,6 +9,9 @@
 namespace tumble {
 namespace {
 
+// Moved bodies whose marks are worth working out: 1 microsecond each, and as much again for their shadows.
+constexpr std::ptrdiff_t most_marked = 10'000;
+
 // The shadow maps' square in coarse cells: how near to the sun a moved body begins in each. What lies outside of the
 // square counts as in the cells at its rim.
 class LightCells {
@@ -53,10 +56,11 @@ private:
 };
 
 std::array<Vec3, 4> face_corners(const DrawnItem& box, int face) {
+    const std::array<Vec3, 8> corners = box.corners();
     std::array<Vec3, 4> points;
     std::size_t found = 0;
     for (std::size_t i = 0; i < 8; ++i)
-        if ((i >> (face / 2) & 1) == std::size_t(face % 2)) points[found++] = box.corners[i];
+        if ((i >> (face / 2) & 1) == std::size_t(face % 2)) points[found++] = corners[i];
     return points;
 }
 
@@ -99,13 +103,15 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
                item.center.dot(view_->forward()) - item.radius < 1.01 * now.near_distance;
     });
     shadow_marks_.settle();
-    if (too_near || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
+    // Where very many move, finding out what they touch costs more than drawing all.
+    const bool many = std::count(item_moved.begin(), item_moved.end(), char(1)) > most_marked;
+    if (too_near || many || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
         marks.mark_all();
     } else {
         for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
             if (item_moved[i] == 0 || !now.items[i].exists()) continue;
             for (const DrawnItem* item : std::array<const DrawnItem*, 2>{&items_[i], &now.items[i]}) {
-                marks.mark_hull(item->corners);
+                marks.mark_hull(item->corners());
                 mark_on_planes(*item, i, now, marks);
             }
         }
@@ -113,7 +119,7 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
         for (const OcclusionChanges::Body& changed : occlusion.bodies) {
             const DrawnItem& item = now.items[changed.body];
             if (item_moved[changed.body] != 0) continue;
-            if (changed.faces == 0) marks.mark_hull(item.corners);
+            if (changed.faces == 0) marks.mark_hull(item.corners());
             for (int face = 0; face < 6; ++face)
                 if ((changed.faces >> face & 1) != 0) marks.mark_hull(face_corners(item, face));
         }
@@ -147,7 +153,7 @@ void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const Fram
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] != 0 || !now.items[i].exists()) continue;
         if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
-        if (cells.shadows(now.items[i])) marks.mark_hull(now.items[i].corners);
+        if (cells.shadows(now.items[i])) marks.mark_hull(now.items[i].corners());
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_view.h"
+#include "render/mesh_detail.h"
 #include "render/occlusion_atlas.h"
 #include "render/shadow_fit.h"
 #include "sim/snapshot.h"
@@ -26,9 +27,12 @@ struct Instance {
                             // number as alpha; 1: wholly within the near shadow map
 };
 
-/// The meshes by number: the box, one face of it, the balls from coarse to fine, the cylinder, then the scene's own.
-inline constexpr std::size_t box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
+/// The meshes by number: half a box (what the sun sees of it), one face of it, the balls from coarse to fine, the cylinder, then the scene's own, each
+/// with its levels of detail.
+inline constexpr std::size_t half_box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
+
+inline std::size_t scene_mesh(std::size_t mesh, std::size_t level) { return first_scene_mesh + mesh * mesh_levels + level; }
 
 struct Batch {
     std::size_t mesh = 0;

@@ -10,7 +10,7 @@ DrawnItem body_item(const BodyLook& look, const SceneLooks& looks, const BodySta
     item.center = ball.center;
     item.radius = ball.radius;
     const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
-    item.corners = box_corners(ball.center, state.orientation.toRotationMatrix(), half_size);
+    item.half_axes = state.orientation.toRotationMatrix() * half_size.asDiagonal();
     return item;
 }
 
@@ -21,11 +21,22 @@ DrawnItem cord_item(const CordDescription& cord, const BodyState& state, const C
     item.center = 0.5 * (from + to);
     item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
     const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), to - from);
-    item.corners = box_corners(item.center, turn.toRotationMatrix(), Vec3(cord.radius, item.radius, cord.radius));
+    item.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, item.radius, cord.radius).asDiagonal();
     return item;
 }
 
 }  // namespace
+
+std::array<Vec3, 8> DrawnItem::corners() const {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = center;
+        for (int k = 0; k < 3; ++k)
+            if ((i >> k & 1) != 0) corners[i] += half_axes.col(k);
+            else corners[i] -= half_axes.col(k);
+    }
+    return corners;
+}
 
 std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size) {
     std::array<Vec3, 8> corners;

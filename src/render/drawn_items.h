@@ -11,10 +11,11 @@
 namespace tumble {
 
 struct DrawnItem {
-    std::array<Vec3, 8> corners;   // of a box around it, relative to the eye: corner i is on the high side of axis k
-                                   // when bit k of i is set
-    Vec3 center;                   // of a ball around it, relative to the eye
+    Mat3 half_axes;                // of a box around it: from its middle to the middles of its high sides
+    Vec3 center;                   // of that box and of a ball around it, relative to the eye
     double radius = -1.0;          // m; negative: nothing is drawn
+    /// Of the box, relative to the eye: corner i is on the high side of axis k when bit k of i is set.
+    std::array<Vec3, 8> corners() const;
     bool exists() const { return radius >= 0.0; }
 };
 

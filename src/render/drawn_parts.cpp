@@ -38,6 +38,12 @@ DrawnParts::DrawnParts(const SceneDescription& scene) : scene_(scene) {
     for (ForceDescription& force : scene_.forces) force.body = first[force.body];
 }
 
+void DrawnParts::forget_bodies() {
+    for (const BodyDescription& body : scene_.bodies)
+        if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) assets_.insert(mesh->asset);
+    scene_.bodies = std::vector<BodyDescription>();
+}
+
 const Snapshot& DrawnParts::snapshot(const Snapshot& whole) {
     if (parts_.empty()) return whole;
     snapshot_.frame = whole.frame;

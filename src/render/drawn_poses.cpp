@@ -61,9 +61,10 @@ bool DrawnPoses::settle(std::size_t body, BodyState& state) {
     if (may_stay(body, drawn, state)) {
         state.origin = drawn.origin;
         state.orientation = drawn.orientation;
+        state.center_of_mass = drawn.center_of_mass;
         return false;
     }
-    drawn = {state.origin, state.orientation};
+    drawn = {state.origin, state.orientation, state.center_of_mass};
     return true;
 }
 
@@ -71,14 +72,17 @@ bool DrawnPoses::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
     bool moved = drawn_.empty();
     if (moved)
-        for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation});
+        for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
     if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;
     CameraDescription camera = path_.at(snapshot);
     if (!same_place(camera, camera_)) {
         camera_ = std::move(camera);
         view_ = view_.from(camera_);
         for (std::size_t i = 0; i < drawn_.size(); ++i)
-            if (i != followed_) drawn_[i] = {snapshot.bodies[i].origin, snapshot.bodies[i].orientation};
+            if (i != followed_) {
+                const BodyState& state = snapshot.bodies[i];
+                drawn_[i] = {state.origin, state.orientation, state.center_of_mass};
+            }
         return true;
     }
     for (std::size_t i = 0; i < drawn_.size(); ++i)

@@ -26,7 +26,7 @@ class DrawnPoses {
 public:
     explicit DrawnPoses(const SceneDescription& scene);
 
-    /// Replaces the poses by those to draw (origin and orientation; the rest is left as it is). False when they are
+    /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when they are
     /// those of the call before: the picture is the same to the last byte; never when the
     /// camera has moved. The first call says true.
     bool follow(Snapshot& snapshot);
@@ -35,6 +35,7 @@ private:
     struct Pose {
         Vec3 origin;
         Quat orientation;
+        Vec3 center_of_mass;   // which a camera may follow
     };
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 

@@ -3,7 +3,7 @@
 
 #include "render/mesh_buffer.h"
 
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -12,17 +12,18 @@ class MeshLibrary {
 public:
     MeshLibrary(const GlFunctions& gl, const SceneLooks& looks);
 
-    const MeshBuffer& operator[](std::size_t mesh) const { return meshes_[mesh]; }
-
-    /// Sends the frame's instances; the batches drawn next refer to them.
-    void upload(std::span<const Instance> instances);
+    /// Sends the frame's instances, which the batches drawn next refer to, and meshes that they are the first to need.
+    void upload(const DrawList& list, MeshDetails& details);
 
     /// Draws a batch; back faces of closed meshes are left out.
     void draw(const Batch& batch) const;
 
 private:
+    void make(std::size_t mesh, MeshDetails& details);
+
     const GlFunctions* gl_;
-    std::vector<MeshBuffer> meshes_;
+    const SceneLooks* looks_;
+    std::vector<std::optional<MeshBuffer>> meshes_;
     GlObject instances_;
 };
 

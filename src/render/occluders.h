@@ -2,10 +2,10 @@
 #pragma once
 
 #include "render/body_looks.h"
-#include "render/camera_view.h"
 #include "sim/snapshot.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace tumble {
@@ -21,13 +21,13 @@ struct Occluder {
     std::size_t body;
 };
 
-/// The boxes and balls of all bodies that may darken something in the picture, in scene order. `reference`: a point by the
-/// scene that all positions are relative to, m. It stays where it is when the camera moves, so that what the bodies take
-/// from each other is then the same to the bit.
-std::vector<Occluder> make_occluders(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
-                                     const Vec3& reference);
+/// The boxes and balls of one body, appended. `reference`: a point by the scene that all positions are relative to, m. It
+/// stays where it is when the camera moves, so that what the bodies take from each other is then the same to the bit.
+void add_occluders(const SceneLooks& looks, std::size_t body, const BodyState& state, const Vec3& reference,
+                   std::vector<Occluder>& occluders);
 
-/// Finds what is near: cells of a regular lattice, kept sorted. What spans too many cells is a candidate everywhere.
+/// Finds what is near a place: a lattice of cells for each power of two of the occluders' sizes, each occluder in the one
+/// cell that holds its centre. Building takes time in proportion to their number, a search to what is near.
 class OccluderFinder {
 public:
     explicit OccluderFinder(const std::vector<Occluder>& occluders);
@@ -35,24 +35,25 @@ public:
     /// The occluders whose bounding ball, grown by twice their reach, meets the ball given; in order, each once.
     void find(const Eigen::Vector3f& center, float radius, std::vector<std::size_t>& found) const;
 
+    /// Is there any?
+    bool any(const Eigen::Vector3f& center, float radius) const;
+
 private:
-    struct Cell {
-        int x, y, z;
-        auto operator<=>(const Cell&) const = default;
-    };
     struct Entry {
-        Cell cell;
-        std::size_t occluder;
-        auto operator<=>(const Entry&) const = default;
+        float x, y, z, influence;   // m
+        std::uint32_t occluder;
+    };
+    struct Level {
+        float cell = 1.0f, largest = 0.0f;   // m: of a cell, and the largest influence
+        Eigen::Array3f low, high;            // m: of the centres
+        std::uint32_t mask = 0;              // of the table's buckets, a power of two of them
+        std::vector<std::uint32_t> starts;   // of each bucket, and the end
+        std::vector<Entry> entries;          // bucket by bucket
     };
     template <class Visit>
-    bool for_each_cell(const Eigen::Vector3f& center, float radius, Visit visit) const;
-    bool meets(std::size_t occluder, const Eigen::Vector3f& center, float radius) const;
+    void visit_near(const Eigen::Vector3f& center, float radius, Visit visit) const;   // until it says false
 
-    const std::vector<Occluder>* occluders_;
-    float cell_size_ = 1.0f;  // m
-    std::vector<Entry> entries_;
-    std::vector<std::size_t> everywhere_;
+    std::vector<Level> levels_;
 };
 
 }  // namespace tumble

@@ -1,7 +1,7 @@
 #include "render/occlusion_atlas.h"
 
-#include "render/draw_list.h"
-#include "render/plane_axes.h"
+#include "render/occlusion_places.h"
+#include "render/plane_darkening.h"
 #include "render/plane_patch.h"
 
 #include <algorithm>
@@ -10,18 +10,16 @@
 namespace tumble {
 namespace {
 
-constexpr double texels_per_reach = 4.0;  // how finely a body's darkening is sampled
-constexpr int least_tile = 5, most_tile = 64;
-constexpr int ball_tile = 16;
-constexpr int largest_window = 1024;  // texels; bodies beyond it leave the plane open
-constexpr int window_step = 16;       // texels; a window that moves has the whole plane drawn anew
-constexpr int most_rows = 8192;       // OpenGL 4.1 grants 16384
-
-struct PlaneInView {
-    std::size_t body;
-    Eigen::Vector3f normal;
-    float height;  // of the point that positions are relative to, above it, m
+// Pixels across the picture of a body's longest edge, or of the ball around a mesh: below the first its darkening is
+// coarse, above the second fine.
+struct Sizes {
+    double few, all;
 };
+constexpr Sizes box_sizes{4.0, 8.0}, ball_sizes{6.0, 12.0}, mesh_sizes{24.0, 48.0};
+constexpr int coarse_ball_tile = 4;
+
+// Where more than this part of the bodies moved, all are looked at again: searching who is near one of them gains nothing.
+constexpr double most_moved = 0.25;
 
 // The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
 Eigen::Vector3f octahedral(float x, float y) {
@@ -32,341 +30,343 @@ Eigen::Vector3f octahedral(float x, float y) {
         .normalized();
 }
 
-int box_tile(const BodyLook& look, int coarser) {
-    const double edge = 2.0 * look.half_size.maxCoeff();
-    return std::clamp(int(std::ceil(texels_per_reach * edge / look.reach / coarser)) + 1, least_tile, most_tile);
-}
-
-// Shelves: a rectangle goes to the right of the last one where it fits under the same roof, else on a new shelf.
-class Shelves {
-public:
-    explicit Shelves(int first_row) : row_(first_row) {}
-
-    bool take(int width, int height, int& x, int& y) {
-        if (width > OcclusionAtlas::width) return false;
-        if (x_ + width > OcclusionAtlas::width || height > height_) {
-            if (row_ + height_ + height > most_rows) return false;
-            row_ += height_;
-            x_ = 0;
-            height_ = height;
+// A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
+void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
+    result.resize(std::size_t(to) * std::size_t(to));
+    const float step = to > 1 ? float(from - 1) / float(to - 1) : 0.0f;
+    const auto at = [&](int i, int j) { return values[std::size_t(j * from + i)]; };
+    for (int j = 0, k = 0; j < to; ++j)
+        for (int i = 0; i < to; ++i, ++k) {
+            const float s = float(i) * step, t = float(j) * step;
+            const int a = std::min(int(s), from - 2), b = std::min(int(t), from - 2);
+            const float u = s - float(a), v = t - float(b);
+            result[std::size_t(k)] = (at(a, b) * (1.0f - u) + at(a + 1, b) * u) * (1.0f - v) +
+                                     (at(a, b + 1) * (1.0f - u) + at(a + 1, b + 1) * u) * v;
         }
-        x = x_;
-        y = row_;
-        x_ += width;
-        return true;
-    }
-    int end() const { return row_ + height_; }
-
-private:
-    int row_, x_ = 0, height_ = 0;
-};
-
-class AtlasMaker {
-public:
-    AtlasMaker(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, const Vec3& reference,
-               OcclusionAtlas& atlas, const std::vector<std::uint32_t>& versions,
-               std::vector<std::vector<std::uint64_t>>& neighbours, OcclusionChanges& changes)
-        : looks_(looks),
-          snapshot_(snapshot),
-          reference_(reference),
-          occluders_(make_occluders(looks, snapshot, view, reference)),
-          finder_(occluders_),
-          atlas_(atlas),
-          versions_(versions),
-          neighbours_(neighbours),
-          changes_(changes) {
-        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            if (looks.bodies[i].kind != DrawKind::plane) continue;
-            const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
-            if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
-                planes_.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
-        }
-    }
-
-    void make(const Visibility& visibility, int first_window_row) {
-        Shelves shelves(first_window_row);
-        atlas_.windows.clear();
-        for (const PlaneInView& plane : planes_) add_window(plane, shelves);
-        for (std::size_t i = 0; i < looks_.bodies.size(); ++i)
-            if (visibility.bodies[i] && atlas_.places[i].size > 0)
-                add_body(i, center_of(i), visibility.faces[i]);
-    }
-
-private:
-    void grow(int height) {
-        atlas_.height = std::max(atlas_.height, height);
-        atlas_.texels.resize(std::size_t(atlas_.height) * OcclusionAtlas::width, 255);
-    }
-    void store(int x, int y, int width, int first) {
-        for (int i = 0; i < width; ++i) {
-            const auto value = std::uint8_t(255.0f * points_.open[std::size_t(first + i)] + 0.5f);
-            std::uint8_t& at = texel(x + i, y);
-            if (at == value) continue;
-            at = value;
-            changed_ = true;
-            changes_.first_row = std::min(changes_.first_row, y);
-            changes_.end_row = std::max(changes_.end_row, y + 1);
-        }
-    }
-    std::uint8_t& texel(int x, int y) { return atlas_.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)]; }
-    /// Of the ball around a body.
-    Vec3 center_of(std::size_t body) const {
-        const BodyState& state = snapshot_.bodies[body];
-        return Vec3(state.origin - reference_) + state.orientation * looks_.bodies[body].bound_center;
-    }
-    // Are the body's neighbours those of the last time, in the same poses? Notes them down.
-    bool as_before(std::size_t body, std::uint8_t visible) {
-        key_.assign(1, visible);
-        const auto add = [&](std::size_t other) {
-            const std::uint64_t entry = std::uint64_t(other) << 32 | versions_[other];
-            if (key_.empty() || key_.back() != entry) key_.push_back(entry);
-        };
-        add(body);
-        for (const std::size_t i : found_) add(occluders_[i].body);
-        for (const PlaneInView& plane : near_planes_) add(plane.body);
-        if (neighbours_[body] == key_) return true;
-        neighbours_[body] = key_;
-        return false;
-    }
-    void darken_by(const std::vector<std::size_t>& near, double reach) {
-        for (const std::size_t i : near) darken(points_, occluders_[i], float(reach));
-        for (const PlaneInView& plane : near_planes_) darken(points_, plane.normal, plane.height, float(reach));
-    }
-
-    void add_body(std::size_t body, const Vec3& ball_center, std::uint8_t visible) {
-        const BodyLook& look = looks_.bodies[body];
-        const Eigen::Vector3f center = ball_center.cast<float>();
-        finder_.find(center, float(look.bound_radius), found_);
-        std::erase_if(found_, [&](std::size_t i) { return occluders_[i].body == body; });  // not by itself
-        near_planes_.clear();
-        for (const PlaneInView& plane : planes_)
-            if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes_.push_back(plane);
-        if (as_before(body, visible)) return;
-        changed_ = false;
-        std::uint8_t faces = 0;
-        if (look.kind == DrawKind::box) faces = add_box(body, ball_center, visible);
-        if (look.kind == DrawKind::ball) add_ball(body, center);
-        if (look.kind == DrawKind::mesh) add_mesh(body);
-        if (changed_) changes_.bodies.push_back({body, faces});
-    }
-
-    // Tiles in the order of make_box()'s faces; a texel's centre at each corner of a face.
-    // Returns the faces that changed.
-    std::uint8_t add_box(std::size_t body, const Vec3& center, std::uint8_t visible) {
-        const BodyLook& look = looks_.bodies[body];
-        const OcclusionPlace& place = atlas_.places[body];
-        const int size = place.size;
-        std::uint8_t faces = 0;
-        const Mat3 axes = snapshot_.bodies[body].orientation.toRotationMatrix();
-        for (int face = 0; face < 6; ++face) {
-            const int axis = face / 2;
-            const double side = face % 2 == 0 ? -1.0 : 1.0;
-            const Vec3 normal = side * axes.col(axis);
-            const Vec3 middle = center + normal * look.half_size[axis];
-            if ((visible >> face & 1) == 0) continue;
-            const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-            const Vec3 u = axes.col(a) * look.half_size[a], v = axes.col(b) * look.half_size[b];
-            points_.set_lattice((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
-                                (2.0 * v / (size - 1)).cast<float>(), normal.cast<float>(), size, size);
-            const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
-            near_face_.clear();
-            for (const std::size_t i : found_)
-                if (may_darken(occluders_[i], middle.cast<float>(), normal.cast<float>(), radius, float(look.reach)))
-                    near_face_.push_back(i);
-            darken_by(near_face_, look.reach);
-            changed_ = false;
-            for (int j = 0; j < size; ++j) store(place.x + face * size, place.y + j, size, j * size);
-            if (changed_) faces |= std::uint8_t(1u << face);
-        }
-        changed_ = faces != 0;
-        return faces;
-    }
-
-    void add_ball(std::size_t body, const Eigen::Vector3f& center) {
-        const BodyLook& look = looks_.bodies[body];
-        const OcclusionPlace& place = atlas_.places[body];
-        const Eigen::Matrix3f axes = snapshot_.bodies[body].orientation.toRotationMatrix().cast<float>();
-        points_.clear();
-        for (int j = 0; j < ball_tile; ++j)
-            for (int i = 0; i < ball_tile; ++i) {
-                const float s = 2.0f * float(i) / (ball_tile - 1) - 1.0f, t = 2.0f * float(j) / (ball_tile - 1) - 1.0f;
-                const Eigen::Vector3f normal = axes * octahedral(s, t);
-                points_.add(center + normal * float(look.half_size.x()), normal);
-            }
-        darken_by(found_, look.reach);
-        for (int j = 0; j < ball_tile; ++j) store(place.x, place.y + j, ball_tile, j * ball_tile);
-    }
-
-    // A run of texels, row after row over the atlas' whole width.
-    void add_mesh(std::size_t body) {
-        const BodyLook& look = looks_.bodies[body];
-        const std::vector<MeshProbe>& probes = looks_.meshes[look.mesh].probes;
-        const int count = int(probes.size()), rows = (count + OcclusionAtlas::width - 1) / OcclusionAtlas::width;
-        const OcclusionPlace& place = atlas_.places[body];
-        const BodyState& state = snapshot_.bodies[body];
-        const Mat3 axes = state.orientation.toRotationMatrix();
-        const Vec3 origin = state.origin - reference_;
-        points_.clear();
-        for (const MeshProbe& probe : probes)
-            points_.add((origin + axes * probe.position).cast<float>(), (axes * probe.normal).cast<float>());
-        darken_by(found_, look.reach);
-        for (int row = 0; row < rows; ++row)
-            store(place.x, place.y + row, std::min(OcclusionAtlas::width, count - row * OcclusionAtlas::width),
-                  row * OcclusionAtlas::width);
-    }
-
-    void add_window(const PlaneInView& plane, Shelves& shelves);
-
-    const SceneLooks& looks_;
-    const Snapshot& snapshot_;
-    const Vec3 reference_;
-    std::vector<Occluder> occluders_;
-    OccluderFinder finder_;
-    std::vector<PlaneInView> planes_, near_planes_;
-    OcclusionAtlas& atlas_;
-    const std::vector<std::uint32_t>& versions_;
-    std::vector<std::vector<std::uint64_t>>& neighbours_;
-    OcclusionChanges& changes_;
-    bool changed_ = false;                       // some texel of the tile at hand
-    std::vector<std::uint64_t> key_;
-    SurfacePoints points_;                       // of the tile at hand
-    std::vector<std::size_t> found_, near_face_;  // what may darken it
-};
-
-// Every occluder near the plane darkens the texels around its foot; they multiply, as everywhere.
-void AtlasMaker::add_window(const PlaneInView& plane, Shelves& shelves) {
-    const BodyState& state = snapshot_.bodies[plane.body];
-    const PlaneAxes axes = plane_axes(looks_.bodies[plane.body].plane.normal);
-    const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
-    const Vec3 origin = state.origin - reference_;  // the plane's coordinates count from here
-    OcclusionWindow window;
-    window.body = plane.body;
-    // A power of two, and the window on whole cells: texels stay where they are while bodies move.
-    window.cell = window_cell(looks_);
-
-    struct Foot {
-        const Occluder* occluder;
-        double a, b, radius;
-    };  // m
-    std::vector<Foot> feet;
-    for (const Occluder& o : occluders_) {
-        const double height = double(plane.normal.dot(o.center)) + double(plane.height);
-        if (height > double(o.bound_radius) + 2.0 * double(o.reach) || height < -double(o.bound_radius)) continue;
-        const Vec3 from_origin = o.center.cast<double>() - origin;
-        feet.push_back({&o, u.dot(from_origin), v.dot(from_origin), double(o.bound_radius) + double(o.reach)});
-    }
-    if (feet.empty()) return;
-
-    const auto range = [&](auto coordinate, double& low, int& count) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-        for (const Foot& foot : feet) {
-            least = std::min(least, coordinate(foot) - foot.radius);
-            most = std::max(most, coordinate(foot) + foot.radius);
-        }
-        if ((most - least) / window.cell > largest_window - 4) {  // keep the part where most of them are
-            std::vector<double> middles;
-            for (const Foot& foot : feet) middles.push_back(coordinate(foot));
-            const auto middle = middles.begin() + std::ptrdiff_t(middles.size() / 2);
-            std::nth_element(middles.begin(), middle, middles.end());
-            least = *middle - 0.5 * (largest_window - 4) * window.cell;
-            most = *middle + 0.5 * (largest_window - 4) * window.cell;
-        }
-        // Whole steps: it seldom moves. Room for an open texel on either side.
-        low = window_step * std::floor((least / window.cell - 1.0) / window_step);
-        count = std::min(largest_window,
-                         window_step * int(std::ceil((std::ceil(most / window.cell) - low + 2.0) / window_step)));
-    };
-    range([](const Foot& foot) { return foot.a; }, window.low_a, window.width);
-    range([](const Foot& foot) { return foot.b; }, window.low_b, window.height);
-    if (!shelves.take(window.width, window.height, window.x, window.y)) return;
-    grow(shelves.end());
-    const int width = window.width;
-    std::vector<float> open(std::size_t(width) * std::size_t(window.height), 1.0f);
-    for (const Foot& foot : feet) {
-        const auto first = [&](double at, double low) {
-            return std::max(1, int(std::floor((at - foot.radius) / window.cell - low)));
-        };
-        const auto last = [&](double at, double low, int count) {
-            return std::min(count - 2, int(std::ceil((at + foot.radius) / window.cell - low)));
-        };
-        const int i0 = first(foot.a, window.low_a), i1 = last(foot.a, window.low_a, window.width);
-        const int j0 = first(foot.b, window.low_b), j1 = last(foot.b, window.low_b, window.height);
-        if (i0 > i1 || j0 > j1) continue;
-        const Vec3 on_plane = origin + looks_.bodies[plane.body].plane.offset * plane.normal.cast<double>();
-        const Vec3 corner = on_plane + u * ((window.low_a + i0) * window.cell) + v * ((window.low_b + j0) * window.cell);
-        points_.set_lattice(corner.cast<float>(), (u * window.cell).cast<float>(), (v * window.cell).cast<float>(),
-                            plane.normal, i1 - i0 + 1, j1 - j0 + 1);
-        darken(points_, *foot.occluder, foot.occluder->reach);
-        for (int j = j0, k = 0; j <= j1; ++j)
-            for (int i = i0; i <= i1; ++i, ++k) open[std::size_t(j * width + i)] *= points_.open[std::size_t(k)];
-    }
-    points_.open = std::move(open);
-    for (int j = 0; j < window.height; ++j) store(window.x, window.y + j, width, j * width);
-    atlas_.windows.push_back(window);
 }
 
 }  // namespace
 
-double window_cell(const SceneLooks& looks) {
-    return std::exp2(std::floor(std::log2(looks.typical_reach / texels_per_reach)));
+double window_cell(const SceneLooks& looks) { return looks.window_cell; }
+
+double darkening_detail(double pixels, double few, double all) {
+    const double t = std::clamp((pixels - few) / (all - few), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+struct OcclusionMaker::State {
+    struct Pose {
+        Vec3 origin;
+        Quat orientation;
+    };
+    // What a body's texels were made from, beside the bodies around it.
+    struct Made {
+        std::uint8_t faces = 0;   // up to date; 1 for what has no faces
+        float detail = 0.0f;
+    };
+
+    State(const SceneLooks& l, const Vec3& r) : looks(l), reference(r), made(l.bodies.size()) {
+        lay_out_places(looks, atlas);
+        body_rows = atlas.height;
+        atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
+    }
+
+    void follow(const Snapshot& snapshot);
+    void find_planes(const Snapshot& snapshot, const CameraView& view);
+    void forget_touched(const Visibility& visibility);
+    void update_windows(const Snapshot& snapshot);
+    void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
+    std::uint8_t make_box(std::size_t body, std::uint8_t wanted, float detail);
+    void make_ball(std::size_t body, float detail);
+    void make_mesh(std::size_t body, float detail);
+    void darken_points(const std::vector<std::size_t>& near, double reach) {
+        for (const std::size_t i : near) darken(points, occluders[i], float(reach));
+        for (const PlaneInView& plane : near_planes) darken(points, plane.normal, plane.height, float(reach));
+    }
+    bool store(int x, int y, int width, const float* open);
+    Vec3 center_of(std::size_t body) const {   // of the ball around it
+        return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
+    }
+
+    const SceneLooks& looks;
+    const Vec3 reference;
+    OcclusionAtlas atlas;
+    int body_rows = 1;                       // of the atlas; the windows come below
+    OcclusionChanges changes;
+    std::vector<Pose> poses;                 // of the last update
+    std::vector<Occluder> occluders, moved;  // of all bodies; those that moved, as they were and as they are
+    std::vector<std::uint32_t> first;        // occluder of each body, and the end
+    OccluderFinder finder{{}};
+    bool anew = true;                        // everything is to be worked out
+    bool moved_much = false;
+    std::vector<Made> made;
+    std::vector<PlaneInView> planes, near_planes;
+    PlaneDarkening plane_darkening;
+    SurfacePoints points;                    // of the tile at hand
+    std::vector<std::size_t> found, near_face;   // what may darken it
+    std::vector<float> coarse, stretched;
+};
+
+// Takes in the new poses: the occluders, and which of them moved.
+void OcclusionMaker::State::follow(const Snapshot& snapshot) {
+    const std::size_t bodies = looks.bodies.size();
+    moved.clear();
+    moved_much = false;
+    if (poses.empty()) {
+        for (std::size_t i = 0; i < bodies; ++i) {
+            const BodyState& state = snapshot.bodies[i];
+            poses.push_back({state.origin, state.orientation});
+            first.push_back(std::uint32_t(occluders.size()));
+            add_occluders(looks, i, state, reference, occluders);
+        }
+        first.push_back(std::uint32_t(occluders.size()));
+        finder = OccluderFinder(occluders);
+        return;
+    }
+    const auto has_moved = [&](std::size_t i) {
+        const BodyState& state = snapshot.bodies[i];
+        return poses[i].origin != state.origin || poses[i].orientation.coeffs() != state.orientation.coeffs();
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < bodies; ++i) count += has_moved(i) ? 1 : 0;
+    if (count == 0) return;
+    moved_much = double(count) > most_moved * double(bodies);
+    std::vector<Occluder> now;
+    for (std::size_t i = 0; i < bodies; ++i) {
+        if (!has_moved(i)) continue;
+        const BodyState& state = snapshot.bodies[i];
+        poses[i] = {state.origin, state.orientation};
+        made[i].faces = 0;
+        now.clear();
+        add_occluders(looks, i, state, reference, now);
+        const auto place = occluders.begin() + first[i];
+        if (!moved_much) {
+            moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
+            moved.insert(moved.end(), now.begin(), now.end());
+        }
+        std::copy(now.begin(), now.end(), place);
+    }
+    finder = OccluderFinder(occluders);
+}
+
+void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraView& view) {
+    std::vector<PlaneInView> now;
+    for (const std::size_t i : looks.planes) {
+        const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
+        if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
+            now.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
+    }
+    if (now != planes) anew = true;
+    planes = std::move(now);
+}
+
+// Those that something has moved near to or away from.
+void OcclusionMaker::State::forget_touched(const Visibility& visibility) {
+    if (anew || moved_much) {
+        for (Made& body : made) body.faces = 0;
+        return;
+    }
+    if (moved.empty()) return;
+    const OccluderFinder movers(moved);
+    for (std::size_t i = 0; i < made.size(); ++i)   // what is out of sight waits until it is seen
+        if (made[i].faces != 0 &&
+            (!visibility.bodies[i] || movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius))))
+            made[i].faces = 0;
+}
+
+void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
+    AtlasShelves shelves(body_rows, OcclusionAtlas::most_rows);
+    std::vector<OcclusionWindow> windows;
+    for (const PlaneInView& plane : planes) {
+        const auto known = std::find_if(atlas.windows.begin(), atlas.windows.end(),
+                                        [&](const OcclusionWindow& w) { return w.body == plane.body; });
+        OcclusionWindow window;
+        const auto keep = [&](int x, int y, int width, const float* open) {
+            const int needed = y + 1;
+            if (needed > atlas.height) {
+                atlas.height = needed;
+                atlas.texels.resize(std::size_t(needed) * OcclusionAtlas::width, 255);
+            }
+            store(x, y, width, open);
+        };
+        if (plane_darkening.update(plane, looks.bodies[plane.body], snapshot.bodies[plane.body], reference,
+                                   window_cell(looks), occluders, moved, anew || moved_much,
+                                   known == atlas.windows.end() ? nullptr : &*known, shelves, window, keep))
+            windows.push_back(window);
+    }
+    changes.windows_moved = windows != atlas.windows;
+    atlas.windows = std::move(windows);
+}
+
+bool OcclusionMaker::State::store(int x, int y, int width, const float* open) {
+    bool changed = false;
+    std::uint8_t* to = &atlas.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)];
+    for (int i = 0; i < width; ++i) {
+        const auto value = std::uint8_t(255.0f * open[i] + 0.5f);
+        changed = changed || to[i] != value;
+        to[i] = value;
+    }
+    if (changed) {
+        changes.first_row = std::min(changes.first_row, y);
+        changes.end_row = std::max(changes.end_row, y + 1);
+    }
+    return changed;
+}
+
+void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, const CameraView& view) {
+    const BodyLook& look = looks.bodies[body];
+    const Sizes& sizes = look.kind == DrawKind::box ? box_sizes : look.kind == DrawKind::ball ? ball_sizes : mesh_sizes;
+    const Vec3 middle = center_of(body);
+    const double size = 2.0 * (look.kind == DrawKind::mesh ? look.bound_radius : look.half_size.maxCoeff());
+    const double pixels = size / (std::max((middle + reference - view.eye()).norm(), 1e-30) * view.pixel_size());
+    const float detail = looks.bodies.size() < crowd ? 1.0f : float(darkening_detail(pixels, sizes.few, sizes.all));
+    Made& known = made[body];
+    if (known.detail != detail) known = {0, detail};
+    const std::uint8_t wanted = look.kind == DrawKind::box ? visible : std::uint8_t(1);
+    const auto missing = std::uint8_t(wanted & ~known.faces);
+    if (missing == 0) return;
+    known.faces |= missing;
+
+    const Eigen::Vector3f center = middle.cast<float>();
+    finder.find(center, float(look.bound_radius), found);
+    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // not by itself
+    near_planes.clear();
+    for (const PlaneInView& plane : planes)
+        if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes.push_back(plane);
+    const int before = changes.first_row, before_end = changes.end_row;
+    std::uint8_t faces = 0;
+    bool changed = false;
+    if (look.kind == DrawKind::box) {
+        faces = make_box(body, missing, detail);
+        changed = faces != 0;
+    } else {
+        // Whether any row changes shows in the range alone: begin with an empty one.
+        changes.first_row = OcclusionAtlas::most_rows;
+        changes.end_row = 0;
+        look.kind == DrawKind::ball ? make_ball(body, detail) : make_mesh(body, detail);
+        changed = changes.end_row > 0;
+        changes.first_row = std::min(changes.first_row, before);
+        changes.end_row = std::max(changes.end_row, before_end);
+    }
+    if (changed) changes.bodies.push_back({body, faces});
+}
+
+// Tiles in the order of make_box()'s faces; a texel's centre at each corner of a face. Returns the faces that changed.
+std::uint8_t OcclusionMaker::State::make_box(std::size_t body, std::uint8_t wanted, float detail) {
+    const BodyLook& look = looks.bodies[body];
+    const OcclusionPlace& place = atlas.places[body];
+    const int size = place.size;
+    std::uint8_t faces = 0;
+    const Mat3 axes = poses[body].orientation.toRotationMatrix();
+    const Vec3 center = center_of(body);
+    for (int face = 0; face < 6; ++face) {
+        if ((wanted >> face & 1) == 0) continue;
+        const int axis = face / 2;
+        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * axes.col(axis);
+        const Vec3 middle = center + normal * look.half_size[axis];
+        const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
+        points.open.assign(std::size_t(size) * std::size_t(size), 1.0f);
+        if (detail > 0.0f) {
+            const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+            const Vec3 u = axes.col(a) * look.half_size[a], v = axes.col(b) * look.half_size[b];
+            points.set_lattice((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
+                               (2.0 * v / (size - 1)).cast<float>(), outward, size, size);
+            const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
+            near_face.clear();
+            for (const std::size_t i : found)
+                if (may_darken(occluders[i], at, outward, radius, float(look.reach))) near_face.push_back(i);
+            darken_points(near_face, look.reach);
+        }
+        if (detail < 1.0f) {
+            float open = 1.0f;
+            for (const std::size_t i : found) open *= share_left(at, outward, occluders[i], float(look.reach));
+            for (const PlaneInView& plane : near_planes)
+                open *= share_left(at, outward, plane.normal, plane.height, float(look.reach));
+            for (float& value : points.open) value = open + (value - open) * detail;
+        }
+        for (int j = 0; j < size; ++j)
+            if (store(place.x + face * size, place.y + j, size, &points.open[std::size_t(j * size)]))
+                faces |= std::uint8_t(1u << face);
+    }
+    return faces;
+}
+
+void OcclusionMaker::State::make_ball(std::size_t body, float detail) {
+    const BodyLook& look = looks.bodies[body];
+    const OcclusionPlace& place = atlas.places[body];
+    const Eigen::Matrix3f axes = poses[body].orientation.toRotationMatrix().cast<float>();
+    const Eigen::Vector3f center = center_of(body).cast<float>();
+    const auto make = [&](int size) {
+        points.clear();
+        for (int j = 0; j < size; ++j)
+            for (int i = 0; i < size; ++i) {
+                const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
+                const Eigen::Vector3f normal = axes * octahedral(s, t);
+                points.add(center + normal * float(look.half_size.x()), normal);
+            }
+        darken_points(found, look.reach);
+    };
+    if (detail < 1.0f) {
+        make(coarse_ball_tile);
+        stretch(points.open, coarse_ball_tile, place.size, stretched);
+    }
+    if (detail > 0.0f) make(place.size);
+    else points.open = stretched;
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < stretched.size(); ++i)
+            points.open[i] = stretched[i] + (points.open[i] - stretched[i]) * detail;
+    for (int j = 0; j < place.size; ++j)
+        store(place.x, place.y + j, place.size, &points.open[std::size_t(j * place.size)]);
+}
+
+// A run of texels, row after row over the atlas' whole width.
+void OcclusionMaker::State::make_mesh(std::size_t body, float detail) {
+    const MeshLook& mesh = looks.meshes[looks.bodies[body].mesh];
+    const OcclusionPlace& place = atlas.places[body];
+    const Mat3 axes = poses[body].orientation.toRotationMatrix();
+    const Vec3 origin = poses[body].origin - reference;
+    const auto make = [&](const auto& probes) {
+        points.clear();
+        for (const MeshProbe& probe : probes)
+            points.add((origin + axes * probe.position).cast<float>(), (axes * probe.normal).cast<float>());
+        darken_points(found, looks.bodies[body].reach);
+    };
+    if (detail < 1.0f) {
+        make(mesh.coarse_probes);
+        coarse = points.open;
+    }
+    if (detail > 0.0f) make(mesh.probes);
+    else points.open.assign(mesh.probes.size(), 1.0f);
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < points.open.size(); ++i) {
+            const float open = coarse[mesh.coarse_of_probe[i]];
+            points.open[i] = open + (points.open[i] - open) * detail;
+        }
+    const int count = int(points.open.size());
+    for (int row = 0; row * OcclusionAtlas::width < count; ++row)
+        store(place.x, place.y + row, std::min(OcclusionAtlas::width, count - row * OcclusionAtlas::width),
+              &points.open[std::size_t(row * OcclusionAtlas::width)]);
 }
 
 OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)
-    : looks_(&looks), reference_(reference), versions_(looks.bodies.size(), 0), neighbours_(looks.bodies.size()) {
-    for (int coarser = 1; coarser <= 64; coarser *= 2) {
-        lay_out(coarser);
-        if (2 * body_rows_ <= most_rows) break;   // else coarser: the windows need room as well
-    }
-    atlas_.texels.resize(std::size_t(atlas_.height) * OcclusionAtlas::width, 255);
-}
+    : state_(std::make_unique<State>(looks, reference)) {}
+OcclusionMaker::~OcclusionMaker() = default;
 
-void OcclusionMaker::lay_out(int coarser) {
-    Shelves shelves(1);   // texel 0, 0 is open, for whoever has no place
-    atlas_.places.assign(looks_->bodies.size(), {});
-    for (std::size_t i = 0; i < looks_->bodies.size(); ++i) {
-        const BodyLook& look = looks_->bodies[i];
-        OcclusionPlace place;
-        bool fits = false;
-        if (look.kind == DrawKind::box) {
-            place.size = box_tile(look, coarser);
-            fits = shelves.take(6 * place.size, place.size, place.x, place.y);
-        } else if (look.kind == DrawKind::ball) {
-            place.size = ball_tile;
-            fits = shelves.take(ball_tile, ball_tile, place.x, place.y);
-        } else if (look.kind == DrawKind::mesh) {
-            const int count = int(looks_->meshes[look.mesh].probes.size());
-            const int rows = (count + OcclusionAtlas::width - 1) / OcclusionAtlas::width;
-            place.size = 1;
-            fits = shelves.take(rows == 1 ? count : OcclusionAtlas::width, rows, place.x, place.y);
-        }
-        if (fits) atlas_.places[i] = place;
-    }
-    body_rows_ = shelves.end();
-    atlas_.height = body_rows_;
-}
-
-void OcclusionMaker::note_movements(const Snapshot& snapshot) {
-    if (poses_.empty()) {
-        for (const BodyState& state : snapshot.bodies) poses_.push_back({state.origin, state.orientation});
-        return;
-    }
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-        const BodyState& state = snapshot.bodies[i];
-        if (poses_[i].origin == state.origin && poses_[i].orientation.coeffs() == state.orientation.coeffs()) continue;
-        poses_[i] = {state.origin, state.orientation};
-        ++versions_[i];
-    }
-}
+const OcclusionAtlas& OcclusionMaker::atlas() const { return state_->atlas; }
 
 const OcclusionChanges& OcclusionMaker::update(const Snapshot& snapshot, const CameraView& view,
                                                const Visibility& visibility) {
-    const std::vector<OcclusionWindow> windows = atlas_.windows;
-    changes_ = {};
-    changes_.first_row = most_rows;
-    note_movements(snapshot);
-    AtlasMaker(*looks_, snapshot, view, reference_, atlas_, versions_, neighbours_, changes_).make(visibility, body_rows_);
-    changes_.windows_moved = windows != atlas_.windows;
-    return changes_;
+    State& s = *state_;
+    s.changes = {};
+    s.changes.first_row = OcclusionAtlas::most_rows;
+    s.follow(snapshot);
+    s.find_planes(snapshot, view);
+    s.forget_touched(visibility);
+    s.update_windows(snapshot);
+    for (std::size_t i = 0; i < s.made.size(); ++i)
+        if (visibility.bodies[i] && s.atlas.places[i].size > 0) s.update_body(i, visibility.faces[i], view);
+    s.anew = false;
+    return s.changes;
 }
 
 }  // namespace tumble

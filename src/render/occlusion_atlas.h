@@ -2,6 +2,8 @@
 // for each ball (octahedral), a run of texels for a mesh's vertices, and a window on each plane around the bodies.
 // Sky light changes slowly, so a few texels a face look like a value for every pixel, at a twentieth of the cost.
 // A body's place is the same in every frame, and its texels are worked out anew only when it or a neighbour has moved.
+// Where there are many bodies, what is small in the picture gets a single value a face (a few for a ball, some tens for a mesh); in between the two are
+// mixed, by the size alone, so that nothing jumps. So the work is bounded by the picture's pixels, not by the bodies.
 #pragma once
 
 #include "render/body_looks.h"
@@ -11,6 +13,7 @@
 #include "sim/snapshot.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace tumble {
@@ -33,6 +36,10 @@ struct OcclusionWindow {
 
 struct OcclusionAtlas {
     static constexpr int width = 2048;
+    static constexpr int most_rows = 8192;             // OpenGL 4.1 grants 16384; 16 MiB here and there
+    static constexpr int most_body_rows = 4096;        // the windows need room as well
+    static constexpr int largest_window = 1024;        // texels; bodies beyond it leave the plane open
+    static constexpr double texels_per_reach = 4.0;    // how finely a body's darkening is sampled
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height, 255: open
     std::vector<OcclusionPlace> places;  // of each body
@@ -55,30 +62,21 @@ struct OcclusionChanges {
 
 class OcclusionMaker {
 public:
-    /// Gives every body its place. The looks must outlive it. `reference`: as in make_occluders().
+    /// Gives every body its place. The looks must outlive it. `reference`: as in add_occluders().
     OcclusionMaker(const SceneLooks& looks, const Vec3& reference);
+    ~OcclusionMaker();
 
     /// Brings the places of visible bodies and the windows up to date; the others keep what they had.
     const OcclusionChanges& update(const Snapshot& snapshot, const CameraView& view, const Visibility& visibility);
 
-    const OcclusionAtlas& atlas() const { return atlas_; }
+    const OcclusionAtlas& atlas() const;
 
 private:
-    struct Pose {
-        Vec3 origin;
-        Quat orientation;
-    };
-    void lay_out(int coarser);
-    void note_movements(const Snapshot& snapshot);
-
-    const SceneLooks* looks_;
-    Vec3 reference_;
-    OcclusionAtlas atlas_;
-    int body_rows_ = 1;                     // of the atlas; the windows come below
-    std::vector<Pose> poses_;               // of the last update
-    std::vector<std::uint32_t> versions_;   // of each body: counts its movements
-    std::vector<std::vector<std::uint64_t>> neighbours_;   // bodies and versions that a body's texels were made from
-    OcclusionChanges changes_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
+
+/// How much of the full detail a body has that is so many pixels across, 0 to 1; `few` texels below, all above.
+double darkening_detail(double pixels, double few, double all);
 
 }  // namespace tumble

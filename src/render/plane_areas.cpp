@@ -28,9 +28,11 @@ std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDe
     TileMarks touched(view, ScreenCover::cell);
     const ShadowLight light(scene.light, shadows);
     const double blur = 1.5 * window_cell(looks);
+    const Rectangle marked = marks.bounds();
     for (std::size_t i = 0; i < items.size() && !touched.all(); ++i) {
         const double reach = i < looks.bodies.size() ? looks.bodies[i].reach : 0.0;
-        if (items[i].exists()) mark_on_plane(plane, items[i], reach, blur, light, view, touched);
+        if (items[i].exists() && may_touch(plane, items[i], reach, blur, light, view, marked))
+            mark_on_plane(plane, items[i], reach, blur, light, view, touched);
     }
     return cell_rectangles(touched.grid(), [&](int column, int row) {
         return touched.at(column, row) && marks.at(column / per_tile, row / per_tile) &&

@@ -1,6 +1,7 @@
 #include "render/plane_marks.h"
 
 #include "render/plane_axes.h"
+#include "render/screen_hull.h"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ constexpr double least_approach = 0.02;   // sine of the elevation
 std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, double margin) {
     const PlaneAxes axes = plane_axes(plane.normal);
     double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
-    for (const Vec3& corner : item.corners) {
+    for (const Vec3& corner : item.corners()) {
         const double u = axes.u.dot(corner), v = axes.v.dot(corner);
         low_u = std::min(low_u, u - margin);
         high_u = std::max(high_u, u + margin);
@@ -48,11 +49,29 @@ void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach,
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0 || !view.sees_swept(item.center, item.radius, light.direction)) return;
     if (approach < least_approach) return marks.mark_all();
-    std::array<Vec3, 8> feet;
-    for (std::size_t i = 0; i < 8; ++i)
-        feet[i] = item.corners[i] +
-                  light.direction * ((plane.normal.dot(item.corners[i]) + plane.height) / approach);
+    std::array<Vec3, 8> feet = item.corners();
+    for (Vec3& foot : feet) foot += light.direction * ((plane.normal.dot(foot) + plane.height) / approach);
     marks.mark_hull(feet, light.margin(item) / approach);
+}
+
+bool may_touch(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
+               const CameraView& view, const Rectangle& part) {
+    constexpr double margin = 8.0;   // pixels: more than TileMarks adds
+    const double height = plane.normal.dot(item.center) + plane.height;
+    const auto meets = [&](const Vec3& center, double radius) {
+        const double depth = center.dot(view.forward()), nearest = depth - radius;
+        if (nearest < 0.1 * center.norm()) return true;   // near the eye, or far beside it: too hard to tell
+        const ScreenPoint at = view.pixel(center);
+        const double around = radius * center.norm() / (depth * nearest * view.pixel_size()) + margin;
+        return at.x() + around >= part.x && at.x() - around <= part.x + part.width && at.y() + around >= part.y &&
+               at.y() - around <= part.y + part.height;
+    };
+    // A ball's corners lie 1.74 radii from its middle; a rectangle around them reaches 1.42 times as far, and what is
+    // thrown aslant twice as far over the sine of the elevation.
+    if (meets(item.center - plane.normal * height, 2.5 * (item.radius + reach + blur))) return true;
+    const double approach = -plane.normal.dot(light.direction);
+    if (!light.shadows || approach <= 0.0) return false;
+    return meets(item.center + light.direction * (height / approach), (3.5 * item.radius + light.margin(item)) / approach);
 }
 
 }  // namespace tumble

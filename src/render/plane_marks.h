@@ -25,4 +25,8 @@ struct ShadowLight {
 void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
                    const CameraView& view, TileMarks& marks);
 
+/// False when mark_on_plane() certainly marks nothing in a part of the picture: most bodies, where little changed.
+bool may_touch(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
+               const CameraView& view, const Rectangle& part);
+
 }  // namespace tumble

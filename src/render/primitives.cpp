@@ -16,19 +16,16 @@ MeshAsset::Vertex vertex(const Vec3& position, const Vec3& normal) {
 
 }  // namespace
 
-DrawMesh make_box() {
+DrawMesh make_half_box() {
     DrawMesh mesh;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (const double side : {-1.0, 1.0}) {
-            const Vec3 normal = side * Vec3::Unit(axis);
-            const Vec3 u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);  // u x v = normal: counter-clockwise
-            const auto first = std::uint32_t(mesh.vertices.size());
-            mesh.vertices.push_back(vertex(normal - u - v, normal));
-            mesh.vertices.push_back(vertex(normal + u - v, normal));
-            mesh.vertices.push_back(vertex(normal + u + v, normal));
-            mesh.vertices.push_back(vertex(normal - u + v, normal));
-            for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + corner);
-        }
+    for (unsigned i = 1; i < 8; ++i) {   // bit k: on the high side of axis k
+        const Vec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+        mesh.vertices.push_back(vertex(corner, corner.normalized()));
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const unsigned high = 1u << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+        for (const unsigned corner : {high, high | u, high | u | v, high, high | u | v, high | v})
+            mesh.indices.push_back(corner - 1);
     }
     return mesh;
 }

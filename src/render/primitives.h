@@ -14,8 +14,9 @@ struct DrawMesh {
     std::vector<std::uint32_t> indices;
 };
 
-/// The cube [-1, 1]^3, flat faces.
-DrawMesh make_box();
+/// The three faces on the high sides of the cube [-1, 1]^3, with seven corners: where only depth is wanted. Their normals
+/// are those of a ball.
+DrawMesh make_half_box();
 
 /// The square [-1, 1]^2 x 0, which the shader puts on one face of the cube.
 DrawMesh make_face();

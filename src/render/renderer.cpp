@@ -45,7 +45,8 @@ struct Renderer::State {
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks, view.eye()),
           changes(scene, looks, view),
-          edges(looks, view),
+          details(looks),
+          edges(looks, view, details),
           drawn_image(scene.output.width, scene.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
@@ -58,7 +59,9 @@ struct Renderer::State {
           programs(gl, shaders, looks, !scene.cords.empty(), framebuffer.samples() > 1, scene.light.shadows),
           planes(gl, shaders, looks, scene.light.shadows),
           full_redraw(options.full_redraw),
+          draw_hidden(options.draw_hidden),
           times(options.times) {
+        drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
@@ -109,6 +112,7 @@ struct Renderer::State {
     ShadowStage stage;
     OcclusionMaker occlusion;
     ChangeFinder changes;
+    MeshDetails details;
     EdgeFinder edges;
     Image drawn_image;  // as it was drawn, with surface numbers in alpha
     std::unique_ptr<GlContext> context;
@@ -124,7 +128,7 @@ struct Renderer::State {
     PlanePainter planes;
     bool background_kept = false;
     std::vector<Rectangle> changed;
-    bool full_redraw;
+    bool full_redraw, draw_hidden;
     RenderTimes* times;
 };
 
@@ -153,7 +157,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const std::vector<DrawnItem>& items = state.items;
     const double near_distance = state.near_distance;
     const ShadowFit& shadows = state.shadows;
-    const Visibility visibility = find_visible(s.looks, snapshot, s.view);
+    const Visibility visibility = s.draw_hidden ? everything_visible(s.looks, s.view)
+                                                : find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
     TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
@@ -161,10 +166,11 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
 
     ShadowMarks shadow_marks = s.changes.shadow_marks();
     if (s.full_redraw) shadow_marks.mark_all();
+    const bool all_shadows = shadow_marks.all();
     std::vector<char> wanted, casting;
     for (const DrawnItem& item : items) {
-        wanted.push_back(item.exists() && marks.touched_by(item.corners) ? 1 : 0);
-        casting.push_back(item.exists() && shadow_marks.touched_by(item) ? 1 : 0);
+        wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
+        casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) ? 1 : 0);
     }
     const OcclusionAtlas& atlas = s.occlusion.atlas();
     const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
@@ -175,7 +181,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(RenderStage::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
-    s.meshes.upload(list.instances);
+    s.meshes.upload(list, s.details);
     const FrameUniforms uniforms =
         make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height());
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());

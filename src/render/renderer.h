@@ -20,6 +20,7 @@ struct RenderOptions {
     GlBackend backend = GlBackend::osmesa;
     std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
     bool full_redraw = false;             // every frame anew, to the same bytes: for tests and comparisons
+    bool draw_hidden = false;             // what lies behind boxes as well: for tests and comparisons
     bool multisample = false;             // edges by several samples a pixel, as where cords are drawn: for comparisons
     double shift_x = 0.0, shift_y = 0.0;  // pixels that the picture is moved by, under one: for averages of many
     RenderTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer

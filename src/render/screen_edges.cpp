@@ -13,6 +13,9 @@ namespace {
 // A ball's outline as a polygon leaves the true one by no more than this.
 constexpr double circle_error = 0.03;   // pixels
 
+// A box that is smaller shows a step between its own faces in a pixel or two, which no one sees.
+constexpr double inner_edge_pixels = 3.0;   // of its longest edge
+
 // A mesh's edge is a crease when its faces' normals differ by more than this.
 constexpr double crease_cosine = 0.9;
 
@@ -21,8 +24,8 @@ bool before_eye(const Vec3& point, const CameraView& view) { return point.dot(vi
 // With `inside` on the inner side.
 ScreenEdge directed(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& inside, std::uint8_t inner,
                     std::uint8_t outer) {
-    if (turn(a, b, inside) >= 0.0) return {a.x(), a.y(), b.x(), b.y(), inner, outer};
-    return {b.x(), b.y(), a.x(), a.y(), inner, outer};
+    const ScreenPoint &from = turn(a, b, inside) >= 0.0 ? a : b, &to = &from == &a ? b : a;
+    return {float(from.x()), float(from.y()), float(to.x()), float(to.y()), inner, outer};
 }
 
 }  // namespace
@@ -58,9 +61,8 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
     }
 }
 
-EdgeFinder::EdgeFinder(const SceneLooks& looks, const CameraView& view) : looks_(&looks), view_(&view) {
-    for (const MeshLook& mesh : looks.meshes) meshes_.emplace_back(mesh.asset->surface);
-}
+EdgeFinder::EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details)
+    : looks_(&looks), view_(&view), details_(&details) {}
 
 const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
                                                 const std::vector<char>& wanted, const Visibility& visibility,
@@ -73,22 +75,25 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
         const BodyLook& look = looks_->bodies[i];
         if (look.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
         if (look.kind == DrawKind::ball) add_ball(i, items[i]);
-        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], looks_->meshes[look.mesh], meshes_[look.mesh]);
+        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
     }
     return found_;
 }
 
 void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces) {
+    const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
-        if (!before_eye(item.corners[i], *view_)) return;
-        corners[i] = view_->pixel(item.corners[i]);
+        if (!before_eye(places[i], *view_)) return;
+        corners[i] = view_->pixel(places[i]);
     }
+    const double depth = item.center.dot(view_->forward());
+    const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
     std::array<bool, 6> front{};   // turned to the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
-        const Vec3& on_face = item.corners[face % 2 == 1 ? bit : 0];
-        front[face] = (item.corners[bit] - item.corners[0]).dot(on_face) * (face % 2 == 1 ? 1.0 : -1.0) < 0.0;
+        const Vec3& on_face = places[face % 2 == 1 ? bit : 0];
+        front[face] = (places[bit] - places[0]).dot(on_face) * (face % 2 == 1 ? 1.0 : -1.0) < 0.0;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t along = std::size_t(1) << axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
@@ -101,6 +106,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
             }
             if (!front[face]) continue;
             const bool both = front[other];
+            if (both && !inner_edges) continue;
             if ((faces >> face & 1) == 0 && !(both && (faces >> other & 1) != 0)) continue;
             const std::size_t corner = (sides & 1) << a | (sides >> 1) << b;
             found_.push_back(directed(corners[corner], corners[corner | along], corners[corner ^ bit],
@@ -131,8 +137,19 @@ void EdgeFinder::add_ball(std::size_t body, const DrawnItem& item) {
     }
 }
 
-void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const MeshLook& mesh, const MeshEdges& edges) {
-    const TriangleMesh& surface = mesh.asset->surface;
+// Of the level that is drawn.
+void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item) {
+    const BodyLook& look = looks_->bodies[body];
+    const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
+    const TriangleMesh& surface =
+        level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
+    const std::pair key(look.mesh, level);
+    auto edges = meshes_.find(key);
+    if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
+    add_outline(body, state, surface, edges->second);
+}
+
+void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges) {
     const Vec3 origin = view_->relative(state.origin);
     const Vec3 eye = state.orientation.conjugate() * -origin;   // in the mesh's frame
     const Mat3 axes = state.orientation.toRotationMatrix();

@@ -3,17 +3,19 @@
 #pragma once
 
 #include "render/drawn_items.h"
+#include "render/mesh_detail.h"
 #include "render/plane_patch.h"
 #include "render/visibility.h"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace tumble {
 
 struct ScreenEdge {
-    double x0, y0, x1, y1;   // pixels from the top left corner
+    float x0, y0, x1, y1;    // pixels from the top left corner
     std::uint8_t inner;      // the surface (surface_ids.h) on the side to which the way from 0 to 1 turns from x to y
     std::uint8_t outer;      // the one on the other side; 0: anything that is not `inner`
 };
@@ -31,7 +33,8 @@ struct MeshEdges {
 
 class EdgeFinder {
 public:
-    EdgeFinder(const SceneLooks& looks, const CameraView& view);
+    /// All of them must outlive it.
+    EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details);
 
     /// Of the items that are wanted, in scene order. Valid until the next call. What comes beside the eye has none.
     const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
@@ -41,12 +44,14 @@ public:
 private:
     void add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces);
     void add_ball(std::size_t body, const DrawnItem& item);
-    void add_mesh(std::size_t body, const BodyState& state, const MeshLook& mesh, const MeshEdges& edges);
+    void add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item);
+    void add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges);
     void add_corner(const PlanePatch& a, const PlanePatch& b);
 
     const SceneLooks* looks_;
     const CameraView* view_;
-    std::vector<MeshEdges> meshes_;
+    MeshDetails* details_;
+    std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;   // by mesh and level; made when needed
     std::vector<ScreenEdge> found_;
 };
 

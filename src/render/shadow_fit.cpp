@@ -32,15 +32,23 @@ struct Extent {
     double size() const { return high - low; }
 };
 
-// How far a point falls until it meets one of the scene's planes, m; 0 where there is none below.
-double fall_to_plane(const Vec3& point, const Vec3& down, const SceneDescription& scene, const SceneLooks& looks) {
-    double fall = std::numeric_limits<double>::infinity();
+// The scene's planes, where they start.
+std::vector<PlaneShape> planes_at_start(const SceneDescription& scene, const SceneLooks& looks) {
+    std::vector<PlaneShape> planes;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         if (looks.bodies[i].kind != DrawKind::plane) continue;
         BodyState state;
         state.origin = scene.bodies[i].position;
         state.orientation = scene.bodies[i].rotation;
-        const PlaneShape plane = plane_in_world(looks.bodies[i], state);
+        planes.push_back(plane_in_world(looks.bodies[i], state));
+    }
+    return planes;
+}
+
+// How far a point falls until it meets one of the planes, m; 0 where there is none below.
+double fall_to_plane(const Vec3& point, const Vec3& down, const std::vector<PlaneShape>& planes) {
+    double fall = std::numeric_limits<double>::infinity();
+    for (const PlaneShape& plane : planes) {
         const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
         if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
     }
@@ -69,6 +77,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
+    const std::vector<PlaneShape> planes = planes_at_start(scene, looks);
     struct Place {
         Vec3 center;
         double radius, distance;
@@ -77,7 +86,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
     const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
-        const Vec3 landed = center + down * (falls ? fall_to_plane(center, down, scene, looks) : 0.0);
+        const Vec3 landed = center + down * (falls ? fall_to_plane(center, down, planes) : 0.0);
         for (const Vec3& p : {center, landed})
             if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
                 places.push_back({p, look.bound_radius, view.relative(p).norm()});

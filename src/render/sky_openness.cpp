@@ -80,6 +80,20 @@ TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float r
     }
 }
 
+float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach) {
+    const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+    const Eigen::Vector3f away = position - occluder.center;
+    const float room = occluder.bound_radius + 2.0f * far_step;   // beyond, both probes are in the open
+    if (away.squaredNorm() > room * room) return 1.0f;
+    const Eigen::Vector3f p = occluder.to_local * away, n = occluder.to_local * normal, half = occluder.half_size;
+    const auto closed = [&](float step) {
+        const float distance = box_distance(p.x() + n.x() * step, p.y() + n.y() * step, p.z() + n.z() * step, half.x(),
+                                            half.y(), half.z()) - occluder.radius;
+        return clamped(1.0f - distance / step);
+    };
+    return 1.0f - occlusion_strength * 0.5f * (closed(near_step) + closed(far_step));
+}
+
 bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
                 float reach) {
     const float far_step = std::min(reach, occluder.reach);
@@ -102,6 +116,14 @@ void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float pl
         const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
         points.open[i] *= 1.0f - occlusion_strength * 0.5f * (clamped(near) + clamped(far));
     }
+}
+
+float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
+                 float plane_height, float reach) {
+    const float height = plane_normal.dot(position) + plane_height, rise = plane_normal.dot(normal);
+    const float near_step = near_probe * reach;
+    const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
+    return 1.0f - occlusion_strength * 0.5f * (clamped(near) + clamped(far));
 }
 
 }  // namespace tumble

@@ -32,6 +32,9 @@ struct SurfacePoints {
 /// counts.
 void darken(SurfacePoints& points, const Occluder& occluder, float reach);
 
+/// The same of a single point: what its factor is.
+float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach);
+
 /// False when the body can darken no point within `radius` of `center` whose normal is `normal`: most pairs of a face
 /// and a neighbour need not be looked at point by point.
 bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
@@ -39,6 +42,9 @@ bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const E
 
 /// The same for a plane: points q with normal . q + height = 0.
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);
+
+float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
+                 float plane_height, float reach);
 
 /// The shares of a point's sky light that a wholly closed gap takes, and where the first probe is, in parts of the
 /// reach.

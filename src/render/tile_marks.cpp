@@ -67,7 +67,12 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
         bottom = std::max(bottom, corners.back().y());
     }
     if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
-    corners = convex_hull(std::move(corners));
+    // What is small needs no finer look: the tiles around it.
+    if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
+        corners = {{leftmost, top}, {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}};
+    } else {
+        corners = convex_hull(std::move(corners));
+    }
     for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
         // The hull's reach to both sides within this row of tiles.
@@ -125,6 +130,20 @@ bool TileMarks::touched_by(std::span<const Vec3> points) const {
 std::vector<Rectangle> TileMarks::rectangles() const {
     if (all()) return {{0, 0, grid_.width, grid_.height}};
     return cell_rectangles(grid_, [&](int column, int row) { return at(column, row); });
+}
+
+Rectangle TileMarks::bounds() const {
+    int x0 = grid_.columns, y0 = grid_.rows, x1 = 0, y1 = 0;
+    for (int row = 0; row < grid_.rows; ++row)
+        for (int column = 0; column < grid_.columns; ++column) {
+            if (!at(column, row)) continue;
+            x0 = std::min(x0, column);
+            x1 = std::max(x1, column + 1);
+            y0 = std::min(y0, row);
+            y1 = std::max(y1, row + 1);
+        }
+    if (x0 >= x1) return {0, 0, 0, 0};
+    return {x0 * grid_.cell, y0 * grid_.cell, (x1 - x0) * grid_.cell, (y1 - y0) * grid_.cell};
 }
 
 }  // namespace tumble

@@ -34,6 +34,9 @@ public:
     const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
 
+    /// The rectangle around all that is marked.
+    Rectangle bounds() const;
+
 private:
     bool all_marked(double x0, double y0, double x1, double y1) const;   // in this part of the screen, pixels
 

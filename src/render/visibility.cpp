@@ -1,11 +1,13 @@
 #include "render/visibility.h"
 
 #include "render/drawn_items.h"
+#include "render/pixel_cover.h"
 #include "render/screen_hull.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -108,43 +110,102 @@ bool ScreenCover::hides(std::span<const Vec3> corners) const {
     return true;
 }
 
-Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
-    Mat3 view_axes;
-    view_axes << view.right(), view.up(), view.forward();
-    Visibility result{ScreenCover(view), std::vector<bool>(looks.bodies.size(), false),
-                      std::vector<std::uint8_t>(looks.bodies.size(), 0)};
-    struct Candidate {
-        std::size_t body;
-        BoundingBall ball;
-        double distance;
-        ScreenCover::Corners corners;
-    };
+namespace {
+
+// What is smaller than this is looked at pixel by pixel in a crowd.
+constexpr double small = 48.0;   // pixels across
+
+struct Candidate {
+    std::uint32_t body;
+    float distance;   // m; of the ball around it
+};
+
+std::vector<Candidate> find_candidates(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        if (!view.sees(ball.center, ball.radius)) continue;
-        const bool box = look.kind == DrawKind::box;
-        candidates.push_back(
-            {i, ball, ball.center.norm(),
-             box_corners(ball.center, box ? snapshot.bodies[i].orientation.toRotationMatrix() : view_axes,
-                         box ? look.half_size : Vec3::Constant(ball.radius))});
+        if (view.sees(ball.center, ball.radius)) candidates.push_back({std::uint32_t(i), float(ball.center.norm())});
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
+    });
+    return candidates;
+}
+
+// Puts the faces of a small box into the cover. Which of them may be seen?
+std::uint8_t add_faces(const ScreenCover::Corners& corners, const Projected& box, const CameraView& view, PixelCover& cover) {
+    std::uint8_t faces = 0;
+    std::array<double, 8> inverse_depths;
+    for (std::size_t i = 0; i < 8; ++i) inverse_depths[i] = 1.0 / corners[i].dot(view.forward());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t bit = std::size_t(1) << axis, a = std::size_t(1) << (axis + 1) % 3, b = std::size_t(1) << (axis + 2) % 3;
+        const Vec3 along = corners[bit] - corners[0];
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::size_t first = side == 1 ? bit : 0;
+            if (!(along.dot(corners[first]) * (side == 1 ? 1.0 : -1.0) < 0.0)) continue;
+            std::array<PixelCover::Corner, 4> face;
+            std::size_t k = 0;
+            for (const std::size_t i : {first, first | a, first | a | b, first | b}) face[k++] = {box.points[i], inverse_depths[i]};
+            if (cover.add(face)) faces |= std::uint8_t(1u << (2 * axis + side));
+        }
+    }
+    return faces;
+}
+
+}  // namespace
+
+Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample) {
+    Mat3 view_axes;
+    view_axes << view.right(), view.up(), view.forward();
+    Visibility result{ScreenCover(view), std::vector<bool>(looks.bodies.size(), false),
+                      std::vector<std::uint8_t>(looks.bodies.size(), 0)};
+    const std::vector<Candidate> candidates = find_candidates(looks, snapshot, view);
+    const bool by_pixel = one_sample && candidates.size() >= crowd;
     const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
-    for (const Candidate& candidate : candidates)  // nearest first: what is hidden itself need not cover anything
-        if (is_box(candidate) && !result.cover.hides(candidate.corners)) result.cover.add(candidate.corners);
+    const auto corners_of = [&](const Candidate& c) {
+        const BodyLook& look = looks.bodies[c.body];
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[c.body], view);
+        return is_box(c) ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
+                         : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
+    };
+    const auto is_small = [&](const Candidate& c) {
+        const double distance = double(c.distance) - looks.bodies[c.body].bound_radius;
+        return by_pixel && distance > 0.0 && 2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
+    };
+    for (const Candidate& candidate : candidates) {  // nearest first: what is hidden itself need not cover anything
+        if (!is_box(candidate) || is_small(candidate)) continue;
+        const ScreenCover::Corners corners = corners_of(candidate);
+        if (!result.cover.hides(corners)) result.cover.add(corners);
+    }
+    std::optional<PixelCover> pixels;
+    if (by_pixel) pixels.emplace(view, result.cover);
     for (const Candidate& candidate : candidates) {
+        const ScreenCover::Corners corners = corners_of(candidate);
+        Projected seen;
+        const bool small_one = is_small(candidate) && project(corners, view, seen);
         if (is_box(candidate)) {
-            result.faces[candidate.body] = visible_faces(candidate.corners, result.cover);
-            result.bodies[candidate.body] = result.faces[candidate.body] != 0;
+            std::uint8_t& faces = result.faces[candidate.body];
+            if (!small_one) faces = visible_faces(corners, result.cover);
+            else if (!pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest)) faces = add_faces(corners, seen, view, *pixels);
+            result.bodies[candidate.body] = faces != 0;
+        } else if (small_one) {
+            result.bodies[candidate.body] = !pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest);
         } else {
-            result.bodies[candidate.body] = !result.cover.hides(candidate.corners);
+            result.bodies[candidate.body] = !result.cover.hides(corners);
         }
     }
     return result;
+}
+
+Visibility everything_visible(const SceneLooks& looks, const CameraView& view) {
+    Visibility all{ScreenCover(view), {}, {}};
+    for (const BodyLook& look : looks.bodies) {
+        all.bodies.push_back(look.kind != DrawKind::hidden && look.kind != DrawKind::plane);
+        all.faces.push_back(look.kind == DrawKind::box ? 0x3f : 0);
+    }
+    return all;
 }
 
 }  // namespace tumble

@@ -47,6 +47,11 @@ struct Visibility {
         faces;  // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high one
 };
 
-Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+/// `one_sample`: the picture is drawn with one sample a pixel; then many small boxes are looked at pixel by pixel
+/// (pixel_cover.h).
+Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample = false);
+
+/// As if nothing hid anything.
+Visibility everything_visible(const SceneLooks& looks, const CameraView& view);
 
 }  // namespace tumble

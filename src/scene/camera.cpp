@@ -70,6 +70,7 @@ void read_follow(const TomlTable& table, const SceneDescription& scene, CameraDe
     const BodyDescription& body = scene.bodies[*camera.follow];
     if (body.type == BodyType::fixed) follow->fail("must be a body that moves");
     camera.follow_start = body.position;
+    camera.follow_start_rotation = body.rotation;
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ struct CameraDescription {
     Interpolation interpolation = Interpolation::smooth;
     double orbit = 0.0;           // degrees/s about the target, counter-clockwise seen from the tip of `up`
     std::optional<std::size_t> follow;       // index into bodies
-    Vec3 follow_start = Vec3::Zero();        // where that body is at the start
+    Vec3 follow_start = Vec3::Zero();        // where that body's origin is at the start, and how it is turned
+    Quat follow_start_rotation = Quat::Identity();
 
     bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
 };

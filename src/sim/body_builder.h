@@ -26,7 +26,7 @@ private:
     Collider collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
     Collider compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
-    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: one is 2 KB
     // Looked up only, never iterated: the order of addresses decides nothing.
     std::map<const MeshAsset*, Mesh> meshes_;
     struct KnownCompound {

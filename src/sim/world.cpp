@@ -79,6 +79,7 @@ struct World::State {
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
         BodyBuilder builder;
+        bodies.reserve(scene.bodies.size());
         for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);

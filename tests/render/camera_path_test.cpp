@@ -83,10 +83,32 @@ TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
     scene.camera.follow_start = scene.bodies[1].position;
     scene.camera.orbit = 90.0;
     Snapshot snapshot = at_time(scene, 1.0);
-    snapshot.bodies[1].origin = Vec3(4.0, 3.0, -2.0);
+    snapshot.bodies[1].origin = snapshot.bodies[1].center_of_mass = Vec3(4.0, 3.0, -2.0);
     const CameraDescription now = CameraPath(scene.camera).at(snapshot);
     EXPECT_LT((now.eye - Vec3(8.0 + 3.0, 1.0 + 2.0, -2.0)).norm(), rounding);
     EXPECT_LT((now.target - Vec3(3.0, 3.0, -2.0)).norm(), rounding);
+}
+
+// A body whose origin is at one end, and which tumbles about its middle: the camera goes along with the middle, in a
+// straight line.
+TEST(CameraPath, FollowsTheCentreOfMassOfWhatTumbles) {
+    SceneDescription scene = empty_scene();
+    const Vec3 middle(0.3, 0.1, -0.2);   // body frame, from the origin
+    const Quat first(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
+    scene.bodies = {box_body(Vec3(1.0, 2.0, 0.0), Vec3::Ones(), {200, 60, 50}, first)};
+    scene.camera.follow = 0;
+    scene.camera.follow_start = scene.bodies[0].position;
+    scene.camera.follow_start_rotation = first;
+    const CameraPath path(scene.camera);
+    const Vec3 start = scene.bodies[0].position + first * middle;
+    for (const double time : {0.0, 0.7, 2.0}) {
+        Snapshot snapshot = at_time(scene, time);
+        BodyState& body = snapshot.bodies[0];
+        body.orientation = Quat(Eigen::AngleAxisd(3.0 * time, Vec3(1.0, 2.0, 0.5).normalized())) * first;
+        body.center_of_mass = start + time * Vec3(2.0, -1.0, 0.5);
+        body.origin = body.center_of_mass - body.orientation * middle;
+        EXPECT_LT((path.carried(snapshot) - time * Vec3(2.0, -1.0, 0.5)).norm(), rounding) << time;
+    }
 }
 
 TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
@@ -98,7 +120,7 @@ TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
     const Pixel middle = pixel_of(scene, scene.bodies[1].position), left = pixel_of(scene, Vec3(0.25, 1.0, 0.0));
     for (const double x : {0.0, 2.3, 40.0, 800.0}) {
         Snapshot snapshot = at_time(scene, 0.0);
-        snapshot.bodies[1].origin += Vec3(x, 0.1 * x, -x);
+        snapshot.bodies[1].origin = snapshot.bodies[1].center_of_mass += Vec3(x, 0.1 * x, -x);
         Image image;
         renderer.render(snapshot, image);
         const std::uint8_t *ball = image.at(middle.x, middle.y), *beside = image.at(left.x, left.y);
@@ -125,7 +147,7 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
         for (int n = 0; n < 15; ++n) {   // with stillness before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
             snapshot.bodies[1].origin.x() += 0.05 * n;
-            if (n > 10) snapshot.bodies[last].origin += Vec3(0.1 * (n - 10), 0.2, 0.0);
+            if (n > 10) snapshot.bodies[last].origin = snapshot.bodies[last].center_of_mass += Vec3(0.1 * (n - 10), 0.2, 0.0);
             poses.follow(snapshot);
             partial.render(snapshot, frame);
             full.render(snapshot, truth);
@@ -191,6 +213,7 @@ TEST(MovingCamera, RestsWithABodyThatTrembles) {
     poses.follow(snapshot);
     snapshot = at_time(scene, 0.1);
     snapshot.bodies[1].origin.x() += 1e-9;
+    snapshot.bodies[1].center_of_mass.x() += 1e-9;
     EXPECT_FALSE(poses.follow(snapshot));
     EXPECT_EQ(snapshot.bodies[1].origin, scene.bodies[1].position);
     snapshot.bodies[1].origin.x() += 0.5;

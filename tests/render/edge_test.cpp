@@ -33,8 +33,8 @@ struct HalfPlane {
 
     explicit HalfPlane(double angle)
         : normal(-std::sin(angle), std::cos(angle), 24.3 * std::sin(angle) - 23.9 * std::cos(angle)),
-          edge{24.3 - 60.0 * std::cos(angle), 23.9 - 60.0 * std::sin(angle), 24.3 + 60.0 * std::cos(angle),
-               23.9 + 60.0 * std::sin(angle), inner, outer} {
+          edge{float(24.3 - 60.0 * std::cos(angle)), float(23.9 - 60.0 * std::sin(angle)),
+               float(24.3 + 60.0 * std::cos(angle)), float(23.9 + 60.0 * std::sin(angle)), inner, outer} {
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const bool inside = normal.dot(Vec3(x + 0.5, y + 0.5, 1.0)) > 0.0;

@@ -9,12 +9,13 @@ FreeFlights::FreeFlights(std::size_t bodies, const Vec3& gravity, const StepCloc
     : gravity_(gravity), clock_(clock), flights_(bodies) {}
 
 void FreeFlights::advance(std::size_t index, Body& body, const ForceField& forces, std::int64_t step, double share) {
-    Flight& flight = flights_[index];
     const double from = clock_.seconds(step), to = from + share * clock_.seconds(1);
     if (share < 1.0 || !forces.constant(index, from, to)) {
         set_state(body, advance_exactly(body, forces, index, from, to));
         return;
     }
+    if (!flights_[index]) flights_[index] = std::make_unique<Flight>();
+    Flight& flight = *flights_[index];
     const bool goes_on = flight.reached == step && flight.position == body.position && flight.momentum == body.momentum &&
                          flight.angular_momentum == body.angular_momentum;
     if (!goes_on) {

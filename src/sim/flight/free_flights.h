@@ -6,6 +6,7 @@
 #include "sim/flight/path.h"
 #include "sim/forces.h"
 
+#include <memory>
 #include <vector>
 
 namespace tumble {
@@ -26,7 +27,7 @@ private:
     };
     Vec3 gravity_;
     StepClock clock_;
-    std::vector<Flight> flights_;
+    std::vector<std::unique_ptr<Flight>> flights_;   // of the bodies that ever moved so: one is .8 KB
 };
 
 }  // namespace tumble

@@ -1,0 +1,61 @@
+#include "render/occlusion_places.h"
+
+#include "render/atlas_shelves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr int most_tile = 64;
+
+// How finely tiles are made: the first of these whose places fit the budget.
+struct Fineness {
+    double texels_per_reach;        // of a box's face
+    int least_box_tile, ball_tile;  // texels across
+};
+constexpr Fineness ladder[] = {{OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 5, 16}, {1.0, 5, 12}, {0.5, 4, 8},
+                               {0.25, 3, 6}, {0.125, 2, 4}};
+
+int box_tile(const BodyLook& look, const Fineness& fineness) {
+    const double edge = 2.0 * look.half_size.maxCoeff();
+    return std::clamp(int(std::ceil(fineness.texels_per_reach * edge / look.reach)) + 1, fineness.least_box_tile, most_tile);
+}
+
+// What finds no room any more stays open.
+bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& atlas) {
+    AtlasShelves shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is open, for whoever has no place
+    bool all = true;
+    atlas.places.assign(looks.bodies.size(), {});
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        OcclusionPlace place;
+        bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane;
+        if (look.kind == DrawKind::box) {
+            place.size = box_tile(look, fineness);
+            fits = shelves.take(6 * place.size, place.size, place.x, place.y);
+        } else if (look.kind == DrawKind::ball) {
+            place.size = fineness.ball_tile;
+            fits = shelves.take(place.size, place.size, place.x, place.y);
+        } else if (look.kind == DrawKind::mesh) {
+            const int count = int(looks.meshes[look.mesh].probes.size());
+            const int rows = (count + OcclusionAtlas::width - 1) / OcclusionAtlas::width;
+            place.size = 1;
+            fits = shelves.take(rows == 1 ? count : OcclusionAtlas::width, rows, place.x, place.y);
+        }
+        if (fits) atlas.places[i] = place;
+        all = all && fits;
+    }
+    atlas.height = shelves.end();
+    return all;
+}
+
+}  // namespace
+
+void lay_out_places(const SceneLooks& looks, OcclusionAtlas& atlas) {
+    for (const Fineness& fineness : ladder)
+        if (lay_out(looks, fineness, atlas)) break;
+}
+
+}  // namespace tumble
