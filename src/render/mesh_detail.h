@@ -26,7 +26,7 @@ inline constexpr double most_detail_error = 0.25;
 
 inline constexpr std::size_t mesh_levels = 8;
 
-/// Triangles of all bodies together that are drawn whole, however far away: 20 ms a frame at most.
+/// Triangles of all bodies together that are drawn whole, however far away: few enough not to matter.
 inline constexpr std::size_t most_whole_triangles = 200'000;
 
 /// How far level `level` may be off, m: 0 for level 0, then 1/512 of the mesh's radius, doubled with each.
