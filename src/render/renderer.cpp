@@ -21,6 +21,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace tumble {
 namespace {
 
@@ -157,9 +159,11 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const std::vector<DrawnItem>& items = state.items;
     const double near_distance = state.near_distance;
     const ShadowFit& shadows = state.shadows;
-    const Visibility visibility = s.draw_hidden ? everything_visible(s.looks, s.view)
-                                                : find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
-    const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, visibility);
+    const Visibility seen = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
+    std::optional<Visibility> everything;
+    const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.looks, s.view)) : seen;
+    // Of what is seen alone: where a tile lies in the atlas may tell in a colour's last digit.
+    const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, seen);
     TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
     s.changed = marks.rectangles();
@@ -218,8 +222,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         }
     }
     copy_opaque(s.drawn_image, written, frame);
-    if (s.smooth_edges)
-        blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, visibility, planes), marks, frame);
+    // Of what is hidden, drawn or not, no edges: surfaces share numbers, and one might be taken for what lies before it.
+    if (s.smooth_edges) blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
     clock.ends(RenderStage::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }
