@@ -3,9 +3,10 @@
 // The bytes depend on the arrays alone: there is no date in them.
 #pragma once
 
+#include "output/deflater.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,9 +19,6 @@ using ArrayShape = std::vector<std::size_t>;
 
 class NpzArchive {
 public:
-    NpzArchive();
-    ~NpzArchive();
-
     /// Appends an array, in C order. Throws RunError where the values do not fit into the 4 GiB of a zip file.
     void add(std::string_view name, const ArrayShape& shape, std::span<const float> values);
     void add(std::string_view name, const ArrayShape& shape, std::span<const double> values);
@@ -42,8 +40,7 @@ private:
                    std::span<const std::byte> values);
     std::uint32_t compress(std::span<const std::byte> head, std::span<const std::byte> values);
 
-    struct Compressor;
-    std::unique_ptr<Compressor> compressor_;
+    Deflater deflater_;
     std::vector<std::byte> file_;
     std::size_t used_ = 0;    // bytes of file_ that are written
     std::vector<Member> members_;

@@ -18,11 +18,7 @@
 namespace tumble {
 namespace {
 
-// Measured on rendered 1280x720 frames of 100 boxes, one core, all bands: ISA-L level 1 with row filter SUB 5.4 ms, 367 KB;
-// NONE 5.1 ms, 383 KB; UP 5.8 ms, 418 KB; level 2 SUB 5.6 ms, 366 KB; libdeflate level 1 NONE 8.6 ms, 341 KB; zlib (what
-// libpng does alone) level 1 NONE 13.3 ms, 378 KB. Bands of 16, 64 or all rows: within 2 % of the size and 10 % of the time.
-constexpr std::uint32_t compression_level = 1;
-constexpr std::size_t compressor_memory = ISAL_DEF_LVL1_DEFAULT;
+// Measured in deflater.cpp.
 constexpr std::uint8_t filter_sub = 1;   // the first byte of each row: differences to the pixel before it
 constexpr int rows_of_band = 32;
 
@@ -31,9 +27,6 @@ constexpr std::uint8_t last_block[] = {0x03, 0x00};        // RFC 1951: an empty
 constexpr std::size_t head_and_end = 1024;                 // bytes of all chunks but the pixels': below 200
 
 std::size_t row_bytes(int width) { return 3 * std::size_t(width) + 1; }
-
-/// What does not compress becomes slightly larger: headers of blocks, and the empty one at the end of a band.
-std::size_t band_bound(std::size_t bytes) { return bytes + bytes / 8 + 1024; }
 
 int band_count(int height) { return (height + rows_of_band - 1) / rows_of_band; }
 
@@ -97,39 +90,15 @@ void pack_row(const std::uint8_t* from, int width, std::uint8_t* to) {
 
 }  // namespace
 
-struct PngEncoder::Compressor {
-    isal_zstream stream;
-    std::vector<std::uint8_t> memory = std::vector<std::uint8_t>(compressor_memory);
-};
-
-PngEncoder::PngEncoder() : compressor_(std::make_unique<Compressor>()) {}
-
-PngEncoder::~PngEncoder() = default;
-
 void PngEncoder::compress(const Image& image, int first_row, Band& band) {
     const int rows = std::min(rows_of_band, image.height - first_row);
     rows_.resize(row_bytes(image.width) * std::size_t(rows));
     for (int y = 0; y < rows; ++y)
         pack_row(image.at(0, first_row + y), image.width, rows_.data() + row_bytes(image.width) * std::size_t(y));
     band.checksum = isal_adler32(1, rows_.data(), rows_.size());
-    band.compressed.resize(band_bound(rows_.size()));
-
-    isal_zstream& stream = compressor_->stream;
-    isal_deflate_init(&stream);
-    stream.level = compression_level;
-    stream.level_buf = compressor_->memory.data();
-    stream.level_buf_size = static_cast<std::uint32_t>(compressor_->memory.size());
-    stream.gzip_flag = IGZIP_DEFLATE;
-    stream.flush = FULL_FLUSH;   // ends at a whole byte, and the next band does not refer to this one
-    stream.end_of_stream = 0;
-    stream.next_in = rows_.data();
-    stream.avail_in = static_cast<std::uint32_t>(rows_.size());
-    stream.next_out = band.compressed.data();
-    stream.avail_out = static_cast<std::uint32_t>(band.compressed.size());
-    const int result = isal_deflate(&stream);
-    TUMBLE_CHECK_EQ(result, COMP_OK);
-    TUMBLE_CHECK_GT(stream.avail_out, 0u);
-    band.compressed.resize(stream.total_out);
+    band.compressed.resize(Deflater::bound(rows_.size()));
+    band.compressed.resize(deflater_.compress({std::as_bytes(std::span(rows_))}, Deflater::End::whole_byte,
+                                              std::as_writable_bytes(std::span(band.compressed))));
 }
 
 std::span<const std::byte> PngEncoder::encode(const Image& image) {
@@ -174,7 +143,7 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
 }
 
 std::size_t png_bytes_bound(int width, int height) {
-    return head_and_end + std::size_t(band_count(height)) * band_bound(row_bytes(width) * rows_of_band);
+    return head_and_end + std::size_t(band_count(height)) * Deflater::bound(row_bytes(width) * rows_of_band);
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

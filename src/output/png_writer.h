@@ -5,11 +5,11 @@
 
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "output/deflater.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,9 +18,6 @@ namespace tumble {
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
-    PngEncoder();
-    ~PngEncoder();
-
     /// The whole file, valid until the next call. `changed` are the parts that may differ from the picture before; a
     /// first picture, and one of another size, is taken as a whole. Alpha is left out. Throws RunError where the
     /// picture is empty or memory runs out.
@@ -34,8 +31,7 @@ private:
     };
     void compress(const Image& image, int first_row, Band& band);
 
-    struct Compressor;
-    std::unique_ptr<Compressor> compressor_;
+    Deflater deflater_;
     int width_ = 0, height_ = 0;      // of the picture before
     std::vector<Band> bands_;
     std::vector<std::uint8_t> rows_;  // of one band, as they are compressed

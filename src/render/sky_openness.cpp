@@ -1,14 +1,9 @@
 #include "render/sky_openness.h"
 
+#include "core/wide.h"
+
 #include <algorithm>
 #include <cmath>
-
-// Eight lanes where the processor has them, with the same bits (no fused operations; sanitizers do without).
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TUMBLE_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define TUMBLE_WIDE
-#endif
 
 namespace tumble {
 namespace {
