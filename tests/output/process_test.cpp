@@ -2,7 +2,7 @@
 #include "core/error.h"
 #include "output/process.h"
 
-#include "folder.h"
+#include "../support/folder.h"
 
 #include <gtest/gtest.h>
 

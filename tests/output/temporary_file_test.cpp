@@ -3,7 +3,7 @@
 #include "output/png_writer.h"
 #include "output/temporary_file.h"
 
-#include "folder.h"
+#include "../support/folder.h"
 #include "pictures.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "output/process.h"
 #include "output/video_writer.h"
 
-#include "folder.h"
+#include "../support/folder.h"
 #include "pictures.h"
 
 #include <gtest/gtest.h>

@@ -3,26 +3,11 @@
 #include "example_scenes.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace tumble {
-namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
-}  // namespace
-
 Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options) {
     Renderer renderer(scene, options);
     Image image;
@@ -51,26 +36,17 @@ double brightness_at(const Image& image, const SceneDescription& scene, const Ve
 }
 
 ShaderCopy::ShaderCopy() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "tumble-shaders-XXXXXX").string();
-    const char* made = mkdtemp(pattern.data());
-    EXPECT_NE(made, nullptr);
-    folder_ = pattern;
-    std::filesystem::copy(std::filesystem::path(TUMBLE_SOURCE_DIR) / "shaders", folder_,
+    std::filesystem::copy(std::filesystem::path(TUMBLE_SOURCE_DIR) / "shaders", folder(),
                           std::filesystem::copy_options::recursive);
 }
 
-ShaderCopy::~ShaderCopy() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
 int ShaderCopy::replace(const std::string& file, const std::string& text, const std::string& by) {
-    std::string content = text_of(folder_ / file);
+    std::string content = read_text(folder_ / file);
     const std::size_t at = content.find(text);
     EXPECT_NE(at, std::string::npos) << file << " has no '" << text << "'";
     if (at == std::string::npos) return 0;
     content.replace(at, text.size(), by);
-    std::ofstream(folder_ / file) << content;
+    write_text(folder_ / file, content);
     return 1 + int(std::count(content.begin(), content.begin() + std::ptrdiff_t(at), '\n'));
 }
 

@@ -1,6 +1,8 @@
 // Helpers for tests that look at pixels.
 #pragma once
 
+#include "../support/folder.h"
+
 #include "core/image.h"
 #include "render/camera_view.h"
 #include "render/renderer.h"
@@ -27,18 +29,15 @@ double brightness_at(const Image& image, const SceneDescription& scene, const Ve
 class ShaderCopy {
 public:
     ShaderCopy();
-    ~ShaderCopy();
-    ShaderCopy(const ShaderCopy&) = delete;
-    ShaderCopy& operator=(const ShaderCopy&) = delete;
 
     /// Replaces a text that must be there; returns the number of its line.
     int replace(const std::string& file, const std::string& text, const std::string& by);
     void remove(const std::string& file);
-    const std::filesystem::path& folder() const { return folder_; }
-    RenderOptions options() const { return {GlBackend::osmesa, folder_}; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
+    RenderOptions options() const { return {GlBackend::osmesa, folder()}; }
 
 private:
-    std::filesystem::path folder_;
+    TestFolder folder_;
 };
 
 }  // namespace tumble

@@ -1,10 +1,11 @@
 #include "example_scenes.h"
 
+#include "random.h"
+
 #include "core/elementary.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace tumble {
 namespace {
@@ -14,15 +15,6 @@ Quat turned(const Vec3& axis, double angle) {
     const Vec3 v = axis.normalized() * half.sin;
     return {half.cos, v.x(), v.y(), v.z()};
 }
-
-// The standard leaves the distributions' algorithms open; this keeps the pictures the same everywhere.
-class Random {
-public:
-    double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
-
-private:
-    std::mt19937 engine_{7};
-};
 
 Color pleasant_color(Random& random) {
     const double hue = random.between(0.0, 6.0), value = random.between(0.72, 0.95), tone = random.between(0.35, 0.75);
@@ -116,7 +108,7 @@ SceneDescription heap_scene(int count) {
     scene.camera.target = Vec3(0.0, 1.1, 0.0) * far;
     scene.bodies.push_back(ground_plane());
 
-    Random random;
+    Random random(7);
     struct Standing {
         double x, z, radius, top;
     };

@@ -1,6 +1,7 @@
 // Many bodies, most of them small in the picture: what is left out, and what is made coarser.
 #include "drawing.h"
 #include "example_scenes.h"
+#include "random.h"
 
 #include "render/mesh_detail.h"
 #include "render/occlusion_atlas.h"
@@ -10,27 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace tumble {
 namespace {
-
-class Random {
-public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-    double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
-    Vec3 vector(double x, double y, double z) {
-        const double a = between(-x, x), b = between(-y, y);
-        return {a, b, between(-z, z)};
-    }
-    Quat turn() {
-        const Vec3 v = vector(1.0, 1.0, 1.0);
-        return Quat(between(0.1, 1.0), v.x(), v.y(), v.z()).normalized();
-    }
-
-private:
-    std::mt19937 engine_;
-};
 
 /// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall of a box.
 SceneDescription crowded_scene() {
@@ -43,12 +26,11 @@ SceneDescription crowded_scene() {
     const auto ring = torus_asset(0.5, 0.2);
     for (int i = 0; i < 4000; ++i) {
         const Vec3 at = Vec3(0.0, 4.0, -5.0) + random.vector(9.0, 3.5, i % 8 == 0 ? 40.0 : 12.0);
-        const auto channel = [&] { return std::uint8_t(random.between(40.0, 250.0)); };
-        const Color color{channel(), channel(), channel()};
+        const Color color = random.color();
         const double size = random.between(0.2, 1.2);
         if (i % 40 == 0) scene.bodies.push_back(ball_body(at, 0.5 * size, color));
-        else if (i % 80 == 1) scene.bodies.push_back(mesh_body(at, ring, color, random.turn()));
-        else scene.bodies.push_back(box_body(at, Vec3(size, random.between(0.2, 1.2), size), color, random.turn()));
+        else if (i % 80 == 1) scene.bodies.push_back(mesh_body(at, ring, color, random.turn(0.1)));
+        else scene.bodies.push_back(box_body(at, Vec3(size, random.between(0.2, 1.2), size), color, random.turn(0.1)));
     }
     scene.bodies.push_back(box_body(Vec3(-6.0, 3.0, 12.0), Vec3(5.0, 5.0, 0.5), {150, 150, 150}));
     return scene;
@@ -81,8 +63,8 @@ TEST(ManyBodies, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
         for (const int moved : {0, 1, 5, 60, 3000, 2}) {   // beyond a quarter all darkening is looked at again
             for (int i = 0; i < moved; ++i) {
                 BodyState& body = snapshot.bodies[1 + std::size_t(random.between(0.0, 4000.0))];
-                body.origin += random.vector(0.4, 0.4, 0.4);
-                body.orientation = random.turn();
+                body.origin += random.vector(0.4);
+                body.orientation = random.turn(0.1);
             }
             partial.render(snapshot, frame);
             whole.render(snapshot, truth);
@@ -202,8 +184,8 @@ TEST(MeshDetail, IsOffByAQuarterOfAPixelAtMost) {
         const std::size_t level = level_in_view(look, looks, center, view);
         coarsest = std::max(coarsest, level);
         if (level == 0) continue;
-        const Vec3 point = center + random.turn() * Vec3::UnitX() * look.bound_radius;
-        const Vec3 off = random.turn() * Vec3::UnitX() * deviation_of_level(look, level);
+        const Vec3 point = center + random.turn(0.1) * Vec3::UnitX() * look.bound_radius;
+        const Vec3 off = random.turn(0.1) * Vec3::UnitX() * deviation_of_level(look, level);
         const double pixels = (view.pixel(point + off) - view.pixel(point)).norm();
         EXPECT_LE(pixels, most_detail_error * 1.05);   // the deviation itself brings it nearer
         worst = std::max(worst, pixels);

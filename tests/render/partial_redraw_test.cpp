@@ -1,36 +1,15 @@
 // Drawing only what changed gives the bytes of drawing everything.
 #include "drawing.h"
 #include "example_scenes.h"
+#include "random.h"
 
 #include "render/drawn_poses.h"
 #include "render/tile_marks.h"
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 namespace tumble {
 namespace {
-
-class Random {
-public:
-    explicit Random(unsigned seed) : engine_(seed) {}
-    double between(double low, double high) { return low + (high - low) * (double(engine_()) / 4294967296.0); }
-    bool chance(double share) { return between(0.0, 1.0) < share; }
-    Vec3 vector(double size) {
-        const double x = between(-size, size), y = between(-size, size);
-        return {x, y, between(-size, size)};
-    }
-    Quat turn() {
-        const Vec3 v = vector(1.0);
-        return Quat(between(-1.0, 1.0), v.x(), v.y(), v.z()).normalized();
-    }
-    Color color() { return {channel(), channel(), channel()}; }
-
-private:
-    std::uint8_t channel() { return std::uint8_t(between(40.0, 250.0)); }
-    std::mt19937 engine_;
-};
 
 // Boxes, balls, a mesh, perhaps a wall, a cord, a low sun, a mirror.
 SceneDescription random_scene(unsigned seed) {

@@ -1,25 +1,22 @@
 // Mesh files written by the tests, each in a folder of its own that goes away again.
 #pragma once
 
+#include "../support/folder.h"
+
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace tumble {
 
 class MeshFiles : public ::testing::Test {
 protected:
-    MeshFiles() { std::filesystem::create_directories(folder_); }
-    ~MeshFiles() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name, std::ios::binary) << text;
+        write_text(folder_ / name, text);
         return folder_ / name;
     }
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
 
     /// A cube of edge 2 about the origin, in OBJ, with its faces given apart so that tests can leave some out.
     static std::string cube_points() {
@@ -28,9 +25,7 @@ protected:
     static std::string cube_faces() { return "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"; }
 
 private:
-    std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
-                                    ("tumble_mesh_test_" + std::to_string(::getpid()) + "_" +
-                                     ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    TestFolder folder_;
 };
 
 inline std::filesystem::path asset(const std::string& name) {

@@ -1,10 +1,11 @@
 // Depth, normal, segmentation and albedo against closed forms, for every pixel.
 #include "world_rays.h"
 
+#include "random.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
 namespace tumble {
 namespace {
@@ -122,8 +123,8 @@ TEST(AovSurface, ABallIsRound) {
 
 /// Bodies of all kinds anywhere around an eye anywhere, some of them near, behind it, or around it.
 SceneDescription random_scene(unsigned seed) {
-    std::mt19937 engine(seed);
-    const auto between = [&](double low, double high) { return low + (high - low) * (double(engine()) / 4294967296.0); };
+    Random random(seed);
+    const auto between = [&](double low, double high) { return random.between(low, high); };
     const auto within = [&](double reach) { return between(-reach, reach); };
     const auto vector = [&](double reach) { return Vec3(within(reach), within(reach), within(reach)); };
     const auto turn = [&] { return Quat(Eigen::AngleAxisd(between(-3.0, 3.0), vector(1.0).normalized())); };

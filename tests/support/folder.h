@@ -7,6 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace tumble {
 
@@ -17,10 +18,14 @@ public:
         if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
         path_ = name;
     }
-    ~TestFolder() { std::filesystem::remove_all(path_); }
+    ~TestFolder() {
+        std::error_code ignored;   // a test that fails must not end the program as well
+        std::filesystem::remove_all(path_, ignored);
+    }
     TestFolder(const TestFolder&) = delete;
     TestFolder& operator=(const TestFolder&) = delete;
 
+    const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
     std::size_t files() const {
         return std::size_t(std::distance(std::filesystem::directory_iterator(path_), {}));
