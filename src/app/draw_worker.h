@@ -42,8 +42,8 @@ public:
     DrawWorker(const DrawWorker&) = delete;
     DrawWorker& operator=(const DrawWorker&) = delete;
 
-    /// Draws one frame into the slot and waits for it: the picture where it has moments, the AOVs where it has their poses. Throws RunError naming the frame where drawing fails, or the
-    /// process has died.
+    /// Draws one frame into the slot and waits for it: the picture where it has moments, the AOVs where it has their poses.
+    /// Throws RunError naming the frame where drawing fails, or the process has died.
     DrawnFrame draw(const Exposure& exposure, int slot);
 
     /// Asks it to end at once; from any thread. A draw() that waits then fails.

@@ -87,9 +87,8 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
 // Whether nothing has changed for it: in its fat bounds, awake or flying as before.
 bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) const {
     const State& state = states_[i];
-    const bool active = (!body.asleep || kind_ == Pairs::all) && !body.flying;
-    if (active != state.active) return false;
-    if (!active) return known(i);
+    if (active(body) != state.active) return false;
+    if (!state.active) return resting_tree_.holds(i);
     const double way = h * body.velocity.norm();
     if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;   // it was faster
     return inside(bounds_of_step(body, h), active_tree_.box(i));
@@ -110,7 +109,7 @@ void BroadPhase::find_leavers(const std::vector<Body>& bodies, double h, ThreadP
 
 void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
-    state.active = (!body.asleep || kind_ == Pairs::all) && !body.flying;
+    state.active = active(body);
     if (!state.active && active_tree_.holds(i)) {
         fell_asleep_ = true;
         resting_tree_.set(i, active_tree_.box(i));
@@ -127,15 +126,16 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
 }
 
 void BroadPhase::find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies) {
-    const bool active = states_[i].active, dynamic = bodies[i].dynamic();
-    const Bounds& box = (active ? active_tree_ : resting_tree_).box(i);
+    const bool awake = states_[i].active, dynamic = bodies[i].dynamic();
+    const Bounds& box = (awake ? active_tree_ : resting_tree_).box(i);
     const auto meet = [&](std::uint32_t other) {
         if (other == i || (states_[other].moved && other < i)) return;
         if (dynamic || bodies[other].dynamic()) added_.push_back({std::min(i, other), std::max(i, other)});
     };
     active_tree_.query(box, meet);
-    if (active) resting_tree_.query(box, meet);
-    if (!dynamic || !active) return;
+    if (!awake) return;
+    resting_tree_.query(box, meet);
+    if (!dynamic) return;
     const auto add = [&](std::uint32_t fixed) { added_.push_back({std::min(i, fixed), std::max(i, fixed)}); };
     fixed_tree_.query(box, [&](std::uint32_t other) { add(fixed_[other]); });
     for (const std::uint32_t plane : half_spaces_) {

@@ -44,14 +44,14 @@ private:
     bool stays(std::uint32_t i, const Body& body, double h) const;
     void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);
     void visit(std::uint32_t i, const Body& body, double h);
-    bool known(std::uint32_t i) const { return active_tree_.holds(i) || resting_tree_.holds(i); }
+    bool active(const Body& body) const { return (!body.asleep || kind_ == Pairs::all) && !body.flying; }
     void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies);
 
     Pairs kind_;
     bool built_ = false, look_for_awake_ = true;
     std::vector<std::uint32_t> fixed_, half_spaces_, awake_;
     BoundsTree fixed_tree_;
-    DynamicTree active_tree_, resting_tree_;  // each body in one of them
+    DynamicTree active_tree_, resting_tree_;  // each body in one of them, as its state says
     struct State {
         bool active = false;    // awake and not in exact flight
         bool moved = false;     // in this update: its pairs are looked for anew

@@ -45,27 +45,24 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     ++call_;
     views_.resize(bodies.size());
     const auto count = std::uint32_t(entries_.size());
-    const bool shared = pool.size() > 1 && count >= tuning::parallel_grain;
-    SpinBarrier barrier(shared ? std::size_t(pool.size()) : 1);
-    const auto look = [&](std::size_t thread) {
-        Found& found = found_[thread];
+    const bool together = shared(pool);
+    SpinBarrier barrier(together ? std::size_t(pool.size()) : 1);
+    for (Found& found : found_) {
         found.manifolds.clear();
         found.anchors.clear();
         found.changes.clear();
+    }
+    const auto look = [&](std::size_t thread) {
         // Of the bodies in the list only: those that sleep far from all others are not even looked at.
         for (const Entry& entry : entries_)
             for (const std::uint32_t i : {entry.pair.a, entry.pair.b})
-                if ((!shared || pool.thread_of(i) == thread) && views_[i].call != call_) view(views_[i], bodies[i]);
-        if (shared) barrier.wait();
+                if ((!together || pool.thread_of(i) == thread) && views_[i].call != call_) view(views_[i], bodies[i]);
+        if (together) barrier.wait();
         for (std::uint32_t i = 0; i < count; ++i)
-            if (!shared || thread_of(entries_[i], pool) == thread) examine(i, h, found);
+            if (!together || thread_of(entries_[i], pool) == thread) examine(i, h, found_[thread]);
     };
-    if (shared) {
-        pool.together(look);
-    } else {
-        for (Found& found : found_) found.changes.clear();
-        look(0);
-    }
+    if (together) pool.together(look);
+    else look(0);
     put_in_order(pool);
     return manifolds_;
 }
@@ -123,6 +120,9 @@ void NarrowPhase::unpark(Entry& entry) {
     moved_ = true;
     parked_.erase(found);
 }
+
+// Below, meeting costs more than it saves.
+bool NarrowPhase::shared(const ThreadPool& pool) const { return pool.size() > 1 && entries_.size() >= tuning::parallel_grain; }
 
 std::size_t NarrowPhase::thread_of(const Entry& entry, const ThreadPool& pool) const {
     return pool.thread_of(views_[entry.pair.a].awake ? entry.pair.a : entry.pair.b);
@@ -259,12 +259,12 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     }
     spare_manifolds_.resize(all);
     spare_anchors_.resize(all);
-    const bool shared = pool.size() > 1 && count >= tuning::parallel_grain;
+    const bool together = shared(pool);
     const auto bring = [&](std::size_t thread) {
         const Found& found = found_[thread];
         auto change = found.changes.begin();
         for (std::uint32_t i = 0; i < count; ++i) {
-            if (shared && thread_of(entries_[i], pool) != thread) continue;
+            if (together && thread_of(entries_[i], pool) != thread) continue;
             const bool changed = change != found.changes.end() && change->entry == i;
             const std::uint32_t first = changed ? change++->first : entries_[i].first, end = first + new_count_[i];
             const auto &manifolds = changed ? found.manifolds : manifolds_;
@@ -273,7 +273,7 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
             std::copy(anchors.begin() + first, anchors.begin() + end, spare_anchors_.begin() + new_first_[i]);
         }
     };
-    if (shared) pool.together(bring);
+    if (together) pool.together(bring);
     else bring(0);
     for (std::uint32_t i = 0; i < count; ++i) {
         entries_[i].first = new_first_[i];

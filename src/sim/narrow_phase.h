@@ -78,6 +78,7 @@ private:
     void match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);
     void unpark(Entry& entry);
+    bool shared(const ThreadPool& pool) const;
     std::size_t thread_of(const Entry& entry, const ThreadPool& pool) const;
     void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;

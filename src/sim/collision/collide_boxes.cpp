@@ -40,10 +40,10 @@ struct Relative {
         return {std::abs(d) - reach, square, d < 0.0};
     }
     // lowest: the two are parallel.
-    static double length_of(const Edges& e) { return e.square < parallel ? lowest : e.separation / std::sqrt(e.square); }
+    static double separation_of(const Edges& e) { return e.square < parallel ? lowest : e.separation / std::sqrt(e.square); }
     double along(std::uint32_t axis) const {
         if (axis < 3) return face_a(int(axis));
-        return axis < 6 ? face_b(int(axis) - 3) : length_of(edge_pair(int(axis - 6) / 3, int(axis - 6) % 3));
+        return axis < 6 ? face_b(int(axis) - 3) : separation_of(edge_pair(int(axis - 6) / 3, int(axis - 6) % 3));
     }
 };
 
@@ -235,7 +235,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             const Relative::Edges e = rel.edge_pair(i, j);
             // Most are deeper than the best: told by the squares, by more than rounding, without root and division.
             if (e.separation < 0.0 && best < 0.0 && e.separation * e.separation > 1.000001 * best * best * e.square) continue;
-            const double s = Relative::length_of(e);
+            const double s = Relative::separation_of(e);
             if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
             if (s <= best) continue;
             separation = best = s;

@@ -163,11 +163,16 @@ void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
     sources_.resize(groups * lanes);
 }
 
+SoftBatch::Share SoftBatch::blocks_of(std::size_t thread, std::size_t team) const {
+    return {blocks_.size() * thread / team, blocks_.size() * (thread + 1) / team};
+}
+
 void SoftBatch::give_bodies(ThreadPool& pool) const {
     const auto team = std::size_t(pool.size());
-    for (std::size_t thread = 0; thread < team; ++thread)
-        for (std::size_t k = blocks_.first(blocks_.size() * thread / team); k < blocks_.first(blocks_.size() * (thread + 1) / team); ++k)
-            pool.give(blocks_.order()[k], thread);
+    for (std::size_t thread = 0; thread < team; ++thread) {
+        const Share own = blocks_of(thread, team);
+        for (std::size_t k = blocks_.first(own.begin); k < blocks_.first(own.end); ++k) pool.give(blocks_.order()[k], thread);
+    }
 }
 
 // Of the places first to last in the blocks' order.
@@ -286,8 +291,8 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
     const float rate = float(1.0 / d_);
     const std::size_t across = blocks_.size();
-    const std::size_t first_block = across * thread / team, end_block = across * (thread + 1) / team;
-    const std::size_t first_body = blocks_.first(first_block), end_body = blocks_.first(end_block);
+    const Share own = blocks_of(thread, team);
+    const std::size_t first_body = blocks_.first(own.begin), end_body = blocks_.first(own.end);
     const auto group_of = [&](std::size_t home) { return first_group_[first_color_[home]]; };
     const std::size_t first_across = group_of(across), all_across = first_group_.back() - first_across;
     const auto meet = [&] {
@@ -295,7 +300,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     };
     // Colour by colour: in this thread's blocks, then between blocks.
     const auto each_color = [&](auto&& pass) {
-        for (std::size_t c = first_color_[first_block]; c < first_color_[end_block]; ++c) pass(first_group_[c], first_group_[c + 1]);
+        for (std::size_t c = first_color_[own.begin]; c < first_color_[own.end]; ++c) pass(first_group_[c], first_group_[c + 1]);
         if (all_across == 0) return;
         meet();
         const bool shared = all_across >= tuning::soft_shared_groups;
@@ -318,7 +323,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
         for (std::size_t g = first; g < last; ++g) pack(problem, g, slot);
         kernel_.prepare(groups, first, last, bodies);
     };
-    pack_groups(group_of(first_block), group_of(end_block));
+    pack_groups(group_of(own.begin), group_of(own.end));
     pack_groups(first_across + all_across * thread / team, first_across + all_across * (thread + 1) / team);
     meet();
     for (int step = 0; step < substeps_; ++step) {

@@ -54,10 +54,15 @@ private:
         std::uint8_t point[Manifold::capacity] = {};
     };
 
+    struct Share {
+        std::size_t begin, end;
+    };
+
     static Softness softness(double frequency, double d);
     static Place place_of(const Body& body, std::uint32_t slot) {
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
+    Share blocks_of(std::size_t thread, std::size_t team) const;
     void find_movers(const ContactProblem& problem, const SoftSolver::Part& part);
     void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot);
     void deal_lanes(const SoftSolver::Part& part);
