@@ -137,7 +137,7 @@ void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, con
                                   TileMarks& marks) const {
     const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
     const ShadowLight light(scene_->light, now.shadows);
-    const double blur = 1.5 * window_cell(*looks_);
+    const double blur = 1.5 * looks_->window_cell;
     for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, reach, blur, light, *view_, marks);
 }
 

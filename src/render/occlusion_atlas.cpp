@@ -47,8 +47,6 @@ void stretch(const std::vector<float>& values, int from, int to, std::vector<flo
 
 }  // namespace
 
-double window_cell(const SceneLooks& looks) { return looks.window_cell; }
-
 double darkening_detail(double pixels, double few, double all) {
     const double t = std::clamp((pixels - few) / (all - few), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
@@ -190,7 +188,7 @@ void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
             store(x, y, width, open);
         };
         if (plane_darkening.update(plane, looks.bodies[plane.body], snapshot.bodies[plane.body], reference,
-                                   window_cell(looks), occluders, moved, anew || moved_much,
+                                   looks.window_cell, occluders, moved, anew || moved_much,
                                    known == atlas.windows.end() ? nullptr : &*known, shelves, window, keep))
             windows.push_back(window);
     }

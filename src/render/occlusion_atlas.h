@@ -46,9 +46,6 @@ struct OcclusionAtlas {
     std::vector<OcclusionWindow> windows;
 };
 
-/// The size of a window's texels, m. A plane's darkening is blurred by one and a half of them.
-double window_cell(const SceneLooks& looks);
-
 /// What an update changed.
 struct OcclusionChanges {
     struct Body {

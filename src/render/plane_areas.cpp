@@ -27,7 +27,7 @@ std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDe
     static_assert(per_tile * ScreenCover::cell == TileMarks::tile);
     TileMarks touched(view, ScreenCover::cell);
     const ShadowLight light(scene.light, shadows);
-    const double blur = 1.5 * window_cell(looks);
+    const double blur = 1.5 * looks.window_cell;
     const Rectangle marked = marks.bounds();
     for (std::size_t i = 0; i < items.size() && !touched.all(); ++i) {
         const double reach = i < looks.bodies.size() ? looks.bodies[i].reach : 0.0;
