@@ -188,13 +188,20 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
 bool NarrowPhase::holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved) {
     if (last.outcome == Search::Outcome::apart) return last.gap - moved > reach;
     if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * std::min(a.radius, b.radius)) return false;
-    bool within = true;
+    const double touch = touch_distance(a.radius, b.radius);
+    bool stands = true;
     for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
         Manifold& m = manifolds_[k];
         follow(anchors_[k], a.pose, b.pose, m);
-        for (int i = 0; i < m.count; ++i) within = within && m.points[std::size_t(i)].separation <= reach;
+        double nearest = reach;
+        for (int i = 0; i < m.count; ++i) {
+            stands = stands && m.points[std::size_t(i)].separation <= reach;
+            nearest = std::min(nearest, m.points[std::size_t(i)].separation);
+        }
+        // Whether it touches is told to less than what anchors on edges and balls are off by.
+        stands = stands && (nearest <= touch || nearest > moved);
     }
-    return within;
+    return stands;
 }
 
 void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, Found& found) {
@@ -205,7 +212,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.gap = 0.0;
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = found.scratch.axis;
-    last.gap = std::max(reach, found.scratch.gap);
+    last.gap = found.scratch.gap;
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
     last.outcome = count > 0 ? Search::Outcome::near : Search::Outcome::apart;
     if (count == 0) {

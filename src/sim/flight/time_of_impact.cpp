@@ -1,6 +1,7 @@
 #include "sim/flight/time_of_impact.h"
 
 #include "sim/collision/compound.h"
+#include "sim/collision/separating_axis.h"
 #include "sim/flight/closest_axis.h"
 #include "sim/flight/separation_bound.h"
 #include "sim/tuning.h"
@@ -297,6 +298,13 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     }
     if (distance > 0.0) normals_.push_back(*v / distance);
     if (!normals_.empty()) return;
+    const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)), *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
+    if (hull_a && hull_b) {   // an edge along the rim of a face: touching, and yet no contact point lies on the face
+        const Pose at = pose_of(pair.a, a), other = pose_of(pair.b, b);
+        const Pose b_in_a{at.to_body(other.position), at.rotation.transpose() * other.rotation};
+        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, scratch_).normal);
+        return;
+    }
     const Vec3 from = pair.a.part ? pose_of(pair.a, a).position : a_.center;
     normals_.push_back(((pair.b.part ? pose_of(pair.b, b).position : b_.center) - from).normalized());
 }
