@@ -1,6 +1,7 @@
 // Every tuning constant of the simulation, with its unit and its reason.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -226,9 +227,12 @@ inline constexpr int most_substeps = 200000;
 /// Growth of a touched body's spin energy in the turn of one step that is let pass: boxes at 0.1 rad a step stay below.
 inline constexpr double spin_growth = 0.01;
 
-/// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
-inline constexpr double sleep_drift = 2e-4;
-inline constexpr double sleep_time = 0.5;
+/// A body is at rest when its surface strayed, in one of these spans (s), by less than if it gathered speed at this rate
+/// (radii/s^2): 3e-6 radii in the shortest, 2e-4 in the longest. What slides off at a thousandth past the angle of friction
+/// gathers 0.01 sin(angle) m/s^2.
+inline constexpr std::array<double, 4> sleep_times = {0.5, 1.0, 2.0, 4.0};
+inline constexpr double sleep_acceleration = 2.5e-5;
+inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }   // radii
 
 /// A contact of a part of a compound is inside the body, a seam, when this share of the part's size out along its normal all
 /// points lie in other parts, or no farther outside them than the second share: far above rounding, below any real edge.
