@@ -311,7 +311,7 @@ const std::vector<StepLimit>& World::State::held_limits() {
 }
 
 // The pose turns by one tangent: of a needle that can leave L along its thin axis, and the energy L.omega many times what it
-// was. No turn adds energy: in contact what this one did is taken out of L,
+// was. No turn adds energy: in contact or near it what this one did is taken out of L,
 void World::State::limit_spin(Body& body, double before) const {
     body.angular_momentum *= std::sqrt(before / body.angular_momentum.dot(body.angular_velocity));
     body.derive_velocities();
@@ -379,9 +379,9 @@ void World::State::move() {
             }
             body.derive();
             if (grew(body, spin_energy)) {
-                const bool free = !motion_limit.looked_along(i) && body.integrator == IntegratorKind::symplectic_euler;
-                if (touched) limit_spin(body, spin_energy);
-                else if (free) turn_freely(body, orientation, share);
+                // What was looked along must be the way that is gone.
+                if (touched || motion_limit.looked_along(i)) limit_spin(body, spin_energy);
+                else if (body.integrator == IntegratorKind::symplectic_euler) turn_freely(body, orientation, share);
             }
             if (touched && share < 1.0) return_work(body, force_steps[i], share);
         }

@@ -307,7 +307,7 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5);
         lane.points.clear();
-        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.0, 0.4});
+        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         fast.push(480.0f);
         EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
