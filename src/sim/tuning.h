@@ -1,6 +1,7 @@
 // Every tuning constant of the simulation, with its unit and its reason.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -88,9 +89,8 @@ inline constexpr double direct_push_across = 0.03;
 /// Islands in which a body turns farther than this (rad) in a step are left to the substeps. Not those that touch nothing
 /// fixed: the direct solve keeps their angular momentum, poses and all.
 inline constexpr double direct_turn = 0.03;
-/// Single bodies with so few manifolds are solved directly; and all islands of a scene with so few in contact.
-inline constexpr std::size_t direct_small_manifolds = 8;
-inline constexpr std::size_t direct_few_manifolds = 32;
+/// Single bodies are solved directly; and all islands of a scene with so few pairs of bodies in contact.
+inline constexpr std::size_t direct_few_pairs = 32;
 /// Larger ones when a body carries so many times its own mass, and up to so many bodies.
 inline constexpr double direct_load_ratio = 16.0;
 /// In scenes of many manifolds only for more: hundreds of columns of 20 stand softly, too, in half the time.
@@ -223,12 +223,15 @@ inline constexpr double extrapolation_no_drag = 1e-14;
 /// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
 inline constexpr int most_substeps = 200000;
 
-/// Growth of a touched body's spin energy in the turn of one step that is let pass: boxes at 0.1 rad a step stay below.
+/// Growth of a body's spin energy in the turn of one step that is let pass: boxes at 0.1 rad a step stay below.
 inline constexpr double spin_growth = 0.01;
 
-/// A body whose surface strayed by less than this part of its radius for this long (s) is at rest.
-inline constexpr double sleep_drift = 2e-4;
-inline constexpr double sleep_time = 0.5;
+/// A body is at rest when its surface strayed, in one of these spans (s), by less than if it gathered speed at this rate
+/// (radii/s^2): 3e-6 radii in the shortest, 2e-4 in the longest. What slides off at a thousandth past the angle of friction
+/// gathers 0.01 sin(angle) m/s^2.
+inline constexpr std::array<double, 4> sleep_times = {0.5, 1.0, 2.0, 4.0};
+inline constexpr double sleep_acceleration = 2.5e-5;
+inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }   // radii
 
 /// A contact of a part of a compound is inside the body, a seam, when this share of the part's size out along its normal all
 /// points lie in other parts, or no farther outside them than the second share: far above rounding, below any real edge.

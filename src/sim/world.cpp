@@ -10,8 +10,10 @@
 #include "sim/flight/free_flights.h"
 #include "sim/flight/motion_limit.h"
 #include "sim/forces.h"
+#include "sim/free_rotation.h"
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
+#include "sim/integrator/rigid_state.h"
 #include "sim/measurement.h"
 #include "sim/narrow_phase.h"
 #include "sim/thread_pool.h"
@@ -32,6 +34,11 @@ ContactSolver::Effort effort(const SimulationSettings& settings) {
     return settings.impacts == ImpactMode::exact ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced;
 }
 
+// The energy of its spin, from what it was before the body turned.
+bool grew(const Body& body, double before) {
+    return body.angular_momentum.dot(body.angular_velocity) > (1.0 + tuning::spin_growth) * before;
+}
+
 }  // namespace
 
 struct World::State {
@@ -48,6 +55,7 @@ struct World::State {
     ContactIslands islands;           // of the awake bodies
     std::vector<Island> colliding;    // in this step
     std::vector<std::uint32_t> struck;   // and their manifolds
+    std::vector<double> struck_impulses;   // N s, of these before the step
     ContactSolver contact_solver;
     SleepMonitor sleep;
     std::uint64_t seen_sleep_changes = UINT64_MAX;
@@ -106,8 +114,11 @@ struct World::State {
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
     void limit_spin(Body& body, double before) const;
+    void turn_freely(Body& body, const Quat& from, double share) const;
+    void return_work(Body& body, const ForceStep& forces_of_step, double share) const;
     void carry(Body& body, const Body& carrier, double span) const;
     void solve_resting_contacts();
+    void forget_blows();
     void move();
     void fall_asleep();
     void check_finite();
@@ -207,6 +218,7 @@ bool World::State::collides(std::size_t island) const {
 
 void World::State::resolve_collisions() {
     struck.clear();
+    struck_impulses.clear();
     colliding.clear();
     contacts.clear();
     for (std::size_t k = 0; k < islands.size(); ++k) {
@@ -215,6 +227,7 @@ void World::State::resolve_collisions() {
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
         for (const std::uint32_t m : islands.manifolds(k)) {
             struck.push_back(m);
+            struck_impulses.push_back(normal_impulse((*manifolds)[m]));
             const auto first = std::uint32_t(contacts.size());
             add_contacts((*manifolds)[m], bodies, contacts);
             for (std::uint32_t i = first; i < contacts.size(); ++i) island.contacts.push_back(i);
@@ -227,10 +240,8 @@ void World::State::resolve_collisions() {
                   [&](std::size_t i, std::size_t) { resolve_impacts(colliding[i], contacts, bodies, impacts); });
     std::size_t next = 0;
     for (const std::uint32_t k : struck) {
-        Manifold& m = (*manifolds)[k];
-        for (int i = 0; i < m.count; ++i) {
+        for (int i = 0; i < (*manifolds)[k].count; ++i) {
             const Contact& c = contacts[next++];
-            m.points[std::size_t(i)].bounce = c.impact > 0.0 ? c.bounce_velocity : 0.0;
             // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
             if (c.impact > 0.0) add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);
         }
@@ -254,10 +265,24 @@ void World::State::apply_forces() {
 }
 
 void World::State::solve_resting_contacts() {
-    contact_solver.solve({bodies, *manifolds, old_velocities, {h, tuning::restitution_threshold * gravity_step()}},
-                         islands, pool);
-    for (const std::uint32_t k : struck)
-        for (ContactPoint& p : (*manifolds)[k].points) p.bounce = 0.0;
+    const double threshold = tuning::restitution_threshold * gravity_step();
+    pool.for_each(colliding.size(), tuning::parallel_grain,
+                  [&](std::size_t i, std::size_t) { hold_bounces(colliding[i], contacts, bodies, threshold); });
+    contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold}}, islands, pool);
+    forget_blows();
+}
+
+// What stopped a blow in this step is no guess for what will hold in the next: a contact may keep twice what it had, or twice
+// the weight of the lighter body.
+void World::State::forget_blows() {
+    for (std::size_t k = 0; k < struck.size(); ++k) {
+        Manifold& m = (*manifolds)[struck[k]];
+        double lighter = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t i : {m.a, m.b})
+            if (bodies[i].dynamic()) lighter = std::min(lighter, bodies[i].mass);
+        const double sum = normal_impulse(m), most = 2.0 * std::max(struck_impulses[k], lighter * gravity_step());
+        if (sum > most) scale_impulses(m, most / sum);
+    }
 }
 
 // The velocities that poses are moved with.
@@ -285,12 +310,32 @@ const std::vector<StepLimit>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
-// The pose turns by one tangent: of a needle in contact that can leave L along its thin axis, and the energy L.omega many
-// times what it was. No turn adds energy; what this one did is taken out of L.
+// The pose turns by one tangent: of a needle that can leave L along its thin axis, and the energy L.omega many times what it
+// was. No turn adds energy: in contact or near it what this one did is taken out of L,
 void World::State::limit_spin(Body& body, double before) const {
-    const double now = body.angular_momentum.dot(body.angular_velocity);
-    if (!(now > (1.0 + tuning::spin_growth) * before)) return;
-    body.angular_momentum *= std::sqrt(before / now);
+    body.angular_momentum *= std::sqrt(before / body.angular_momentum.dot(body.angular_velocity));
+    body.derive_velocities();
+}
+
+// and in flight, where L stays, the turn is made again, in closed form. The next impact would make speed of that energy.
+void World::State::turn_freely(Body& body, const Quat& from, double share) const {
+    const RigidMass mass = mass_of(body);
+    RigidState state = state_of(body);
+    state.orientation = FreeRotation(mass.principal_inertia, mass.principal_axes, from, body.angular_momentum).at(share * h);
+    set_state(body, state);
+}
+
+// The forces have done work on a body in contact as if it had moved for the whole step. What they did on the way that it
+// did not go is taken back: held up again and again it would gather all of its fall's speed on the spot.
+void World::State::return_work(Body& body, const ForceStep& forces_of_step, double share) const {
+    const Vec3 push = forces_of_step.after.momentum - forces_of_step.before.momentum;
+    const Vec3 turn = forces_of_step.after.angular_momentum - forces_of_step.before.angular_momentum;
+    const double work = (1.0 - share) * (push.dot(body.velocity) + turn.dot(body.angular_velocity));
+    if (!(work > 0.0)) return;
+    const double energy = 0.5 * (body.momentum.dot(body.velocity) + body.angular_momentum.dot(body.angular_velocity));
+    const double scale = std::sqrt(std::max(0.0, 1.0 - work / energy));
+    body.momentum *= scale;
+    body.angular_momentum *= scale;
     body.derive_velocities();
 }
 
@@ -323,6 +368,7 @@ void World::State::move() {
             else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
         } else {
             const double spin_energy = body.angular_momentum.dot(body.angular_velocity);
+            const Quat orientation = body.orientation;
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
@@ -332,7 +378,12 @@ void World::State::move() {
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
             }
             body.derive();
-            if (touched) limit_spin(body, spin_energy);
+            if (grew(body, spin_energy)) {
+                // What was looked along must be the way that is gone.
+                if (touched || motion_limit.looked_along(i)) limit_spin(body, spin_energy);
+                else if (body.integrator == IntegratorKind::symplectic_euler) turn_freely(body, orientation, share);
+            }
+            if (touched && share < 1.0) return_work(body, force_steps[i], share);
         }
         if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], (1.0 - share) * h);
     });

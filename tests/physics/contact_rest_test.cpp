@@ -1,6 +1,7 @@
 // Rest and Coulomb's law to the last digit: no sinking, no drift, stick or slip where the angle says.
 #include "core/elementary.h"
 #include "sim/random_shapes.h"
+#include "support/meshes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -50,6 +51,26 @@ TEST(ContactRest, ABoxRestsForTenMinutes) {
             EXPECT_LE(world.measure().max_penetration, 1e-6) << steps << " " << angle;
             EXPECT_LE(world.measure().kinetic, 1e-18);
         }
+}
+
+// On a mesh whose triangles are much smaller than the box, hundreds of them under it.
+TEST(ContactRest, ABoxOnAFineMeshSticksOrSlips) {
+    const double tangent = 0.1, angle = arc_tangent(tangent);
+    for (const double share : {0.999, 1.001}) {
+        SceneDescription scene = empty_scene(1);
+        scene.simulation.sleep = false;
+        scene.simulation.gravity = g * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+        BodyDescription& ground = add_body(scene, MeshShape{asset_of(grid_mesh(20, 2.0, 0.0))}, Vec3::Zero());
+        ground.type = BodyType::fixed;
+        ground.friction = share * tangent;
+        BodyDescription& box = add_box(scene, {1.0, 0.5, 1.2}, {0.0, 0.25, 0.0});
+        box.friction = share * tangent;
+        box.rotation = turn(Vec3::UnitY(), 0.3);
+        World world(scene);
+        run(world, scene, 3.0);
+        const double way = share < 1.0 ? 0.5 * g * (1.0 - share) * std::sin(angle) * 9.0 : 0.0;
+        EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.x(), way, 0.02 * way + 1e-7) << share;
+    }
 }
 
 // The finest step, for a minute; bodies of many shapes.

@@ -69,6 +69,22 @@ TEST(Sleep, WakesWhenAForceEnds) {
     EXPECT_NEAR(world.snapshot().bodies[1].velocity.norm(), 9.81 * std::sin(angle), 0.01);
 }
 
+// A thousandth too steep, or not steep enough: a box slides off from rest by (sin - mu cos) g t^2 / 2, half a millimetre in
+// the first second, or stays. It must not fall asleep on its way.
+TEST(Sleep, NotWhileSlidingOffSlowly) {
+    const double tangent = 0.1, angle = arc_tangent(tangent);
+    for (const double share : {0.999, 1.001}) {
+        SceneDescription scene = ground_scene(0.0, share * tangent, 1);
+        scene.simulation.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+        add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5, 0.0}).friction = share * tangent;
+        World world(scene);
+        run(world, scene, 4.0);
+        const double way = share < 1.0 ? 0.5 * 9.81 * (1.0 - share) * std::sin(angle) * 16.0 : 0.0;
+        EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.x(), way, 0.02 * way + 1e-7) << share;
+        EXPECT_EQ(all_asleep(world, 1, 1), share > 1.0) << share;
+    }
+}
+
 // The lower box is hit away: the upper one, asleep on it, falls at once.
 TEST(Sleep, FallsWhenItsSupportIsHitAway) {
     SceneDescription scene = stack(2, 0.0);
@@ -122,7 +138,7 @@ TEST(Sleep, WakesWhenTouchedNotWhenPassed) {
 }
 
 // Heaps fall to rest with and without sleep: until the first sleeps both are the same to the last bit; then bodies stay
-// within what counts as rest (sleep_drift of their radius), since all that sleeps has stopped moving.
+// within what counts as rest (tuning.h), since all that sleeps has stopped moving.
 TEST(Sleep, OnOrOffChangesNoPlaceByMoreThanATenthOfAMillimetre) {
     double most = 0.0;
     for (int trial = 0; trial < 4; ++trial) {

@@ -10,6 +10,7 @@ using namespace tumble::testing;
 namespace {
 
 constexpr double h = 1.0 / 64.0;   // exact in binary: half a second is 32 steps
+constexpr double shortest = tuning::sleep_times.front(), longest = tuning::sleep_times.back();
 
 /// A floor (0), two boxes one on the other (1, 2), and one apart from them on the floor (3); nothing moves unless told.
 struct Yard {
@@ -40,7 +41,7 @@ struct Yard {
 
 TEST(SleepMonitor, AfterHalfASecondOfRest) {
     Yard yard;
-    const int steps = int(tuning::sleep_time / h);
+    const int steps = int(tuning::sleep_times[0] / h);
     yard.observe(steps);   // the watch begins with the first look
     EXPECT_EQ(yard.asleep(), 0);
     yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);   // what is left over is taken away
@@ -54,7 +55,7 @@ TEST(SleepMonitor, AfterHalfASecondOfRest) {
 TEST(SleepMonitor, IslandsSleepAsOne) {
     Yard yard;
     for (int k = 0; k < 100; ++k) {
-        yard.bodies[2].position.x() += 1.01 * tuning::sleep_drift * yard.bodies[2].radius;
+        yard.bodies[2].position.x() += 1.01 * tuning::sleep_drift(longest) * yard.bodies[2].radius;
         yard.observe();
     }
     EXPECT_FALSE(yard.bodies[1].asleep);
@@ -66,24 +67,37 @@ TEST(SleepMonitor, IslandsSleepAsOne) {
 TEST(SleepMonitor, SpinsAreNoRest) {
     Yard yard;
     for (int k = 0; k < 100; ++k) {
-        yard.bodies[3].orientation = turn(Vec3::UnitY(), 1.1 * tuning::sleep_drift * k);
+        yard.bodies[3].orientation = turn(Vec3::UnitY(), 1.1 * tuning::sleep_drift(longest) * k);
         yard.observe();
     }
     EXPECT_FALSE(yard.bodies[3].asleep);
     EXPECT_TRUE(yard.bodies[1].asleep);
 }
 
-// Trembling within the drift is rest, creeping beyond it is not.
+// Trembling is rest, after a while; creeping beyond what that trembles is not.
 TEST(SleepMonitor, TremblingIsRestCreepingIsNot) {
     Yard yard;
-    const double drift = tuning::sleep_drift * yard.bodies[3].radius;
-    for (int k = 0; k < 100; ++k) {
+    const double drift = tuning::sleep_drift(longest) * yard.bodies[3].radius;
+    for (int k = 0; k * h < longest + 1.0; ++k) {
         yard.bodies[3].position.x() = 5.0 + (k % 2 ? 0.45 : -0.45) * drift;
         yard.bodies[1].position.x() = 0.1 * k * drift;   // the whole drift in ten steps
         yard.observe();
     }
     EXPECT_TRUE(yard.bodies[3].asleep);
     EXPECT_FALSE(yard.bodies[1].asleep);
+}
+
+// What gathers speed is not at rest, however slowly it does: what it has moved in half a second tells nothing.
+TEST(SleepMonitor, GatheringSpeedIsNoRest) {
+    for (const double share : {0.25, 3.0}) {
+        Yard yard;
+        const double rate = share * tuning::sleep_acceleration * yard.bodies[3].radius;
+        for (int k = 0; k * h < 60.0 * shortest; ++k) {
+            yard.bodies[3].position.x() = 5.0 + 0.5 * rate * (k * h) * (k * h);
+            yard.observe();
+        }
+        EXPECT_EQ(yard.bodies[3].asleep, share < 1.0) << share;
+    }
 }
 
 TEST(SleepMonitor, OnlyWhatLeansOnSomethingFixed) {
@@ -144,7 +158,7 @@ TEST(SleepMonitor, WakingGoesOn) {
     EXPECT_TRUE(yard.sleep.wake_touched(manifolds, yard.bodies, h, 0.0));
     EXPECT_EQ(yard.asleep(), 0);
     // Who has woken begins a new half second.
-    yard.observe(int(tuning::sleep_time / h));
+    yard.observe(int(tuning::sleep_times[0] / h));
     EXPECT_EQ(yard.asleep(), 0);
     yard.observe();
     EXPECT_EQ(yard.asleep(), 3);

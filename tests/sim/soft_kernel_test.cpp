@@ -21,7 +21,7 @@ struct alignas(64) Line {
 
 struct LanePoint {
     Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
-    double separation = 0.0, bounce = 0.0, impulse = 0.0;
+    double separation = 0.0, impulse = 0.0;
 };
 struct Lane {
     std::uint32_t a = unmoved, b = unmoved;
@@ -87,7 +87,6 @@ private:
             vector(base + arm_b, p.arm_b);
             at(k, int(i), normal_mass) = 1.0f;
             at(k, int(i), separation) = float(p.separation);
-            at(k, int(i), bounce) = float(p.bounce);
             at(k, int(i), impulse) = float(p.impulse);
         }
     }
@@ -133,7 +132,7 @@ OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3&
 Lane ball_lane(double friction, double separation = 0.0) {
     Lane lane;
     lane.friction = friction;
-    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0, 0.0}};
+    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0}};
     return lane;
 }
 
@@ -162,7 +161,7 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                 for (double& f : lane.start_friction) f = random(-0.01, 0.01);
                 for (int i = 1 + random.below(4); i > 0; --i)
                     lane.points.push_back({random.vector(1.0), random.vector(1.0), random(-0.05, 0.02),
-                                           random.below(5) == 0 ? random(0.0, 1.0) : 0.0, random(0.0, 0.1)});
+                                           random(0.0, 0.1)});
                 lanes.push_back(lane);
             }
             OneColor color(*kernel, std::size_t(2 * count), lanes);
@@ -308,7 +307,7 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5);
         lane.points.clear();
-        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.0, 0.4});
+        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         fast.push(480.0f);
         EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);

@@ -14,7 +14,6 @@ struct ContactPoint {
     double separation = 0.0;        // m along the normal; negative: overlap
     std::uint64_t feature = 0;      // the features that meet (vertex and face, edge and edge); the same from step to step
     double impulse = 0.0;           // N s along the normal: the last step's, then this step's
-    double bounce = 0.0;            // m/s, v_rel after a collision of this step, which gravity's must not eat; else 0
 };
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).

@@ -26,6 +26,19 @@ void release(Manifold& manifold) {
     manifold.friction[0] = manifold.friction[1] = manifold.twist = 0.0;
 }
 
+double normal_impulse(const Manifold& manifold) {
+    double sum = 0.0;
+    for (const ContactPoint& p : manifold.points) sum += p.impulse;
+    return sum;
+}
+
+void scale_impulses(Manifold& manifold, double share) {
+    for (ContactPoint& p : manifold.points) p.impulse *= share;
+    manifold.friction[0] *= share;
+    manifold.friction[1] *= share;
+    manifold.twist *= share;
+}
+
 double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
 double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
 
@@ -34,7 +47,7 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
 }
 
 bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings) {
-    if (p.bounce > 0.0 || p.separation <= touch_distance(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
+    if (p.separation <= touch_distance(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
     return relative_velocity(p, normal, a, b) < -settings.bounce_threshold;
 }
 
@@ -53,7 +66,6 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const P
         to.arm_b = arm_b;
         to.separation = from.separation;
         to.impulse = from.impulse;
-        to.bounce = from.bounce;
         to.source = i;
         const double weight = from.separation < near ? 1.0 : tuning::friction_far_weight;
         center += weight * arm_a;

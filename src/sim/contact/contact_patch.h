@@ -16,7 +16,6 @@ struct ContactPatch {
         double separation = 0.0;    // m
         double lever = 0.0;         // m, from where friction acts
         double impulse = 0.0;       // N s, last step's
-        double bounce = 0.0;        // m/s, least v_rel after a collision; 0 without one
         int source = 0;             // its place in the manifold
     };
     int count = 0;
@@ -45,6 +44,10 @@ ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, 
 
 /// Forgets the impulses of the step before.
 void release(Manifold& manifold);
+/// Their sum along the normal, N s.
+double normal_impulse(const Manifold& manifold);
+/// Keeps a share of them.
+void scale_impulses(Manifold& manifold, double share);
 
 /// Materials of a pair: the larger restitution, the geometric mean of the frictions.
 double pair_restitution(const Body& a, const Body& b);

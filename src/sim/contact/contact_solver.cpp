@@ -22,6 +22,17 @@ bool floats(const ContactProblem& problem, std::span<const std::uint32_t> manifo
     });
 }
 
+// Of bodies: parts and triangles may touch in many manifolds, but what is factored are bodies and pairs.
+std::size_t pairs(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < manifolds.size(); ++k) {
+        const Manifold& m = problem.manifolds[manifolds[k]];
+        const Manifold* before = k > 0 ? &problem.manifolds[manifolds[k - 1]] : nullptr;
+        if (!before || before->a != m.a || before->b != m.b) ++count;
+    }
+    return count;
+}
+
 }  // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
@@ -49,9 +60,12 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     direct_.clear();
     softly_.clear();
     candidates_.clear();
-    std::size_t all_manifolds = 0;
-    for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
-    const bool few = all_manifolds <= tuning::direct_few_manifolds;
+    std::size_t all_manifolds = 0, all_pairs = 0;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        all_manifolds += islands.manifolds(k).size();
+        all_pairs += pairs(problem, islands.manifolds(k));
+    }
+    const bool few = all_pairs <= tuning::direct_few_pairs;
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
@@ -72,7 +86,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        if (bodies.size() == 1 && manifolds.size() <= tuning::direct_small_manifolds) {
+        if (bodies.size() == 1) {
             direct_.push_back(k);
             continue;
         }

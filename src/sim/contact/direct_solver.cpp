@@ -69,8 +69,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
             Row& row = patch.normal[i];
             set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b, length_);
             row.estimate = p.impulse;
-            row.target = p.bounce > 0.0 ? p.bounce : std::min(0.0, -p.separation / h);
-            driven_ = driven_ || p.bounce > 0.0;
+            row.target = std::min(0.0, -p.separation / h);
             patch.lever[i] = p.lever;
             patch.overlap[i] = -p.separation;
             speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
@@ -363,6 +362,7 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
     if (speed_scale_ <= tuning::direct_rounding * fastest_) {   // nothing comes nearer, without gravity: what overlaps is pushed apart all the same
+        velocity_ = free_;
         store(problem, bodies, push_out(problem.patches.h));
         return true;
     }

@@ -1,7 +1,10 @@
 #include "sim/contact/impacts.h"
 
 #include "sim/contact/impact_friction.h"
+#include "sim/contact/projection.h"
 #include "sim/tuning.h"
+
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -59,6 +62,34 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     }
     cluster.store(contacts, bodies);
     return passes;
+}
+
+void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies, double threshold) {
+    Island bounced;
+    for (const std::uint32_t k : island.contacts) {
+        const Contact& c = contacts[k];
+        // A blow that goes through a contact at rest may leave it parting by rounding: that is no bounce.
+        if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * threshold && c.restitution > 0.0)) continue;
+        bounced.contacts.push_back(k);
+        for (const std::uint32_t i : {c.a, c.b})
+            if (bodies[i].dynamic()) bounced.bodies.push_back(i);
+    }
+    if (bounced.contacts.empty()) return;
+    std::sort(bounced.bodies.begin(), bounced.bodies.end());
+    bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());
+    const ContactCluster cluster(bounced, contacts, bodies);
+    std::vector<Projection::Demand> demands;
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const double length = cluster.length(i);
+        demands.push_back({std::uint32_t(i), (cluster.speed(i) - cluster.contact(i).bounce_velocity) / length, cluster.rounding() / length});
+    }
+    std::vector<double> lambda;
+    Projection(cluster.rows(), cluster.bodies()).solve(demands, lambda);
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const Contact& c = cluster.contact(i);
+        if (lambda[i] > 0.0) add_impulse(c, lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
+    }
+    for (const std::uint32_t i : bounced.bodies) bodies[i].derive_velocities();
 }
 
 }  // namespace tumble

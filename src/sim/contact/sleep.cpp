@@ -56,24 +56,31 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
     return woken;
 }
 
+// Whether it has been at rest for one of the spans.
+bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
+    bool rests = false;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+        Span& span = spans[k];
+        const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
+        // The surface moves by at most |dx| + r |dtheta|, with |dtheta| about 2 |dq|.
+        const double turned = 2.0 * (body.orientation.coeffs() - span.orientation.coeffs()).norm();
+        if ((body.position - span.position).norm() + body.radius * turned > most) {
+            span = {body.position, body.orientation, 0.0};
+        } else {
+            span.still += h;
+            rests = rests || span.still >= time;
+        }
+    }
+    return rests;
+}
+
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
                            double h) {
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
         for (const std::uint32_t i : islands.bodies(island)) {
-            const Body& body = bodies[i];
-            Watch& watch = watches_[i];
-            // The surface moves by at most |dx| + r |dtheta|, with |dtheta| about 2 |dq|.
-            const double turned = 2.0 * (body.orientation.coeffs() - watch.orientation.coeffs()).norm();
-            const double strayed = (body.position - watch.position).norm() + body.radius * turned;
-            if (strayed > tuning::sleep_drift * body.radius) {
-                watch.position = body.position;
-                watch.orientation = body.orientation;
-                watch.still = 0.0;
-            } else {
-                watch.still += h;
-            }
-            still = still && !body.flying && watch.still >= tuning::sleep_time;
+            const bool rests = follow(watches_[i].spans, bodies[i], h);
+            still = still && rests && !bodies[i].flying;
         }
         if (!still) continue;
         for (const std::uint32_t k : islands.manifolds(island)) {

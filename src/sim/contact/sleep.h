@@ -1,10 +1,13 @@
-// Islands that have come to rest leave the loop until something touches them. A body at rest is one whose surface has
-// stayed within a hair of where it was for half a second; an island sleeps when all its bodies are at rest and it leans
-// on something that stands, fixed or kinematic. Bodies in free flight never sleep, however slow.
+// Islands that have come to rest leave the loop until something touches them. A body is at rest when its surface, in one of
+// several spans of time, has stayed so near to where it was that it cannot have been gathering speed: what slides off ever
+// so slowly moves farther in the longer spans, what trembles does not. An island sleeps when all its bodies are at rest and it
+// leans on something that stands, fixed or kinematic. Bodies in free flight never sleep, however slow.
 #pragma once
 
 #include "sim/contact/contact_islands.h"
+#include "sim/tuning.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -29,12 +32,18 @@ public:
     std::uint64_t changes() const { return changes_; }
 
 private:
-    struct Watch {
-        Vec3 position = Vec3::Constant(1e300);   // where the watch began
+    struct Span {
+        Vec3 position = Vec3::Constant(1e300);   // where it began
         Quat orientation = Quat::Identity();
         double still = 0.0;                      // s
+    };
+    using Spans = std::array<Span, tuning::sleep_times.size()>;
+    struct Watch {
+        Spans spans;
         std::shared_ptr<const std::vector<std::uint32_t>> group;   // while asleep
     };
+    static bool follow(Spans& spans, const Body& body, double h);
+
     std::vector<Watch> watches_;
     std::uint64_t changes_ = 0;
 };

@@ -251,7 +251,6 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         put(row + soft::arm_b * stride, stride, p.position - b.position);
         row[soft::normal_mass * stride] = 1.0f;
         row[soft::separation * stride] = float(p.separation);
-        row[soft::bounce * stride] = float(p.bounce);
         row[soft::impulse * stride] = float(share * p.impulse);
     }
     if (count == 0) return release(m);   // left to bounce

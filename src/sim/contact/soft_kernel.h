@@ -50,11 +50,10 @@ enum Point : int {
     spin_b = 9,
     normal_mass = 12,      // 1 in lanes that have this point, 0 in others; then the effective mass, kg
     separation = 13,       // m, when the step began
-    bounce = 14,           // m/s, least v_rel after a collision; 0 without one
-    lever = 15,            // m, from where friction acts; nothing on entry
-    impulse = 16,
-    impulse_sum = 17,
-    point_rows = 18
+    lever = 14,            // m, from where friction acts; nothing on entry
+    impulse = 15,
+    impulse_sum = 16,
+    point_rows = 17
 };
 inline constexpr int group_rows = head_rows + 4 * point_rows;
 

@@ -301,17 +301,16 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
             const Vector an = g.vector(i, arm_a), bn = g.vector(i, arm_b);
             const Lanes gap = g.at(i, separation) + parted + dot(moved_b.angular, bn) - dot(moved_a.angular, an);
             const Lanes speed = dot(b.linear - a.linear, g.vector(normal)) + dot(b.angular, bn) - dot(a.angular, an);
-            const Lanes closing = gap * substeps_per_second, old = g.at(i, impulse), least = g.at(i, bounce);
-            const auto bounces = least > 0.0f;
+            const Lanes closing = gap * substeps_per_second, old = g.at(i, impulse);
             Lanes next;
             if constexpr (pushing) {
                 const Lanes push = larger(g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), -push_limit * g[size]);
-                const auto rigid = gap > 0.0f || bounces;
-                const Lanes bias = bounces ? -least : gap > 0.0f ? closing : push;
-                const Lanes mass = rigid ? all(1.0f) : g[mass_scale], keep = rigid ? Lanes{} : g[impulse_scale];
+                const auto apart = gap > 0.0f;
+                const Lanes bias = apart ? closing : push;
+                const Lanes mass = apart ? all(1.0f) : g[mass_scale], keep = apart ? Lanes{} : g[impulse_scale];
                 next = old - g.at(i, normal_mass) * mass * (speed + bias) - keep * old;
             } else {
-                const Lanes bias = bounces ? -least : larger(closing, Lanes{});
+                const Lanes bias = larger(closing, Lanes{});
                 next = old - g.at(i, normal_mass) * (speed + bias);
             }
             next = larger(next, Lanes{});

@@ -52,6 +52,10 @@ bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std:
     return 2.0 * farthest <= tuning::fast_share * least_depth_;
 }
 
+bool MotionLimit::looked_along(std::uint32_t body) const {
+    return std::any_of(fast_.begin(), fast_.end(), [&](const FastPair& pair) { return pair.a == body || pair.b == body; });
+}
+
 StepLimit& MotionLimit::shorten(std::uint32_t body) {
     shortened_.push_back(body);
     return limits_[body];
@@ -86,8 +90,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     }
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
-    if (all_slow(bodies, moving, motions, h)) return limits_;
     fast_.clear();
+    if (all_slow(bodies, moving, motions, h)) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
@@ -96,13 +100,14 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
         const double thin = std::min(tuning::fast_share * (surface(a) ? depth_b : surface(b) ? depth_a : depth_a + depth_b),
                                      tuning::fast_deepest * std::min(surface(a) ? depth_b : depth_a, surface(b) ? depth_a : depth_b));
-        if (way(a, b, motions[pair.a], motions[pair.b], h) <= thin) continue;
-        FastPair fast{pair.a, pair.b, 0.0};
+        const double gone = way(a, b, motions[pair.a], motions[pair.b], h);
+        if (gone <= thin) continue;
+        const double least = std::min(depth_a, depth_b);
+        FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
             // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
             if (ball(a) && ball(b)) continue;   // nothing turns
-            const double least = std::min(depth_a, depth_b);
-            fast.overlap = std::max(tuning::fast_overlap * least, *deepest + tuning::fast_deeper * least);
+            fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
     }
@@ -118,8 +123,13 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     }
     for (int round = 0; round < tuning::motion_limit_rounds; ++round) {
         bool shorter = false;
-        for (const FastPair& pair : fast_) {
-            const double share = first_touch(pair, bodies, h) / h;
+        for (FastPair& pair : fast_) {
+            double first = first_touch(pair, bodies, h);
+            if (pair.overlap == 0.0 && first <= pair.at_once) {
+                pair.overlap = pair.overlap_of_touching;
+                first = first_touch(pair, bodies, h);
+            }
+            const double share = first / h;
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
                 const std::uint32_t other = k == pair.a ? pair.b : pair.a;

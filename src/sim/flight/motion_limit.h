@@ -38,10 +38,17 @@ public:
                                          const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
                                          const std::vector<BodyVelocity>& motions, double h);
 
+    /// Whether the body's way in the last step was looked along: on any other it might meet something.
+    bool looked_along(std::uint32_t body) const;
+
 private:
     struct FastPair {
         std::uint32_t a, b;
         double overlap;   // m, that it may come to: of those that touch already
+        // s, in which it goes no farther than counts as touching. What meets so soon touches, too, though its manifold, along
+        // a face, may still see a gap: were it stopped there, nothing would ever resolve the collision.
+        double at_once;
+        double overlap_of_touching;   // m, at least
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
