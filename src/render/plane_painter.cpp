@@ -42,6 +42,8 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
                            bool shadows)
     : gl_(&gl),
+      shaders_(shaders),
+      shadows_(shadows),
       other_planes_(other_planes(looks)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array),
@@ -50,21 +52,44 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     for (const BodyLook& look : looks.bodies) {
         auto& programs = planes_[std::size_t(look.pattern)];
         if (look.kind != DrawKind::plane || programs) continue;
-        const std::vector<std::string> all = defines(look.pattern, other_planes_);
-        const auto program = [&](const std::vector<std::string>& more) {
-            ShaderProgram made(gl, shaders, {"plane.vert", "plane.frag", with(all, more)});
-            connect(made);
-            return made;
-        };
-        std::vector<std::string> touched = {"TOUCHED"};
-        if (shadows) touched = with(touched, {"SHADOWED", shadow_size()});
-        programs.emplace(Programs{program({}), program(touched), program(with(touched, {"FAR_MAP"}))});
+        programs.emplace(Programs{make(look.pattern, {}), make(look.pattern, touched()), std::nullopt});
     }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
     gl.EnableVertexAttribArray(0);
     gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
     gl.BindVertexArray(0);
+}
+
+ShaderProgram PlanePainter::make(Pattern pattern, const std::vector<std::string>& more) const {
+    ShaderProgram made(*gl_, shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
+    connect(made);
+    return made;
+}
+
+std::vector<std::string> PlanePainter::touched() const {
+    std::vector<std::string> all = {"TOUCHED"};
+    return shadows_ ? with(all, {"SHADOWED", shadow_size()}) : all;
+}
+
+std::vector<std::function<void()>> PlanePainter::compilations() const {
+    std::vector<std::function<void()>> all;
+    const auto add = [&](const ShaderProgram& program) {
+        all.emplace_back([this, &program] {
+            gl_->Disable(GL_CULL_FACE);
+            gl_->BindVertexArray(array_.name());
+            upload_polygon(std::vector<glm::vec3>(3));
+            program.use();
+            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, 3);
+            gl_->BindVertexArray(0);
+        });
+    };
+    for (const auto& programs : planes_)
+        if (programs) add(programs->touched);
+    for (const auto& programs : planes_)
+        if (programs) add(programs->open);
+    add(sky_);
+    return all;
 }
 
 void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks,
@@ -88,14 +113,16 @@ void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const 
 
 void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
                                 const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                                const CameraView& view, bool far_shadows) const {
+                                const CameraView& view, bool far_shadows) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
-        const ShaderProgram& program = far_shadows ? programs.touched_far : programs.touched;
         if (areas[i].empty()) continue;
+        const Pattern pattern = looks.bodies[planes[i].body].pattern;
+        Programs& programs = *planes_[std::size_t(pattern)];
+        if (far_shadows && !programs.touched_far) programs.touched_far.emplace(make(pattern, with(touched(), {"FAR_MAP"})));
+        const ShaderProgram& program = far_shadows ? *programs.touched_far : programs.touched;
         upload_polygon(planes[i].corners);
         set_uniforms(program, planes[i], planes, looks);
         set_window(program, planes[i], atlas, looks, snapshot, view);

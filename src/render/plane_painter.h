@@ -8,7 +8,10 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -22,12 +25,18 @@ public:
 
     /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
     void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas, const SceneLooks& looks,
-              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view, bool far_shadows) const;
+              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view, bool far_shadows);
+
+    /// For each shader a draw that has it compiled. The caller sees to it that nothing of it lands in the picture.
+    std::vector<std::function<void()>> compilations() const;
 
 private:
     struct Programs {
-        ShaderProgram open, touched, touched_far;   // the last where the far shadow map is in use
+        ShaderProgram open, touched;
+        std::optional<ShaderProgram> touched_far;   // once the far shadow map is in use
     };
+    ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
+    std::vector<std::string> touched() const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
                       const SceneLooks& looks) const;
     void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
@@ -35,6 +44,8 @@ private:
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
 
     const GlFunctions* gl_;
+    std::filesystem::path shaders_;
+    bool shadows_;
     std::array<std::optional<Programs>, 3> planes_;  // by pattern: those that the scene uses
     int other_planes_;
     ShaderProgram sky_;

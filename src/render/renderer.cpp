@@ -6,6 +6,7 @@
 #include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "render/change_finder.h"
+#include "render/compilation_turns.h"
 #include "render/draw_list.h"
 #include "render/drawn_parts.h"
 #include "render/edge_blender.h"
@@ -21,7 +22,10 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -62,7 +66,8 @@ struct Renderer::State {
           planes(gl, shaders, looks, scene.light.shadows),
           full_redraw(options.full_redraw),
           draw_hidden(options.draw_hidden),
-          times(options.times) {
+          times(options.times),
+          turns(options.turns) {
         drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
@@ -87,6 +92,27 @@ struct Renderer::State {
         view = view.from(camera);
         changes.forget();
         return true;
+    }
+
+    // With draws of which nothing is let through. Those that take longest first: see CompilationTurns.
+    void compile_shaders(const DrawList& list) {
+        if (turns == nullptr) return;
+        bind_textures();
+        framebuffer.begin_whole();
+        gl.Enable(GL_SCISSOR_TEST);
+        gl.Scissor(0, 0, 0, 0);
+        std::vector<std::function<void()>> all = programs.compilations(meshes, list.visible);
+        for (auto& one : planes.compilations()) all.push_back(std::move(one));
+        if (scene.light.shadows) all.emplace_back([&] { shadow_map.compile(meshes, list.casters); });
+        std::exchange(turns, nullptr)->run(all);
+        gl.Disable(GL_SCISSOR_TEST);
+    }
+
+    void bind_textures() const {
+        gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
+        gl.BindTexture(GL_TEXTURE_2D, occlusion_texture.name());
+        gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
+        gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
     }
 
     // What is behind all bodies; kept while the camera stands still.
@@ -132,6 +158,7 @@ struct Renderer::State {
     std::vector<Rectangle> changed;
     bool full_redraw, draw_hidden;
     RenderTimes* times;
+    CompilationTurns* turns;   // until its shaders are compiled
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -192,6 +219,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
     clock.ends(RenderStage::upload);
+    s.compile_shaders(list);
 
     if (s.scene.light.shadows && !shadow_marks.none())
         s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
@@ -200,10 +228,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.draw_background(planes, camera_moved);
     clock.ends(RenderStage::background);
 
-    s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
-    s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion_texture.name());
-    s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
-    s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
+    s.bind_textures();
     s.programs.draw(s.meshes, list.visible);
     clock.ends(RenderStage::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);

@@ -14,6 +14,7 @@
 namespace tumble {
 
 enum class GlBackend { osmesa, egl };
+class CompilationTurns;
 struct RenderTimes;
 
 struct RenderOptions {
@@ -24,6 +25,7 @@ struct RenderOptions {
     bool multisample = false;             // edges by several samples a pixel, as where cords are drawn: for comparisons
     double shift_x = 0.0, shift_y = 0.0;  // pixels that the picture is moved by, under one: for averages of many
     RenderTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer
+    CompilationTurns* turns = nullptr;    // shared with the other processes that draw this scene, if there are any
 };
 
 /// One OpenGL context and what is uploaded to it. Use it from the thread that made it.

@@ -27,6 +27,15 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
         throw RunError("the OpenGL driver refuses a shadow map");
 }
 
+void ShadowMap::compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const {
+    if (casters.empty()) return;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    program_.use();
+    Batch one = casters.front();
+    one.count = 1;
+    meshes.draw(one);
+}
+
 void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
                      bool with_far) const {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

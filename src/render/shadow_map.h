@@ -21,6 +21,9 @@ public:
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
               bool with_far) const;
 
+    /// Has its shader compiled, as SurfacePrograms::compilations() does.
+    void compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const;
+
     GLuint texture() const { return texture_.name(); }
 
 private:
