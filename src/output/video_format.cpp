@@ -33,8 +33,8 @@ Arguments codec(VideoKind kind) {
     switch (kind) {
         // The bytes depend on the number of threads: it is fixed. Without B-frames it takes a sixth less time for a quarter
         // more bytes, and frames are stored in the order of their times: with them the last ones end too early after a
-        // frame that was shown longer. The rest is measured in docs/output.md: what stays for long is worth a good first
-        // frame, which says so at less cost than looking ahead does, and what moves is seldom new.
+        // frame that was shown longer. The rest is measured in docs/output.md: most of a picture stays, so that a
+        // good first frame does what looking ahead would, at less cost; and little of the later ones is new.
         case VideoKind::h264:
             return {"-c:v",     "libx264", "-preset",  "veryfast", "-crf", "21", "-bf", "0",
                     "-threads", "4",       "-pix_fmt", "yuv420p",  "-x264-params",
