@@ -74,41 +74,37 @@ std::vector<std::string> PlanePainter::touched() const {
 
 std::vector<std::function<void()>> PlanePainter::compilations() const {
     std::vector<std::function<void()>> all;
-    const auto add = [&](const ShaderProgram& program) {
-        all.emplace_back([this, &program] {
-            gl_->Disable(GL_CULL_FACE);
-            gl_->BindVertexArray(array_.name());
-            upload_polygon(std::vector<glm::vec3>(3));
+    const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles it for each such comparison
+        all.emplace_back([this, &program, nearer] {
             program.use();
-            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, 3);
-            gl_->BindVertexArray(0);
+            gl_->DepthFunc(nearer);
+            draw_polygon(std::vector<glm::vec3>(3));
+            gl_->DepthFunc(GL_LEQUAL);
         });
     };
     for (const auto& programs : planes_)
-        if (programs) add(programs->touched);
+        if (programs) add(programs->touched, GL_LEQUAL);
     for (const auto& programs : planes_)
-        if (programs) add(programs->open);
-    add(sky_);
+        if (programs) add(programs->open, GL_LESS);
+    add(sky_, GL_LEQUAL);
     return all;
 }
 
-void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks,
-                                   const CameraView& view) const {
-    gl_->Disable(GL_CULL_FACE);
-    gl_->BindVertexArray(array_.name());
-    const auto draw = [&](const std::vector<glm::vec3>& corners) {
-        upload_polygon(corners);
-        gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
-    };
-    // The sky first: at the horizon a plane's depth rounds to the sky's, and the plane is drawn last in any case.
+void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
     const std::vector<glm::vec3> sky = sky_polygon(planes, view);
     sky_.use();
-    if (sky.size() >= 3) draw(sky);
-    for (const PlanePatch& plane : planes) {
-        set_uniforms(planes_[std::size_t(looks.bodies[plane.body].pattern)]->open, plane, planes, looks);
-        draw(plane.corners);
+    if (sky.size() >= 3) draw_polygon(sky);
+}
+
+void PlanePainter::draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const {
+    // What is as near stays: bodies and touched areas drawn before, as they would be drawn over this. So the last of
+    // planes that meet, which are drawn over each other in the touched areas, comes first here.
+    gl_->DepthFunc(GL_LESS);
+    for (std::size_t i = planes.size(); i-- > 0;) {
+        set_uniforms(planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->open, planes[i], planes, looks);
+        draw_polygon(planes[i].corners);
     }
-    gl_->BindVertexArray(0);
+    gl_->DepthFunc(GL_LEQUAL);
 }
 
 void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
@@ -169,6 +165,14 @@ void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& pl
     program.set("window_v", to_glm(v, v.dot(eye) - window->low_b + window->y));
     program.set("window_rim", glm::vec4(float(window->x), float(window->y), float(window->x + window->width - 1),
                                         float(window->y + window->height - 1)));
+}
+
+void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
+    gl_->Disable(GL_CULL_FACE);
+    gl_->BindVertexArray(array_.name());
+    upload_polygon(corners);
+    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
+    gl_->BindVertexArray(0);
 }
 
 void PlanePainter::upload_polygon(const std::vector<glm::vec3>& corners) const {

@@ -20,12 +20,17 @@ public:
     PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
                  bool shadows);
 
-    /// All planes without bodies and shadows, and the sky: what stays behind all frames.
-    void draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks, const CameraView& view) const;
+    /// The sky, where no plane is. Before anything else: at the horizon a plane's depth rounds to the sky's.
+    void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
+
+    /// All planes without bodies' shadows and darkening, where nothing as near has been drawn. It does not matter whether
+    /// bodies and touched areas come before or after.
+    void draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const;
 
     /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
-    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas, const SceneLooks& looks,
-              const OcclusionAtlas& atlas, const Snapshot& snapshot, const CameraView& view, bool far_shadows);
+    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
+                      const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                      const CameraView& view, bool far_shadows);
 
     /// For each shader a draw that has it compiled. The caller sees to it that nothing of it lands in the picture.
     std::vector<std::function<void()>> compilations() const;
@@ -42,6 +47,7 @@ private:
     void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
                     const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
+    void draw_polygon(const std::vector<glm::vec3>& corners) const;
 
     const GlFunctions* gl_;
     std::filesystem::path shaders_;

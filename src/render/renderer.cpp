@@ -115,17 +115,18 @@ struct Renderer::State {
         gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
     }
 
-    // What is behind all bodies; kept while the camera stands still.
-    void draw_background(const std::vector<PlanePatch>& patches, bool camera_moved) {
+    // Before the bodies. While the camera stands still, what is behind them is kept.
+    void begin_picture(const std::vector<PlanePatch>& patches, bool camera_moved) {
         background_kept = background_kept && !changes.background_changed();
         if (camera_moved) {
             framebuffer.begin_whole();
-            planes.draw_background(patches, looks, view);
+            planes.draw_sky(patches, view);
             return;
         }
         if (!background_kept) {
             framebuffer.begin_background();
-            planes.draw_background(patches, looks, view);
+            planes.draw_sky(patches, view);
+            planes.draw_open(patches, looks);
             background_kept = true;
         }
         framebuffer.begin(changed);
@@ -180,7 +181,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         return;
     }
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
-                     near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
+                     near_distance_for(s.looks, snapshot, s.view),
+                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
     const std::vector<DrawnItem>& items = state.items;
@@ -225,7 +227,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
     clock.ends(RenderStage::shadow);
 
-    s.draw_background(planes, camera_moved);
+    s.begin_picture(planes, camera_moved);
     clock.ends(RenderStage::background);
 
     s.bind_textures();
@@ -233,6 +235,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(RenderStage::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(RenderStage::planes);
+    if (camera_moved) s.planes.draw_open(planes, s.looks);   // last: not where bodies and their shadows are already
+    clock.ends(RenderStage::background);
 
     s.framebuffer.resolve(s.changed);
     s.framebuffer.read(s.changed, s.drawn_image);
