@@ -24,7 +24,7 @@ struct RenderCommand {
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
     int blur_samples = 8;   // moments of an open shutter
-    int threads = 1;      // of the simulation
+    std::optional<int> threads;   // of the simulation; see simulation_threads.h
     int workers = 1;      // processes that draw
     bool quiet = false;
 };

@@ -2,9 +2,13 @@
 
 #include "app/frame_order.h"
 #include "core/error.h"
+#include "render/compilation_turns.h"
+
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <condition_variable>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -14,6 +18,14 @@ namespace {
 
 // One is filled, one waits for its turn, one is read; those that the queues behind hold make the worker wait.
 constexpr int slots_of_worker = 4;
+
+/// In memory that all processes see. Null where there is only one.
+std::shared_ptr<CompilationTurns> make_turns(int workers) {
+    if (workers < 2) return nullptr;
+    void* const memory = mmap(nullptr, sizeof(CompilationTurns), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return nullptr;   // then each compiles everything
+    return {new (memory) CompilationTurns, [](CompilationTurns* turns) { munmap(turns, sizeof *turns); }};
+}
 
 }  // namespace
 
@@ -59,9 +71,11 @@ private:
 
 Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
                int most_moments)
-    : drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
+    : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
+    RenderOptions in_turns = options;
+    in_turns.turns = turns_.get();
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(std::make_unique<DrawWorker>(scene, options, forms, slots_of_worker, most_moments));
+        workers_.push_back(std::make_unique<DrawWorker>(scene, in_turns, forms, slots_of_worker, most_moments));
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
 }

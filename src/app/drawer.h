@@ -69,6 +69,7 @@ private:
     bool follow_picture(Exposure& exposure);
     void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times);
 
+    std::shared_ptr<CompilationTurns> turns_;
     std::vector<std::unique_ptr<DrawWorker>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
     std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time

@@ -73,10 +73,10 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
         ->type_name("S");
 }
 
-void add_run(CLI::App& command, int& threads, bool& quiet) {
-    threads = machine_threads();
+template <class Threads>
+void add_run(CLI::App& command, Threads& threads, const std::string& unless_told, bool& quiet) {
     command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
-        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", threads));
+        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", unless_told));
     command.add_flag("--quiet", quiet, "Say nothing but errors");
 }
 
@@ -113,7 +113,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     c.workers = std::min(machine_threads(), enough_workers);
     command->add_option("--workers", c.workers, "Processes that draw, one a core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
-    add_run(*command, c.threads, c.quiet);
+    add_run(*command, c.threads, "by the bodies", c.quiet);
     command->footer(
         "Examples:\n"
         "  tumble render scene.toml                          writes scene.mp4\n"
@@ -147,7 +147,8 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     command->add_option("--impact-law", c.overrides.impact_law,
                         "propagating or simultaneous: what several contacts at once do")->type_name("NAME");
     add_frames_of_time(*command, c.overrides);
-    add_run(*command, c.threads, c.quiet);
+    c.threads = machine_threads();
+    add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
     command->footer(
         "Examples:\n"
         "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"

@@ -2,6 +2,7 @@
 #include "app/interrupt.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <thread>
 
 namespace tumble {
 namespace {
@@ -115,10 +117,12 @@ void run_render(const RenderCommand& command) {
     // Before any thread. They open OpenGL while the bodies are built.
     Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, scene.frame_count())),
                   shutter.moments);
+    const int cores = int(std::max(std::thread::hardware_concurrency(), 1u));
+    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), cores));
     World world = [&] {
         SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies
         divide_frames(in_parts, shutter.parts);
-        return World(in_parts, command.threads);
+        return World(in_parts, threads);
     }();
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);

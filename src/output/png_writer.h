@@ -1,4 +1,4 @@
-// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the file; the pixels are compressed by ISA-L (igzip) in bands
+// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the head; the pixels are compressed by ISA-L (igzip) in bands
 // of rows that do not look at each other, so that of a frame that is like the one before only the changed bands are
 // compressed again. The bytes are those of compressing all of them.
 #pragma once
@@ -30,12 +30,13 @@ private:
         std::uint32_t checksum = 0;   // Adler-32 of its rows
     };
     void compress(const Image& image, int first_row, Band& band);
+    void make_head();
 
     Deflater deflater_;
     int width_ = 0, height_ = 0;      // of the picture before
     std::vector<Band> bands_;
     std::vector<std::uint8_t> rows_;  // of one band, as they are compressed
-    std::vector<std::byte> file_;
+    std::vector<std::byte> head_, file_;
 };
 
 /// The most bytes that a PNG of this size takes.

@@ -7,8 +7,22 @@
 namespace tumble {
 namespace {
 
-// The integral of clamp(x, 0, 1).
-double ramp_area(double x) { return x <= 0.0 ? 0.0 : x >= 1.0 ? x - 0.5 : 0.5 * x * x; }
+// The integral of clamp(x, 0, 1), without branches, which no processor could foresee.
+double ramp_area(double x) {
+    const double c = std::min(std::max(x, 0.0), 1.0);
+    return 0.5 * c * c + std::max(x - 1.0, 0.0);
+}
+
+// Below this a strip is too narrow for its slope to matter.
+constexpr double least_half = 1e-6;
+
+// share_before(), given 1 / (2 half), or 0 where that is too narrow.
+double share_of(double t, double half, double inverse) {
+    if (inverse == 0.0) return std::clamp(t, 0.0, 1.0);
+    return (ramp_area(t + half) - ramp_area(t - half)) * inverse;
+}
+
+double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
 
 // The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
 int below(double x) { return int(x + 2.0) - 2; }
@@ -37,7 +51,7 @@ public:
         count_n_ = across_ ? drawn_.width : drawn_.height;
         step_m_ = across_ ? row : 4;
         step_n_ = across_ ? 4 : row;
-        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope);
+        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope), inverse = inverse_width(steepness);
         if (!(std::max(m0, 0.0) < count_m_)) return;
         const int first = below(std::max(m0, 0.0)), last = below(std::min(m1, count_m_ - 0.5));
         for (int m = first; m <= last; ++m) {
@@ -45,19 +59,27 @@ public:
             if (length <= 0.0) continue;
             const double line = n0 + (0.5 * (from + to) - m0) * slope, half = steepness * length;
             if (!(line + half >= 0.0 && line - half < count_n_)) continue;
+            const Crossing here{line, half, length == 1.0 ? inverse : inverse_width(half), length};
             const int end = std::min(below(line + half), count_n_ - 1);
-            for (int n = std::max(below(std::max(line - half, 0.0)), 0); n <= end; ++n) pixel(m, n, line, half, length);
+            for (int n = std::max(below(std::max(line - half, 0.0)), 0); n <= end; ++n) pixel(m, n, here);
         }
     }
 
 private:
-    // The pixel that the edge passes, over `length` of it, at height `line`. A share of its colour comes from the neighbour
-    // over the edge, or the one behind it where the edge runs aslant. An edge that something hides meets other surfaces.
-    void pixel(int m, int n, double line, double half, double length) {
+    // Where the edge crosses a row of pixels that lie across it.
+    struct Crossing {
+        double line, half;      // its height there, and how far it rises and falls around that
+        double inverse;         // inverse_width() of that
+        double length;          // how much of the pixels' width it passes
+    };
+
+    // A share of the pixel's colour comes from the neighbour over the edge, or the one behind it where the edge runs
+    // aslant. An edge that something hides meets other surfaces.
+    void pixel(int m, int n, const Crossing& here) {
         const std::ptrdiff_t at = m * step_m_ + n * step_n_;
         const std::uint8_t* const drawn = drawn_.pixels.data() + at;
         bool is_inner = drawn[3] == inner_;
-        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - line) * side_ > 0.0;   // the number does not tell
+        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - here.line) * side_ > 0.0;   // the number does not tell
         if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
         const int step = is_inner ? -side_ : side_;
         const std::uint8_t* from = drawn;
@@ -67,10 +89,10 @@ private:
             if (is_inner ? (outer_ == 0 ? from[3] != inner_ : from[3] == outer_) : from[3] == inner_) break;
         }
         const int x = across_ ? n : m, y = across_ ? m : n;
-        if (!marks_.at(x / TileMarks::tile, y / TileMarks::tile)) return;
-        const double after = share_before(n + 1.0 - line, half);   // of the strip, on the side of greater n
+        if (!marks_.at(int(unsigned(x) / TileMarks::tile), int(unsigned(y) / TileMarks::tile))) return;
+        const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip, where n is greater
         // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
-        const double share = std::min(length * (step > 0 ? after : 1.0 - after), 0.5);
+        const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
         const int weight = int(256.0 * share + 0.5);
         std::uint8_t* const to = frame_.pixels.data() + at;
         for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
@@ -87,10 +109,7 @@ private:
 
 }  // namespace
 
-double share_before(double t, double half) {
-    if (half < 1e-6) return std::clamp(t, 0.0, 1.0);
-    return (ramp_area(t + half) - ramp_area(t - half)) / (2.0 * half);
-}
+double share_before(double t, double half) { return share_of(t, half, inverse_width(half)); }
 
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
     for (const Rectangle& r : rectangles)

@@ -27,12 +27,15 @@ Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int sampl
       width_(width),
       height_(height),
       samples_(supported_samples(gl, samples)),
-      background_(make_target(samples_, true)),
-      drawn_(make_target(samples_, true)) {
-    if (samples_ > 1) resolved_.emplace(make_target(1, false));
+      background_(make_target(samples_, true, true)),
+      drawn_(make_target(samples_, true, true)),
+      closed_(make_target(samples_, false, true)) {
+    if (samples_ > 1) resolved_.emplace(make_target(1, true, false));
+    begin_all(closed_, 0.0);
+    begin_all(drawn_, 0.0);
 }
 
-Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const {
+Framebuffer::Target Framebuffer::make_target(int samples, bool with_color, bool with_depth) const {
     const int most = integer(*gl_, GL_MAX_RENDERBUFFER_SIZE);
     if (width_ > most || height_ > most)
         throw RunError(fmt::format("the OpenGL driver draws pictures of at most {0} x {0} pixels, not {1} x {2}", most,
@@ -41,9 +44,14 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_depth) const
                   GlObject(*gl_, GlKind::renderbuffer)};
     const GLsizei stored = samples > 1 ? samples : 0;
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
-    gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
-    gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height_);
-    gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
+    if (with_color) {
+        gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height_);
+        gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
+    } else {
+        gl_->DrawBuffer(GL_NONE);
+        gl_->ReadBuffer(GL_NONE);
+    }
     if (with_depth) {
         gl_->BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
         gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_DEPTH_COMPONENT32F, width_, height_);
@@ -71,22 +79,24 @@ void Framebuffer::copy(const Target& from, const Target& to, const std::vector<R
                              GL_NEAREST);
 }
 
-void Framebuffer::begin_all(const Target& target) const {
+void Framebuffer::begin_all(const Target& target, double depth) const {
     bind(target);
-    gl_->ClearDepth(1.0);
+    gl_->ClearDepth(depth);
     gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
 }
 
-void Framebuffer::begin_background() const { begin_all(background_); }
+void Framebuffer::begin_background() { begin_all(background_, 1.0); }
 
-void Framebuffer::begin_whole() const { begin_all(drawn_); }
+void Framebuffer::begin_whole() {
+    begin_all(drawn_, 1.0);
+    open_ = {{0, 0, width_, height_}};
+}
 
-void Framebuffer::begin(const std::vector<Rectangle>& rectangles) const {
-    bind(drawn_);
-    gl_->ClearDepth(0.0);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);
+void Framebuffer::begin(const std::vector<Rectangle>& rectangles) {
+    copy(closed_, drawn_, open_, GL_DEPTH_BUFFER_BIT);
     copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind(drawn_);
+    open_ = rectangles;
 }
 
 void Framebuffer::resolve(const std::vector<Rectangle>& rectangles) const {

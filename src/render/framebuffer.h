@@ -1,7 +1,7 @@
 // The picture's own framebuffers: colour and depth with several samples a pixel, the background that is put back where
-// something has moved, and the single-sample colour that the samples are averaged into. The shaders write sRGB themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a
-// frame), and edges are averaged as they are displayed, which keeps a bright edge before a dark ground from growing a
-// staircase.
+// something has moved, and the single-sample colour that the samples are averaged into. The shaders write sRGB
+// themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a frame), and edges are averaged as they are
+// displayed, which keeps a bright edge before a dark ground from growing a staircase.
 #pragma once
 
 #include "core/image.h"
@@ -21,15 +21,15 @@ public:
     int samples() const { return samples_; }
 
     /// Makes the background the target of what is drawn next, over its whole area, and clears its depths.
-    void begin_background() const;
+    void begin_background();
 
     /// Makes the picture the target of what is drawn next, over its whole area, and clears its depths: for a background
     /// that is not worth keeping.
-    void begin_whole() const;
+    void begin_whole();
 
     /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
     /// colours and depths; everywhere else depth is nearest.
-    void begin(const std::vector<Rectangle>& rectangles) const;
+    void begin(const std::vector<Rectangle>& rectangles);
 
     /// Averages the samples there.
     void resolve(const std::vector<Rectangle>& rectangles) const;
@@ -41,14 +41,16 @@ private:
     struct Target {
         GlObject framebuffer, color, depth;
     };
-    Target make_target(int samples, bool with_depth) const;
+    Target make_target(int samples, bool with_color, bool with_depth) const;
     void bind(const Target& target) const;
-    void begin_all(const Target& target) const;
+    void begin_all(const Target& target, double depth) const;
     void copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles, GLbitfield what) const;
 
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target background_, drawn_;
+    Target closed_;   // nearest depths only. Copied back where the picture was open: a third of what clearing costs
+    std::vector<Rectangle> open_;     // what of the picture can be drawn to
     std::optional<Target> resolved_;  // only with several samples
 };
 

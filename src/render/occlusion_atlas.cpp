@@ -1,5 +1,6 @@
 #include "render/occlusion_atlas.h"
 
+#include "render/body_darkening.h"
 #include "render/occlusion_places.h"
 #include "render/plane_darkening.h"
 #include "render/plane_patch.h"
@@ -16,34 +17,9 @@ struct Sizes {
     double few, all;
 };
 constexpr Sizes box_sizes{4.0, 8.0}, ball_sizes{6.0, 12.0}, mesh_sizes{24.0, 48.0};
-constexpr int coarse_ball_tile = 4;
 
 // Where more than this part of the bodies moved, all are looked at again: searching who is near one of them gains nothing.
 constexpr double most_moved = 0.25;
-
-// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
-Eigen::Vector3f octahedral(float x, float y) {
-    const float z = 1.0f - std::abs(x) - std::abs(y);
-    if (z >= 0.0f) return Eigen::Vector3f(x, y, z).normalized();
-    return Eigen::Vector3f((1.0f - std::abs(y)) * (x >= 0.0f ? 1.0f : -1.0f),
-                           (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f), z)
-        .normalized();
-}
-
-// A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
-void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
-    result.resize(std::size_t(to) * std::size_t(to));
-    const float step = to > 1 ? float(from - 1) / float(to - 1) : 0.0f;
-    const auto at = [&](int i, int j) { return values[std::size_t(j * from + i)]; };
-    for (int j = 0, k = 0; j < to; ++j)
-        for (int i = 0; i < to; ++i, ++k) {
-            const float s = float(i) * step, t = float(j) * step;
-            const int a = std::min(int(s), from - 2), b = std::min(int(t), from - 2);
-            const float u = s - float(a), v = t - float(b);
-            result[std::size_t(k)] = (at(a, b) * (1.0f - u) + at(a + 1, b) * u) * (1.0f - v) +
-                                     (at(a, b + 1) * (1.0f - u) + at(a + 1, b + 1) * u) * v;
-        }
-}
 
 }  // namespace
 
@@ -74,14 +50,7 @@ struct OcclusionMaker::State {
     void forget_touched(const Visibility& visibility);
     void update_windows(const Snapshot& snapshot);
     void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
-    std::uint8_t make_box(std::size_t body, std::uint8_t wanted, float detail);
-    void make_ball(std::size_t body, float detail);
-    void make_mesh(std::size_t body, float detail);
-    void darken_points(const std::vector<std::size_t>& near, double reach) {
-        for (const std::size_t i : near) darken(points, occluders[i], float(reach));
-        for (const PlaneInView& plane : near_planes) darken(points, plane.normal, plane.height, float(reach));
-    }
-    bool store(int x, int y, int width, const float* open);
+    bool store(int x, int y, int width, int height, int stride, const float* open);
     Vec3 center_of(std::size_t body) const {   // of the ball around it
         return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
     }
@@ -100,9 +69,8 @@ struct OcclusionMaker::State {
     std::vector<Made> made;
     std::vector<PlaneInView> planes, near_planes;
     PlaneDarkening plane_darkening;
-    SurfacePoints points;                    // of the tile at hand
-    std::vector<std::size_t> found, near_face;   // what may darken it
-    std::vector<float> coarse, stretched;
+    BodyDarkening body_darkening{looks};
+    std::vector<std::size_t> found;          // what may darken the body at hand
 };
 
 // Takes in the new poses: the occluders, and which of them moved.
@@ -179,13 +147,13 @@ void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
         const auto known = std::find_if(atlas.windows.begin(), atlas.windows.end(),
                                         [&](const OcclusionWindow& w) { return w.body == plane.body; });
         OcclusionWindow window;
-        const auto keep = [&](int x, int y, int width, const float* open) {
-            const int needed = y + 1;
+        const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
+            const int needed = y + height;
             if (needed > atlas.height) {
                 atlas.height = needed;
                 atlas.texels.resize(std::size_t(needed) * OcclusionAtlas::width, 255);
             }
-            store(x, y, width, open);
+            store(x, y, width, height, stride, open);
         };
         if (plane_darkening.update(plane, looks.bodies[plane.body], snapshot.bodies[plane.body], reference,
                                    looks.window_cell, occluders, moved, anew || moved_much,
@@ -196,19 +164,23 @@ void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
     atlas.windows = std::move(windows);
 }
 
-bool OcclusionMaker::State::store(int x, int y, int width, const float* open) {
-    bool changed = false;
-    std::uint8_t* to = &atlas.texels[std::size_t(y) * OcclusionAtlas::width + std::size_t(x)];
-    for (int i = 0; i < width; ++i) {
-        const auto value = std::uint8_t(255.0f * open[i] + 0.5f);
-        changed = changed || to[i] != value;
-        to[i] = value;
+// `stride`: of the shares' rows.
+bool OcclusionMaker::State::store(int x, int y, int width, int height, int stride, const float* open) {
+    bool any = false;
+    for (int row = y; row < y + height; ++row, open += stride) {
+        std::uint8_t* to = &atlas.texels[std::size_t(row) * OcclusionAtlas::width + std::size_t(x)];
+        int changed = 0;
+        for (int i = 0; i < width; ++i) {
+            const int value = int(255.0f * open[i] + 0.5f);
+            changed |= to[i] ^ value;
+            to[i] = std::uint8_t(value);
+        }
+        if (changed == 0) continue;
+        any = true;
+        changes.first_row = std::min(changes.first_row, row);
+        changes.end_row = std::max(changes.end_row, row + 1);
     }
-    if (changed) {
-        changes.first_row = std::min(changes.first_row, y);
-        changes.end_row = std::max(changes.end_row, y + 1);
-    }
-    return changed;
+    return any;
 }
 
 void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, const CameraView& view) {
@@ -231,119 +203,25 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     near_planes.clear();
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes.push_back(plane);
-    const int before = changes.first_row, before_end = changes.end_row;
+    const BodyPlace place{poses[body].origin - reference, middle, poses[body].orientation.toRotationMatrix()};
+    const Surroundings around{occluders, found, near_planes};
+    const auto keep = [&](int x, int y, int width, int height, const float* open) {
+        return store(x, y, width, height, width, open);
+    };
     std::uint8_t faces = 0;
     bool changed = false;
-    if (look.kind == DrawKind::box) {
-        faces = make_box(body, missing, detail);
-        changed = faces != 0;
-    } else {
-        // Whether any row changes shows in the range alone: begin with an empty one.
-        changes.first_row = OcclusionAtlas::most_rows;
-        changes.end_row = 0;
-        look.kind == DrawKind::ball ? make_ball(body, detail) : make_mesh(body, detail);
-        changed = changes.end_row > 0;
-        changes.first_row = std::min(changes.first_row, before);
-        changes.end_row = std::max(changes.end_row, before_end);
+    switch (look.kind) {
+        case DrawKind::box:
+            faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep);
+            changed = faces != 0;
+            break;
+        case DrawKind::ball:
+            changed = body_darkening.make_ball(look, atlas.places[body], place, around, detail, keep);
+            break;
+        default:
+            changed = body_darkening.make_mesh(look, atlas.places[body], place, around, detail, keep);
     }
     if (changed) changes.bodies.push_back({body, faces});
-}
-
-// Tiles in the order of make_box()'s faces; a texel's centre at each corner of a face. Returns the faces that changed.
-std::uint8_t OcclusionMaker::State::make_box(std::size_t body, std::uint8_t wanted, float detail) {
-    const BodyLook& look = looks.bodies[body];
-    const OcclusionPlace& place = atlas.places[body];
-    const int size = place.size;
-    std::uint8_t faces = 0;
-    const Mat3 axes = poses[body].orientation.toRotationMatrix();
-    const Vec3 center = center_of(body);
-    for (int face = 0; face < 6; ++face) {
-        if ((wanted >> face & 1) == 0) continue;
-        const int axis = face / 2;
-        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * axes.col(axis);
-        const Vec3 middle = center + normal * look.half_size[axis];
-        const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
-        points.open.assign(std::size_t(size) * std::size_t(size), 1.0f);
-        if (detail > 0.0f) {
-            const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-            const Vec3 u = axes.col(a) * look.half_size[a], v = axes.col(b) * look.half_size[b];
-            points.set_lattice((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
-                               (2.0 * v / (size - 1)).cast<float>(), outward, size, size);
-            const float radius = float(std::hypot(look.half_size[a], look.half_size[b]));
-            near_face.clear();
-            for (const std::size_t i : found)
-                if (may_darken(occluders[i], at, outward, radius, float(look.reach))) near_face.push_back(i);
-            darken_points(near_face, look.reach);
-        }
-        if (detail < 1.0f) {
-            float open = 1.0f;
-            for (const std::size_t i : found) open *= share_left(at, outward, occluders[i], float(look.reach));
-            for (const PlaneInView& plane : near_planes)
-                open *= share_left(at, outward, plane.normal, plane.height, float(look.reach));
-            for (float& value : points.open) value = open + (value - open) * detail;
-        }
-        for (int j = 0; j < size; ++j)
-            if (store(place.x + face * size, place.y + j, size, &points.open[std::size_t(j * size)]))
-                faces |= std::uint8_t(1u << face);
-    }
-    return faces;
-}
-
-void OcclusionMaker::State::make_ball(std::size_t body, float detail) {
-    const BodyLook& look = looks.bodies[body];
-    const OcclusionPlace& place = atlas.places[body];
-    const Eigen::Matrix3f axes = poses[body].orientation.toRotationMatrix().cast<float>();
-    const Eigen::Vector3f center = center_of(body).cast<float>();
-    const auto make = [&](int size) {
-        points.clear();
-        for (int j = 0; j < size; ++j)
-            for (int i = 0; i < size; ++i) {
-                const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
-                const Eigen::Vector3f normal = axes * octahedral(s, t);
-                points.add(center + normal * float(look.half_size.x()), normal);
-            }
-        darken_points(found, look.reach);
-    };
-    if (detail < 1.0f) {
-        make(coarse_ball_tile);
-        stretch(points.open, coarse_ball_tile, place.size, stretched);
-    }
-    if (detail > 0.0f) make(place.size);
-    else points.open = stretched;
-    if (detail < 1.0f)
-        for (std::size_t i = 0; i < stretched.size(); ++i)
-            points.open[i] = stretched[i] + (points.open[i] - stretched[i]) * detail;
-    for (int j = 0; j < place.size; ++j)
-        store(place.x, place.y + j, place.size, &points.open[std::size_t(j * place.size)]);
-}
-
-// A run of texels, row after row over the atlas' whole width.
-void OcclusionMaker::State::make_mesh(std::size_t body, float detail) {
-    const MeshLook& mesh = looks.meshes[looks.bodies[body].mesh];
-    const OcclusionPlace& place = atlas.places[body];
-    const Mat3 axes = poses[body].orientation.toRotationMatrix();
-    const Vec3 origin = poses[body].origin - reference;
-    const auto make = [&](const auto& probes) {
-        points.clear();
-        for (const MeshProbe& probe : probes)
-            points.add((origin + axes * probe.position).cast<float>(), (axes * probe.normal).cast<float>());
-        darken_points(found, looks.bodies[body].reach);
-    };
-    if (detail < 1.0f) {
-        make(mesh.coarse_probes);
-        coarse = points.open;
-    }
-    if (detail > 0.0f) make(mesh.probes);
-    else points.open.assign(mesh.probes.size(), 1.0f);
-    if (detail < 1.0f)
-        for (std::size_t i = 0; i < points.open.size(); ++i) {
-            const float open = coarse[mesh.coarse_of_probe[i]];
-            points.open[i] = open + (points.open[i] - open) * detail;
-        }
-    const int count = int(points.open.size());
-    for (int row = 0; row * OcclusionAtlas::width < count; ++row)
-        store(place.x, place.y + row, std::min(OcclusionAtlas::width, count - row * OcclusionAtlas::width),
-              &points.open[std::size_t(row * OcclusionAtlas::width)]);
 }
 
 OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)

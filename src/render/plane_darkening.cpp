@@ -99,18 +99,19 @@ bool PlaneDarkening::update(const PlaneInView& plane, const BodyLook& look, cons
         if (!all) for_blocks(t, [&](const char& dirty) { needed = needed || dirty != 0; });
         if (!needed) continue;
         const Vec3 corner = on_plane + u * ((window.low_a + t.i0) * cell) + v * ((window.low_b + t.j0) * cell);
-        points_.set_lattice(corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
-                            t.i1 - t.i0 + 1, t.j1 - t.j0 + 1);
-        darken(points_, *foot.occluder, foot.occluder->reach);
-        for (int j = t.j0, k = 0; j <= t.j1; ++j)
-            for (int i = t.i0; i <= t.i1; ++i, ++k)
-                open_[std::size_t(j * window.width + i)] *= points_.open[std::size_t(k)];
+        around_foot_.set(corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
+                         t.i1 - t.i0 + 1, t.j1 - t.j0 + 1);
+        around_foot_.darken(*foot.occluder, foot.occluder->reach);
+        const float* share = around_foot_.open().data();
+        for (int j = t.j0; j <= t.j1; ++j)
+            for (int i = t.i0; i <= t.i1; ++i) open_[std::size_t(j * window.width + i)] *= *share++;
     }
-    for (int j = 0; j < window.height; ++j)
+    for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
-            if (dirty_[std::size_t(j / block * columns + column)] != 0)
-                store(window.x + column * block, window.y + j, std::min(block, window.width - column * block),
-                      &open_[std::size_t(j * window.width + column * block)]);
+            if (dirty_[std::size_t(row * columns + column)] != 0)
+                store(window.x + column * block, window.y + row * block, std::min(block, window.width - column * block),
+                      std::min(block, window.height - row * block), window.width,
+                      &open_[std::size_t(row * block * window.width + column * block)]);
     return true;
 }
 

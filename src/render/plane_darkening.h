@@ -6,7 +6,7 @@
 #include "render/atlas_shelves.h"
 #include "render/occluders.h"
 #include "render/occlusion_atlas.h"
-#include "render/sky_openness.h"
+#include "render/surface_lattice.h"
 
 #include <functional>
 #include <vector>
@@ -24,9 +24,9 @@ struct PlaneInView {
 class PlaneDarkening {
 public:
     /// Brings a plane's window up to date: `known` is the one it had, if the plane has not moved. `moved`: the occluders
-    /// that have moved since, as they were and as they are; none for `everything`. `store` takes rows of shares for texels
-    /// (x, y) and on. False: nothing is near the plane, or there is no room.
-    using Store = std::function<void(int x, int y, int width, const float* open)>;
+    /// that have moved since, as they were and as they are; none for `everything`. `store` takes shares for the texels
+    /// from (x, y) on, whose rows are `stride` apart. False: nothing is near the plane, or there is no room.
+    using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
     bool update(const PlaneInView& plane, const BodyLook& look, const BodyState& state, const Vec3& reference, double cell,
                 const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
                 const OcclusionWindow* known, AtlasShelves& shelves, OcclusionWindow& window, const Store& store);
@@ -46,7 +46,7 @@ private:
     std::vector<Foot> feet_;
     std::vector<float> open_;
     std::vector<char> dirty_;   // blocks
-    SurfacePoints points_;
+    SurfaceLattice around_foot_;
 };
 
 }  // namespace tumble

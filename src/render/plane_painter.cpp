@@ -42,6 +42,8 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
                            bool shadows)
     : gl_(&gl),
+      shaders_(shaders),
+      shadows_(shadows),
       other_planes_(other_planes(looks)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array),
@@ -50,15 +52,7 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     for (const BodyLook& look : looks.bodies) {
         auto& programs = planes_[std::size_t(look.pattern)];
         if (look.kind != DrawKind::plane || programs) continue;
-        const std::vector<std::string> all = defines(look.pattern, other_planes_);
-        const auto program = [&](const std::vector<std::string>& more) {
-            ShaderProgram made(gl, shaders, {"plane.vert", "plane.frag", with(all, more)});
-            connect(made);
-            return made;
-        };
-        std::vector<std::string> touched = {"TOUCHED"};
-        if (shadows) touched = with(touched, {"SHADOWED", shadow_size()});
-        programs.emplace(Programs{program({}), program(touched), program(with(touched, {"FAR_MAP"}))});
+        programs.emplace(Programs{make(look.pattern, {}), make(look.pattern, touched()), std::nullopt});
     }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -67,35 +61,64 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-void PlanePainter::draw_background(const std::vector<PlanePatch>& planes, const SceneLooks& looks,
-                                   const CameraView& view) const {
-    gl_->Disable(GL_CULL_FACE);
-    gl_->BindVertexArray(array_.name());
-    const auto draw = [&](const std::vector<glm::vec3>& corners) {
-        upload_polygon(corners);
-        gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
+ShaderProgram PlanePainter::make(Pattern pattern, const std::vector<std::string>& more) const {
+    ShaderProgram made(*gl_, shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
+    connect(made);
+    return made;
+}
+
+std::vector<std::string> PlanePainter::touched() const {
+    std::vector<std::string> all = {"TOUCHED"};
+    return shadows_ ? with(all, {"SHADOWED", shadow_size()}) : all;
+}
+
+std::vector<std::function<void()>> PlanePainter::compilations() const {
+    std::vector<std::function<void()>> all;
+    const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles it for each such comparison
+        all.emplace_back([this, &program, nearer] {
+            program.use();
+            gl_->DepthFunc(nearer);
+            draw_polygon(std::vector<glm::vec3>(3));
+            gl_->DepthFunc(GL_LEQUAL);
+        });
     };
-    // The sky first: at the horizon a plane's depth rounds to the sky's, and the plane is drawn last in any case.
+    for (const auto& programs : planes_)
+        if (programs) add(programs->touched, GL_LEQUAL);
+    for (const auto& programs : planes_)
+        if (programs) add(programs->open, GL_LESS);
+    add(sky_, GL_LEQUAL);
+    return all;
+}
+
+void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
     const std::vector<glm::vec3> sky = sky_polygon(planes, view);
     sky_.use();
-    if (sky.size() >= 3) draw(sky);
-    for (const PlanePatch& plane : planes) {
-        set_uniforms(planes_[std::size_t(looks.bodies[plane.body].pattern)]->open, plane, planes, looks);
-        draw(plane.corners);
+    if (sky.size() >= 3) draw_polygon(sky);
+}
+
+void PlanePainter::draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const {
+    // What is as near stays: bodies and touched areas drawn before, as they would be drawn over this. So the last of
+    // planes that meet, which are drawn over each other in the touched areas, comes first here.
+    gl_->DepthFunc(GL_LESS);
+    for (std::size_t i = planes.size(); i-- > 0;) {
+        set_uniforms(planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->open, planes[i], planes, looks);
+        draw_polygon(planes[i].corners);
     }
-    gl_->BindVertexArray(0);
+    gl_->DepthFunc(GL_LEQUAL);
 }
 
 void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
                                 const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                                const CameraView& view, bool far_shadows) const {
+                                const CameraView& view, bool far_shadows) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Programs& programs = *planes_[std::size_t(looks.bodies[planes[i].body].pattern)];
-        const ShaderProgram& program = far_shadows ? programs.touched_far : programs.touched;
         if (areas[i].empty()) continue;
+        const Pattern pattern = looks.bodies[planes[i].body].pattern;
+        Programs& programs = *planes_[std::size_t(pattern)];
+        if (far_shadows && !programs.touched_far) programs.touched_far.emplace(make(pattern, with(touched(), {"FAR_MAP"})));
+        const ShaderProgram& program = far_shadows ? *programs.touched_far : programs.touched;
         upload_polygon(planes[i].corners);
         set_uniforms(program, planes[i], planes, looks);
         set_window(program, planes[i], atlas, looks, snapshot, view);
@@ -142,6 +165,14 @@ void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& pl
     program.set("window_v", to_glm(v, v.dot(eye) - window->low_b + window->y));
     program.set("window_rim", glm::vec4(float(window->x), float(window->y), float(window->x + window->width - 1),
                                         float(window->y + window->height - 1)));
+}
+
+void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
+    gl_->Disable(GL_CULL_FACE);
+    gl_->BindVertexArray(array_.name());
+    upload_polygon(corners);
+    gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(corners.size()));
+    gl_->BindVertexArray(0);
 }
 
 void PlanePainter::upload_polygon(const std::vector<glm::vec3>& corners) const {

@@ -6,6 +6,7 @@
 #include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "render/change_finder.h"
+#include "render/compilation_turns.h"
 #include "render/draw_list.h"
 #include "render/drawn_parts.h"
 #include "render/edge_blender.h"
@@ -21,7 +22,10 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -62,7 +66,8 @@ struct Renderer::State {
           planes(gl, shaders, looks, scene.light.shadows),
           full_redraw(options.full_redraw),
           draw_hidden(options.draw_hidden),
-          times(options.times) {
+          times(options.times),
+          turns(options.turns) {
         drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
         gl.Enable(GL_DEPTH_TEST);
@@ -89,17 +94,39 @@ struct Renderer::State {
         return true;
     }
 
-    // What is behind all bodies; kept while the camera stands still.
-    void draw_background(const std::vector<PlanePatch>& patches, bool camera_moved) {
+    // With draws of which nothing is let through. Those that take longest first: see CompilationTurns.
+    void compile_shaders(const DrawList& list) {
+        if (turns == nullptr) return;
+        bind_textures();
+        framebuffer.begin_whole();
+        gl.Enable(GL_SCISSOR_TEST);
+        gl.Scissor(0, 0, 0, 0);
+        std::vector<std::function<void()>> all = programs.compilations(meshes, list.visible);
+        for (auto& one : planes.compilations()) all.push_back(std::move(one));
+        if (scene.light.shadows) all.emplace_back([&] { shadow_map.compile(meshes, list.casters); });
+        std::exchange(turns, nullptr)->run(all);
+        gl.Disable(GL_SCISSOR_TEST);
+    }
+
+    void bind_textures() const {
+        gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
+        gl.BindTexture(GL_TEXTURE_2D, occlusion_texture.name());
+        gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
+        gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
+    }
+
+    // Before the bodies. While the camera stands still, what is behind them is kept.
+    void begin_picture(const std::vector<PlanePatch>& patches, bool camera_moved) {
         background_kept = background_kept && !changes.background_changed();
         if (camera_moved) {
             framebuffer.begin_whole();
-            planes.draw_background(patches, looks, view);
+            planes.draw_sky(patches, view);
             return;
         }
         if (!background_kept) {
             framebuffer.begin_background();
-            planes.draw_background(patches, looks, view);
+            planes.draw_sky(patches, view);
+            planes.draw_open(patches, looks);
             background_kept = true;
         }
         framebuffer.begin(changed);
@@ -132,6 +159,7 @@ struct Renderer::State {
     std::vector<Rectangle> changed;
     bool full_redraw, draw_hidden;
     RenderTimes* times;
+    CompilationTurns* turns;   // until its shaders are compiled
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -153,7 +181,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         return;
     }
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
-                     near_distance_for(s.looks, snapshot, s.view), s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
+                     near_distance_for(s.looks, snapshot, s.view),
+                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
     const std::vector<DrawnItem>& items = state.items;
@@ -192,22 +221,22 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
     clock.ends(RenderStage::upload);
+    s.compile_shaders(list);
 
     if (s.scene.light.shadows && !shadow_marks.none())
         s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
     clock.ends(RenderStage::shadow);
 
-    s.draw_background(planes, camera_moved);
+    s.begin_picture(planes, camera_moved);
     clock.ends(RenderStage::background);
 
-    s.gl.ActiveTexture(GL_TEXTURE0 + occlusion_unit);
-    s.gl.BindTexture(GL_TEXTURE_2D, s.occlusion_texture.name());
-    s.gl.ActiveTexture(GL_TEXTURE0 + shadow_unit);
-    s.gl.BindTexture(GL_TEXTURE_2D, s.shadow_map.texture());
+    s.bind_textures();
     s.programs.draw(s.meshes, list.visible);
     clock.ends(RenderStage::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(RenderStage::planes);
+    if (camera_moved) s.planes.draw_open(planes, s.looks);   // last: not where bodies and their shadows are already
+    clock.ends(RenderStage::background);
 
     s.framebuffer.resolve(s.changed);
     s.framebuffer.read(s.changed, s.drawn_image);

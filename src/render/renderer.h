@@ -14,6 +14,7 @@
 namespace tumble {
 
 enum class GlBackend { osmesa, egl };
+class CompilationTurns;
 struct RenderTimes;
 
 struct RenderOptions {
@@ -24,6 +25,7 @@ struct RenderOptions {
     bool multisample = false;             // edges by several samples a pixel, as where cords are drawn: for comparisons
     double shift_x = 0.0, shift_y = 0.0;  // pixels that the picture is moved by, under one: for averages of many
     RenderTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer
+    CompilationTurns* turns = nullptr;    // shared with the other processes that draw this scene, if there are any
 };
 
 /// One OpenGL context and what is uploaded to it. Use it from the thread that made it.
@@ -33,10 +35,11 @@ public:
     Renderer(const SceneDescription& scene, const RenderOptions& options);
     ~Renderer();
 
-    /// Draws the snapshot at the scene's output size, from where the camera is at its time. Only what changed since the last render() is drawn and written: a
-    /// `frame` of the right size must hold the picture that render() made before (any copy of it will do); another size,
-    /// an empty image for one, is replaced by the whole picture. Bodies that do not move cost little only when their
-    /// poses are the same to the bit: DrawnPoses sees to that. A camera that has moved has everything drawn.
+    /// Draws the snapshot at the scene's output size, from where the camera is at its time. Only what changed since the
+    /// last render() is drawn and written: a `frame` of the right size must hold the picture that render() made before
+    /// (any copy of it will do); another size, an empty image for one, is replaced by the whole picture. Bodies that do
+    /// not move cost little only when their poses are the same to the bit: DrawnPoses sees to that. A camera that has
+    /// moved has everything drawn.
     void render(const Snapshot& snapshot, Image& frame);
 
     /// Where the last picture may differ from the one this renderer drew before it: rectangles that do not overlap. The

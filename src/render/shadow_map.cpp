@@ -8,34 +8,59 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
     : gl_(&gl),
       program_(gl, shaders, {"shadow.vert", "", {}}),
       texture_(gl, GlKind::texture),
-      framebuffer_(gl, GlKind::framebuffer) {
+      framebuffer_(gl, GlKind::framebuffer),
+      empty_texture_(gl, GlKind::texture),
+      empty_framebuffer_(gl, GlKind::framebuffer) {
     program_.set_block("Frame", frame_block);
-    gl.BindTexture(GL_TEXTURE_2D, texture_.name());
-    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, 2 * shadow_map_texels, shadow_map_texels, 0,
-                  GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels);
+    gl.ClearDepth(1.0);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);
+    attach_depths(framebuffer_, texture_, 2 * shadow_map_texels);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_.name(), 0);
-    gl.DrawBuffer(GL_NONE);
-    gl.ReadBuffer(GL_NONE);
-    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+}
+
+void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& texture, int width) const {
+    gl_->BindTexture(GL_TEXTURE_2D, texture.name());
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, shadow_map_texels, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                    nullptr);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.name(), 0);
+    gl_->DrawBuffer(GL_NONE);
+    gl_->ReadBuffer(GL_NONE);
+    if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw RunError("the OpenGL driver refuses a shadow map");
+}
+
+void ShadowMap::compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const {
+    if (casters.empty()) return;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    program_.use();
+    Batch one = casters.front();
+    one.count = 1;
+    meshes.draw(one);
+}
+
+// llvmpipe clears a part of a target by drawing it, at six times the price of a copy.
+void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, empty_framebuffer_.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+    for (const Rectangle& p : parts) {
+        const int x = p.x % shadow_map_texels;   // no part lies in both maps
+        gl_->BlitFramebuffer(x, p.y, x + p.width, p.y + p.height, p.x, p.y, p.x + p.width, p.y + p.height,
+                             GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
 }
 
 void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
                      bool with_far) const {
+    empty(parts);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     gl_->Enable(GL_SCISSOR_TEST);
-    gl_->ClearDepth(1.0);
-    for (const Rectangle& part : parts) {
-        gl_->Scissor(part.x, part.y, part.width, part.height);
-        gl_->Clear(GL_DEPTH_BUFFER_BIT);
-    }
     program_.use();
     for (int far = 0; far <= (with_far ? 1 : 0); ++far) {
         gl_->Viewport(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);

@@ -21,12 +21,19 @@ public:
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
               bool with_far) const;
 
+    /// Has its shader compiled, as SurfacePrograms::compilations() does.
+    void compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const;
+
     GLuint texture() const { return texture_.name(); }
 
 private:
+    void attach_depths(const GlObject& framebuffer, const GlObject& texture, int width) const;
+    void empty(const std::vector<Rectangle>& parts) const;
+
     const GlFunctions* gl_;
     ShaderProgram program_;
     GlObject texture_, framebuffer_;
+    GlObject empty_texture_, empty_framebuffer_;   // one map's size of farthest depths, copied to where it is drawn anew
 };
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #include "render/sky_openness.h"
 
 #include "core/wide.h"
+#include "render/box_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,6 @@ namespace tumble {
 namespace {
 
 inline float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
-
-// Quilez 2008, Distance functions: a box's distance is exact outside, and that to the nearest face inside.
-inline float box_distance(float x, float y, float z, float half_x, float half_y, float half_z) {
-    const float qx = std::abs(x) - half_x, qy = std::abs(y) - half_y, qz = std::abs(z) - half_z;
-    const float ox = std::max(qx, 0.0f), oy = std::max(qy, 0.0f), oz = std::max(qz, 0.0f);
-    return std::sqrt(ox * ox + oy * oy + oz * oz) + std::min(std::max(qx, std::max(qy, qz)), 0.0f);
-}
 
 }  // namespace
 
@@ -31,22 +25,6 @@ void SurfacePoints::add(const Eigen::Vector3f& position, const Eigen::Vector3f& 
     ny.push_back(normal.y());
     nz.push_back(normal.z());
     open.push_back(1.0f);
-}
-
-void SurfacePoints::set_lattice(const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
-                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int columns, int rows) {
-    const std::size_t count = std::size_t(columns) * std::size_t(rows);
-    for (std::vector<float>* values : {&x, &y, &z}) values->resize(count);
-    nx.assign(count, normal.x());
-    ny.assign(count, normal.y());
-    nz.assign(count, normal.z());
-    open.assign(count, 1.0f);
-    for (int j = 0, k = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i, ++k) {
-            x[std::size_t(k)] = corner.x() + float(i) * across.x() + float(j) * along.x();
-            y[std::size_t(k)] = corner.y() + float(i) * across.y() + float(j) * along.y();
-            z[std::size_t(k)] = corner.z() + float(i) * across.z() + float(j) * along.z();
-        }
 }
 
 TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
@@ -87,18 +65,6 @@ float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
         return clamped(1.0f - distance / step);
     };
     return 1.0f - occlusion_strength * 0.5f * (closed(near_step) + closed(far_step));
-}
-
-bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
-                float reach) {
-    const float far_step = std::min(reach, occluder.reach);
-    for (const float step : {near_probe * far_step, far_step}) {
-        const Eigen::Vector3f p = occluder.to_local * (center + normal * step - occluder.center);
-        const Eigen::Vector3f& half = occluder.half_size;
-        const float distance = box_distance(p.x(), p.y(), p.z(), half.x(), half.y(), half.z()) - occluder.radius;
-        if (distance < radius + step) return true;  // a distance changes no faster than the point moves
-    }
-    return false;
 }
 
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach) {

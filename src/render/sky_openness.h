@@ -22,10 +22,6 @@ struct SurfacePoints {
     std::size_t size() const { return x.size(); }
     void clear();
     void add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
-
-    /// In place of what was there: columns x rows points corner + i across + j along, row after row.
-    void set_lattice(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
-                     const Eigen::Vector3f& normal, int columns, int rows);
 };
 
 /// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller
@@ -34,11 +30,6 @@ void darken(SurfacePoints& points, const Occluder& occluder, float reach);
 
 /// The same of a single point: what its factor is.
 float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach);
-
-/// False when the body can darken no point within `radius` of `center` whose normal is `normal`: most pairs of a face
-/// and a neighbour need not be looked at point by point.
-bool may_darken(const Occluder& occluder, const Eigen::Vector3f& center, const Eigen::Vector3f& normal, float radius,
-                float reach);
 
 /// The same for a plane: points q with normal . q + height = 0.
 void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);

@@ -4,12 +4,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
 std::size_t index_of(DrawKind kind, bool patterned, bool lit) {
     const std::size_t which = kind == DrawKind::box ? (lit ? 0 : 1) : kind == DrawKind::ball ? 2 : 3;
     return 2 * which + (patterned ? 1 : 0);
+}
+
+std::size_t index_of(const Batch& batch) {
+    const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
+                          : batch.mesh < cylinder_mesh ? DrawKind::ball
+                                                       : DrawKind::mesh;
+    return index_of(kind, batch.patterned, batch.lit);
 }
 
 }  // namespace
@@ -51,12 +60,24 @@ void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& sh
 
 void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const {
     for (const Batch& batch : batches) {
-        const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
-                              : batch.mesh < cylinder_mesh ? DrawKind::ball
-                                                           : DrawKind::mesh;
-        programs_[index_of(kind, batch.patterned, batch.lit)]->use();
+        programs_[index_of(batch)]->use();
         meshes.draw(batch);
     }
+}
+
+std::vector<std::function<void()>> SurfacePrograms::compilations(const MeshLibrary& meshes,
+                                                                 const std::vector<Batch>& batches) const {
+    std::vector<std::function<void()>> all;
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+        all.emplace_back([this, &meshes, &batches, i] {
+            const auto first = std::find_if(batches.begin(), batches.end(), [&](const Batch& b) { return index_of(b) == i; });
+            if (first == batches.end()) return;
+            programs_[i]->use();
+            Batch one = *first;
+            one.count = 1;
+            meshes.draw(one);
+        });
+    return all;
 }
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ public:
                     bool has_cords, bool multisample, bool shadows);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
+
+    /// For each shader a draw of one instance, where there is one, that has it compiled. The caller sees to it that nothing
+    /// of it lands in the picture.
+    std::vector<std::function<void()>> compilations(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
 
 private:
     void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);

@@ -9,6 +9,7 @@
 #include "render/primitives.h"
 #include "render/shadow_fit.h"
 #include "render/sky_openness.h"
+#include "render/surface_lattice.h"
 
 #include <gtest/gtest.h>
 
@@ -72,32 +73,41 @@ TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
     EXPECT_EQ(points.open[1], 1.0f);
 }
 
-TEST(SkyOpenness, FarPairsAreRejectedOnlyWhenNothingIsLost) {
+TEST(SurfaceLattice, HasWhatItsPointsHaveOneByOne) {
     std::mt19937 engine(3);
     const auto random = [&](float low, float high) {
         return low + (high - low) * float(double(engine()) / 4294967296.0);
     };
-    int rejected = 0;
+    const auto vector = [&](float size) { return Eigen::Vector3f(random(-size, size), random(-size, size), random(-size, size)); };
+    int dark = 0, clear = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         Occluder box{};
         box.to_local =
             Quat(Eigen::AngleAxisd(random(0, 6), Vec3(0.3, 0.5, 0.8).normalized())).toRotationMatrix().cast<float>();
         box.half_size = {random(0.1f, 1.0f), random(0.1f, 1.0f), random(0.1f, 1.0f)};
         box.reach = random(0.1f, 1.0f);
-        box.center = {random(-3, 3), random(-3, 3), random(-3, 3)};
-        const float radius = random(0.1f, 1.0f), reach = random(0.1f, 1.0f);
-        if (may_darken(box, Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitZ(), radius, reach)) continue;
-        ++rejected;
+        box.center = vector(2.0f);
+        const Eigen::Vector3f normal = vector(1.0f).normalized(), across = normal.unitOrthogonal() * random(0.05f, 0.3f);
+        const Eigen::Vector3f along = normal.cross(across), corner = vector(1.0f), floor = vector(1.0f).normalized();
+        const int columns = 5, rows = 1 + trial % 4;
+        const float reach = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
+        SurfaceLattice lattice;
+        lattice.set(corner, across, along, normal, columns, rows);
+        lattice.darken(box, reach);
         SurfacePoints points;
-        for (int i = 0; i < 30; ++i) {
-            const float angle = random(0, 6.2831853f);
-            points.add(Eigen::Vector3f(std::cos(angle), std::sin(angle), 0) * random(0, radius),
-                       Eigen::Vector3f::UnitZ());
-        }
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) points.add(corner + float(i) * across + float(j) * along, normal);
         darken(points, box, reach);
-        for (const float open : points.open) EXPECT_EQ(open, 1.0f);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            ASSERT_NEAR(lattice.open()[k], points.open[k], 1e-4f) << trial;
+            (points.open[k] < 1.0f ? dark : clear) += 1;
+        }
+        lattice.darken(floor, height, reach);
+        darken(points, floor, height, reach);
+        for (std::size_t k = 0; k < points.size(); ++k) ASSERT_NEAR(lattice.open()[k], points.open[k], 1e-4f) << trial;
     }
-    EXPECT_GT(rejected, 200);
+    EXPECT_GT(dark, 1000);    // of 25,000
+    EXPECT_GT(clear, 1000);
 }
 
 TEST(OccluderFinder, FindsWhatComparingAllFinds) {

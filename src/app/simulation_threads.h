@@ -1,0 +1,11 @@
+// How many threads the simulation gets beside the processes that draw, where nobody says. The result is the same for any number.
+#pragma once
+
+#include <cstddef>
+
+namespace tumble {
+
+/// At least 1, at most `cores`.
+int simulation_threads_beside_drawing(std::size_t bodies, int cores);
+
+}  // namespace tumble

@@ -1,0 +1,127 @@
+#include "render/body_darkening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr int coarse_ball_tile = 4;   // texels across
+
+// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
+Eigen::Vector3f octahedral(float x, float y) {
+    const float z = 1.0f - std::abs(x) - std::abs(y);
+    if (z >= 0.0f) return Eigen::Vector3f(x, y, z).normalized();
+    return Eigen::Vector3f((1.0f - std::abs(y)) * (x >= 0.0f ? 1.0f : -1.0f),
+                           (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f), z)
+        .normalized();
+}
+
+// A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
+void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
+    result.resize(std::size_t(to) * std::size_t(to));
+    const float step = to > 1 ? float(from - 1) / float(to - 1) : 0.0f;
+    const auto at = [&](int i, int j) { return values[std::size_t(j * from + i)]; };
+    for (int j = 0, k = 0; j < to; ++j)
+        for (int i = 0; i < to; ++i, ++k) {
+            const float s = float(i) * step, t = float(j) * step;
+            const int a = std::min(int(s), from - 2), b = std::min(int(t), from - 2);
+            const float u = s - float(a), v = t - float(b);
+            result[std::size_t(k)] = (at(a, b) * (1.0f - u) + at(a + 1, b) * u) * (1.0f - v) +
+                                     (at(a, b + 1) * (1.0f - u) + at(a + 1, b + 1) * u) * v;
+        }
+}
+
+}  // namespace
+
+void BodyDarkening::darken_points(const Surroundings& around, double reach) {
+    for (const std::size_t i : around.near) darken(points_, around.occluders[i], float(reach));
+    for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
+}
+
+std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                                     const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
+    const int size = place.size;
+    const float reach = float(look.reach);
+    std::uint8_t faces = 0;
+    for (int face = 0; face < 6; ++face) {
+        if ((wanted >> face & 1) == 0) continue;
+        const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * body.axes.col(axis);
+        const Vec3 middle = body.center + normal * look.half_size[axis];
+        const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
+        const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
+        face_.set((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
+                  (2.0 * v / (size - 1)).cast<float>(), outward, size, size);
+        if (detail > 0.0f) {
+            for (const std::size_t i : around.near) face_.darken(around.occluders[i], reach);
+            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, reach);
+        }
+        if (detail < 1.0f) {
+            float open = 1.0f;
+            for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
+            for (const PlaneInView& plane : around.planes) open *= share_left(at, outward, plane.normal, plane.height, reach);
+            for (float& value : face_.open()) value = open + (value - open) * detail;
+        }
+        if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);
+    }
+    return faces;
+}
+
+bool BodyDarkening::make_ball(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                              const Surroundings& around, float detail, const Store& store) {
+    const Eigen::Matrix3f axes = body.axes.cast<float>();
+    const Eigen::Vector3f center = body.center.cast<float>();
+    const auto make = [&](int size) {
+        points_.clear();
+        for (int j = 0; j < size; ++j)
+            for (int i = 0; i < size; ++i) {
+                const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
+                const Eigen::Vector3f normal = axes * octahedral(s, t);
+                points_.add(center + normal * float(look.half_size.x()), normal);
+            }
+        darken_points(around, look.reach);
+    };
+    if (detail < 1.0f) {
+        make(coarse_ball_tile);
+        stretch(points_.open, coarse_ball_tile, place.size, stretched_);
+    }
+    if (detail > 0.0f) make(place.size);
+    else points_.open = stretched_;
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < stretched_.size(); ++i)
+            points_.open[i] = stretched_[i] + (points_.open[i] - stretched_[i]) * detail;
+    return store(place.x, place.y, place.size, place.size, points_.open.data());
+}
+
+// A run of texels, row after row over the atlas' whole width.
+bool BodyDarkening::make_mesh(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                              const Surroundings& around, float detail, const Store& store) {
+    const MeshLook& mesh = looks_->meshes[look.mesh];
+    const auto make = [&](const auto& probes) {
+        points_.clear();
+        for (const MeshProbe& probe : probes)
+            points_.add((body.origin + body.axes * probe.position).cast<float>(), (body.axes * probe.normal).cast<float>());
+        darken_points(around, look.reach);
+    };
+    if (detail < 1.0f) {
+        make(mesh.coarse_probes);
+        coarse_ = points_.open;
+    }
+    if (detail > 0.0f) make(mesh.probes);
+    else points_.open.assign(mesh.probes.size(), 1.0f);
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < points_.open.size(); ++i) {
+            const float open = coarse_[mesh.coarse_of_probe[i]];
+            points_.open[i] = open + (points_.open[i] - open) * detail;
+        }
+    constexpr int width = OcclusionAtlas::width;
+    const int count = int(points_.open.size()), whole = count / width;
+    bool changed = whole > 0 && store(place.x, place.y, width, whole, points_.open.data());
+    if (count > whole * width &&
+        store(place.x, place.y + whole, count - whole * width, 1, &points_.open[std::size_t(whole * width)]))
+        changed = true;
+    return changed;
+}
+
+}  // namespace tumble
