@@ -1,11 +1,14 @@
 // Manifolds from step to step: what contact has built up stays with the points that are still there.
 #include "random_shapes.h"
+#include "sim/body_builder.h"
 #include "sim/narrow_phase.h"
 #include "sim/tuning.h"
+#include "support/compounds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <tuple>
 
 using namespace tumble;
@@ -205,6 +208,22 @@ TEST(PairMemory, ComesBackAfterAFlight) {
         scene.bodies[1].*out = false;
         EXPECT_EQ(scene.narrow_phase.find(pairs, scene.bodies, h, scene.pool).size(), 1u);
     }
+}
+
+// A box sinks past a tilted board, far from it though within its bounds, onto the next part of the same body. How far off the
+// board is must not be taken for the distance of the body.
+TEST(PairMemory, OnePartOfACompoundDoesNotSpeakForTheOthers) {
+    BodyDescription thing;
+    thing.shape = compound_of({part(BoxShape{{3.0, 0.05, 0.5}}, Vec3::Zero(), Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ()))),
+                               part(BoxShape{{0.3, 0.1, 0.3}}, {0.9, -0.6, 0.0})});
+    thing.type = BodyType::fixed;
+    Scene scene({BodyBuilder().build(thing, IntegratorKind::symplectic_euler), body_at(box_of({0.2, 0.2, 0.2}), {0.9, -0.35, 0.0})});
+    for (double y = -0.35; y > -0.451; y -= 0.005) {   // down to an overlap of 1 mm
+        scene.bodies[1].position.y() = y;
+        scene.find();
+    }
+    ASSERT_EQ(scene.find().size(), 1u);
+    EXPECT_NEAR(scene.find()[0].points[0].separation, scene.bodies[1].position.y() + 0.45, 1e-12);
 }
 
 // A tessellated flat floor is flat, whether the manifolds are new or followed: nothing to bump against.

@@ -99,6 +99,7 @@ void collide_parts(const Compound& whole, const Pose& pose, const Collider& othe
         out.erase(std::remove_if(out.begin() + std::ptrdiff_t(first), out.end(), seam), out.end());
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
     }
+    scratch.gap = 0.0;   // one part's says nothing of the others
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "sim/collision/separating_axis.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -57,8 +58,11 @@ bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, 
 
 void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                        CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const double reach = a.radius + b.radius + margin;
-    if ((pose_b.position - pose_a.position).squaredNorm() > reach * reach) return;
+    const double radii = a.radius + b.radius, reach = radii + margin, square = (pose_b.position - pose_a.position).squaredNorm();
+    if (square > reach * reach) {
+        scratch.gap = std::sqrt(square) - radii;
+        return;
+    }
     if (a.is_box && b.is_box) return collide_boxes(a, pose_a, b, pose_b, margin, scratch, out);
     // In A's frame, which keeps the digits of scenes far from the origin.
     const Pose b_in_a{pose_a.to_body(pose_b.position), pose_a.rotation.transpose() * pose_b.rotation};

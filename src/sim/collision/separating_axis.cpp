@@ -179,10 +179,15 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch) {
+    const auto apart = [&](double separation) {
+        if (separation <= margin) return false;
+        scratch.gap = separation;
+        return true;
+    };
     const FaceAxis face_a = best_face(a, b, b_in_a, margin);
-    if (face_a.separation > margin) return {};
+    if (apart(face_a.separation)) return {};
     const FaceAxis face_b = best_face(b, a, inverse(b_in_a), margin);
-    if (face_b.separation > margin) return {};
+    if (apart(face_b.separation)) return {};
 
     const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
     SeparatingAxis axis;
@@ -195,7 +200,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     const SeparatingAxis face = axis;
     double best = axis.separation + preference;
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
-    if (axis.separation > margin) return {};
+    if (apart(axis.separation)) return {};
     const double smaller = std::min(a.radius, b.radius);
     if (edges_along_face(axis, face, smaller, scratch.choice)) axis = face;
     return axis.separation > 0.0 ? grazed_face(a, b, b_in_a, axis, smaller, scratch.choice) : axis;
