@@ -60,7 +60,8 @@ std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace&
         if (detail < 1.0f) {
             float open = 1.0f;
             for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
-            for (const PlaneInView& plane : around.planes) open *= share_left(at, outward, plane.normal, plane.height, reach);
+            for (const PlaneInView& plane : around.planes)
+                open *= share_left(at, outward, plane.normal, plane.height, reach);
             for (float& value : face_.open()) value = open + (value - open) * detail;
         }
         if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);

@@ -15,28 +15,35 @@ struct CellGrid {
 };
 
 /// The rectangles of all cells for which `wanted(column, row)` is true, in pixels: runs along a row, grown downward while
-/// the rows below have the same run. They do not overlap.
-template <class Wanted>
-std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted) {
+/// the rows below have the same run. They do not overlap. Cells for which `free(column, row)` is true may be among them
+/// where that makes fewer.
+template <class Wanted, class Free>
+std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted, Free free) {
+    enum Cell : char { none, spare, needed };
     std::vector<char> left(std::size_t(grid.columns) * std::size_t(grid.rows));
     const auto at = [&](int column, int row) -> char& { return left[std::size_t(row * grid.columns + column)]; };
     for (int row = 0; row < grid.rows; ++row)
-        for (int column = 0; column < grid.columns; ++column) at(column, row) = wanted(column, row) ? 1 : 0;
+        for (int column = 0; column < grid.columns; ++column)
+            at(column, row) = wanted(column, row) ? needed : free(column, row) ? spare : none;
     std::vector<Rectangle> rectangles;
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column) {
-            if (at(column, row) == 0) continue;
+            if (at(column, row) != needed) continue;
             int end = column, bottom = row;
-            while (end < grid.columns && at(end, row) != 0) ++end;
+            for (int x = column; x < grid.columns && at(x, row) != none; ++x)
+                if (at(x, row) == needed) end = x + 1;
             const auto same_run = [&](int y) {
-                if (column > 0 && at(column - 1, y) != 0) return false;
-                if (end < grid.columns && at(end, y) != 0) return false;
-                for (int x = column; x < end; ++x)
-                    if (at(x, y) == 0) return false;
-                return true;
+                if (column > 0 && at(column - 1, y) == needed) return false;
+                if (end < grid.columns && at(end, y) == needed) return false;
+                bool any = false;
+                for (int x = column; x < end; ++x) {
+                    if (at(x, y) == none) return false;
+                    any = any || at(x, y) == needed;
+                }
+                return any;
             };
             do {
-                for (int x = column; x < end; ++x) at(x, bottom) = 0;
+                for (int x = column; x < end; ++x) at(x, bottom) = none;
                 ++bottom;
             } while (bottom < grid.rows && same_run(bottom));
             const int x = column * grid.cell, y = row * grid.cell;
@@ -44,6 +51,11 @@ std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted) {
                 {x, y, std::min(end * grid.cell, grid.width) - x, std::min(bottom * grid.cell, grid.height) - y});
         }
     return rectangles;
+}
+
+template <class Wanted>
+std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted) {
+    return cell_rectangles(grid, wanted, [](int, int) { return false; });
 }
 
 }  // namespace tumble

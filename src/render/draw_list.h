@@ -27,8 +27,8 @@ struct Instance {
                             // number as alpha; 1: wholly within the near shadow map
 };
 
-/// The meshes by number: half a box (what the sun sees of it), one face of it, the balls from coarse to fine, the cylinder, then the scene's own, each
-/// with its levels of detail.
+/// The meshes by number: half a box (what the sun sees of it), one face of it, the balls from coarse to fine, the
+/// cylinder, then the scene's own, each with its levels of detail.
 inline constexpr std::size_t half_box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
 

@@ -26,9 +26,9 @@ class DrawnPoses {
 public:
     explicit DrawnPoses(const SceneDescription& scene);
 
-    /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when they are
-    /// those of the call before: the picture is the same to the last byte; never when the
-    /// camera has moved. The first call says true.
+    /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when
+    /// they are those of the call before: the picture is the same to the last byte; never when the camera has moved. The
+    /// first call says true.
     bool follow(Snapshot& snapshot);
 
 private:

@@ -1,6 +1,7 @@
 #include "render/plane_areas.h"
 
 #include "render/occlusion_atlas.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,10 +35,13 @@ std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDe
         if (items[i].exists() && may_touch(plane, items[i], reach, blur, light, view, marked))
             mark_on_plane(plane, items[i], reach, blur, light, view, touched);
     }
-    return cell_rectangles(touched.grid(), [&](int column, int row) {
-        return touched.at(column, row) && marks.at(column / per_tile, row / per_tile) &&
-               !covered(column, row, plane, view, cover);
-    });
+    // Nothing of the plane is drawn outside of the marked tiles, nor behind boxes: each rectangle costs ten microseconds, as
+    // much as twenty such cells.
+    const auto closed = [&](int column, int row) {
+        return !marks.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
+    };
+    return cell_rectangles(
+        touched.grid(), [&](int column, int row) { return touched.at(column, row) && !closed(column, row); }, closed);
 }
 
 }  // namespace tumble

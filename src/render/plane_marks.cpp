@@ -4,6 +4,7 @@
 #include "render/screen_hull.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -40,6 +41,13 @@ double ShadowLight::margin(const DrawnItem& item) const {
     return shadow_filter_texels * fit.far_texel;
 }
 
+double ShadowLight::margin_on_plane(const DrawnItem& item, double approach) const {
+    // The filter looks at texels whose centres are nearer than 2 on both axes; the offset along the normal of 2.2 texels
+    // (look.glsl) leads across the light the less, the steeper it falls; half a texel to spare.
+    const double texels = 2.83 + 2.2 * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
+    return margin(item) * std::min(texels / shadow_filter_texels, 1.0);
+}
+
 void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
                    const CameraView& view, TileMarks& marks) {
     const double height = plane.normal.dot(item.center) + plane.height;
@@ -51,7 +59,7 @@ void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach,
     if (approach < least_approach) return marks.mark_all();
     std::array<Vec3, 8> feet = item.corners();
     for (Vec3& foot : feet) foot += light.direction * ((plane.normal.dot(foot) + plane.height) / approach);
-    marks.mark_hull(feet, light.margin(item) / approach);
+    marks.mark_hull(feet, light.margin_on_plane(item, approach) / approach);
 }
 
 bool may_touch(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,

@@ -18,6 +18,9 @@ struct ShadowLight {
 
     /// How far the filter reaches around the outline of this item's shadow, across the light, m.
     double margin(const DrawnItem& item) const;
+
+    /// The same on a plane, which the light meets at an angle of this sine.
+    double margin_on_plane(const DrawnItem& item, double approach) const;
 };
 
 /// Marks the item's shadow on the plane, and its darkening of it within `reach` (m; 0: it has none), which is blurred

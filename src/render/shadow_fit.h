@@ -1,8 +1,9 @@
 // Which part of the world the shadow maps cover. Two square maps lie across the light: the near one is fixed for a clip
 // (the bodies' first poses and where they will land, as far as they are in view), so that resting shadows are drawn
-// alike in every frame. Where the camera turns, all of them; where it follows a body, the map does. The far one appears around it when a body or its shadow leaves it, in powers of two of its
-// size, and what leaves even that throws no shadow. The maps' texels keep to one grid in the world: nothing crawls. All
-// of it depends on the scene and the one snapshot only, never on frames drawn before.
+// alike in every frame. Where the camera turns, all of them; where it follows a body, the map does. The far one appears
+// around it when a body or its shadow leaves it, in powers of two of its size, and what leaves even that throws no
+// shadow. The maps' texels keep to one grid in the world: nothing crawls. All of it depends on the scene and the one
+// snapshot only, never on frames drawn before.
 #pragma once
 
 #include "render/body_looks.h"

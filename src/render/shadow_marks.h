@@ -1,5 +1,5 @@
-// The parts of the shadow maps that have to be drawn anew: a coarse lattice of cells over each, marked where a moved body was and
-// is. Bodies that stand still are drawn again where they touch a marked cell; elsewhere that changes no depth.
+// The parts of the shadow maps that have to be drawn anew: a coarse lattice of cells over each, marked where a moved body
+// was and is. Bodies that stand still are drawn again where they touch a marked cell; elsewhere that changes no depth.
 #pragma once
 
 #include "core/rectangle.h"

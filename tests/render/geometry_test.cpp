@@ -3,6 +3,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_view.h"
+#include "render/cell_rectangles.h"
 #include "render/draw_list.h"
 #include "render/mesh_occluders.h"
 #include "render/plane_patch.h"
@@ -108,6 +109,33 @@ TEST(SurfaceLattice, HasWhatItsPointsHaveOneByOne) {
     }
     EXPECT_GT(dark, 1000);    // of 25,000
     EXPECT_GT(clear, 1000);
+}
+
+TEST(CellRectangles, HoldAllThatIsWantedOnceAndNothingThatIsForbidden) {
+    std::mt19937 engine(9);
+    const CellGrid grid{20, 12, 8, 157, 96};   // the last column is cut
+    std::size_t strict = 0, loose = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<int> cells(std::size_t(grid.columns * grid.rows));   // 0: forbidden, 1: free, 2: wanted
+        for (int& cell : cells) cell = int(engine() % 3);
+        const auto at = [&](int column, int row) { return cells[std::size_t(row * grid.columns + column)]; };
+        const auto wanted = [&](int column, int row) { return at(column, row) == 2; };
+        const std::vector<Rectangle> found =
+            cell_rectangles(grid, wanted, [&](int column, int row) { return at(column, row) == 1; });
+        loose += found.size();
+        strict += cell_rectangles(grid, wanted).size();
+        std::vector<int> held(cells.size(), 0);
+        for (const Rectangle& r : found) {
+            ASSERT_LE(r.x + r.width, grid.width);
+            for (int row = r.y / 8; row * 8 < r.y + r.height; ++row)
+                for (int column = r.x / 8; column * 8 < r.x + r.width; ++column) {
+                    ASSERT_NE(at(column, row), 0);
+                    ASSERT_EQ(held[std::size_t(row * grid.columns + column)]++, 0);
+                }
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) ASSERT_TRUE(cells[i] != 2 || held[i] == 1);
+    }
+    EXPECT_LT(loose, strict);
 }
 
 TEST(OccluderFinder, FindsWhatComparingAllFinds) {
