@@ -77,7 +77,8 @@ TEST(FreeSpace, InelasticSwarmKeepsMomentumAndLosesEnergy) {
             for (int frame = 0; frame < trials(120); ++frame) {
                 world.advance_frame();
                 const Measurement m = world.measure();
-                ASSERT_LE(m.kinetic, before + (e > 0.0 ? 1e-12 : 1e-6) * start.kinetic) << e << " " << friction << " " << frame;
+                // Pushing out overlaps raises it, too: over twelve seeds by up to 5e-6 in a frame.
+                ASSERT_LE(m.kinetic, before + (e > 0.0 ? 1e-12 : 1e-5) * start.kinetic) << e << " " << friction << " " << frame;
                 before = m.kinetic;
                 ASSERT_LE((m.momentum - start.momentum).norm(), 1e-11 * (1.0 + start.momentum.norm()));
                 // Bodies that stay together (e = 0, or friction) are stepped: pushing out their overlaps, and the substeps

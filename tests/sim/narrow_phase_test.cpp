@@ -184,6 +184,26 @@ TEST(PairMemory, SeparationsFollowExactly) {
     }
 }
 
+// Two boxes cross at their edges and shift a little, until they just touch. Where the edges meet now is not where they met: a
+// gap must not be seen where there is none.
+TEST(PairMemory, TellsATouchFromAGap) {
+    Random random(3);
+    for (int trial = 0; trial < trials(300); ++trial) {
+        const auto on_edge = [](const Vec3& axis) { return Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, axis)); };
+        Scene scene({body_at(box_of({2.0, 2.0, 2.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero())});
+        turn(scene.bodies[0], on_edge(Vec3::UnitZ()));
+        turn(scene.bodies[1], Quat(Eigen::AngleAxisd(random(-1.2, 1.2), Vec3::UnitY())) * on_edge(Vec3::UnitX()));
+        scene.bodies[1].position = {random(-0.01, 0.01), 1.5 * std::numbers::sqrt2 + 2e-4, random(-0.01, 0.01)};
+        ASSERT_EQ(scene.find().size(), 1u);
+        turn(scene.bodies[1], Quat(Eigen::AngleAxisd(random(0.0, 1.5e-3), random.direction())));
+        NarrowPhase fresh(1, NarrowPhase::Mode::step, NarrowPhase::Memory::off);
+        const auto exact = [&] { return fresh.find({{0, 1}}, scene.bodies, h, scene.pool)[0].points[0].separation; };
+        for (int i = 0; i < 3; ++i) scene.bodies[1].position.y() -= exact();
+        ASSERT_NEAR(exact(), 0.0, 1e-12);
+        EXPECT_LT(scene.find()[0].points[0].separation, tuning::touch * scene.bodies[1].radius) << trial;
+    }
+}
+
 // While both sleep the pair is not in the list; when one wakes, what held it up is there again.
 TEST(PairMemory, SurvivesSleep) {
     Scene scene = box_on_box();
