@@ -173,6 +173,21 @@ TEST(CompoundContact, IsThatOfItsParts) {
     EXPECT_GT(double(touching_found), 0.9 * double(touching_expected));
 }
 
+// However deep: a body that is far in a plane after a fast step is not taken for one that leans on itself.
+TEST(CompoundContact, OverlappingPartsAreHeldAtAnyDepth) {
+    const Body body = built(compound_of({part(SphereShape{0.3}, {0.0, 0.1, 0.0}), part(SphereShape{0.3}, {0.0, -0.1, 0.0}), part(BoxShape{{0.4, 0.4, 0.4}}, Vec3::Zero())}));
+    CollisionScratch scratch;
+    for (const double depth : {1e-6, 0.01, 0.1, 0.3, 0.6, 1.2}) {
+        std::vector<Manifold> found;
+        const Pose pose{{0.0, 0.4 - depth, 0.0}, Mat3::Identity()};
+        collide(HalfSpace{Vec3::UnitY(), 0.0}, Pose{}, body.collider, pose, 0.01, scratch, found);
+        double deepest = 0.0;
+        for (const Manifold& m : found)
+            for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[std::size_t(i)].separation);
+        EXPECT_NEAR(deepest, -depth, 1e-12);
+    }
+}
+
 namespace {
 
 struct Flying {

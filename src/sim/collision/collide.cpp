@@ -75,7 +75,8 @@ bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
 bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
     const double size = whole.parts[k].reach;
     return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
-        const Vec3 probe = pose.to_body(point.position + tuning::seam_probe * size * outward);
+        // From the body's own surface: where it is deep in the other, halfway between the two is inside of it anyway.
+        const Vec3 probe = pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
         bool inside = false;
         whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
             inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
