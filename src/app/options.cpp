@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/exposure.h"
+#include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
 
@@ -12,15 +13,11 @@
 #include <charconv>
 #include <map>
 #include <string>
-#include <thread>
 
 namespace tumble {
 namespace {
 
-constexpr int most_threads = 256;
 constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder keep up with no more of them
-
-int machine_threads() { return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads); }
 
 /// "1280x720" to two numbers. Their range is the scene's affair.
 void read_size(const std::string& text, SceneOverrides& overrides) {

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <thread>
 
 namespace tumble {
 namespace {
@@ -117,8 +116,7 @@ void run_render(const RenderCommand& command) {
     // Before any thread. They open OpenGL while the bodies are built.
     Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, scene.frame_count())),
                   shutter.moments);
-    const int cores = int(std::max(std::thread::hardware_concurrency(), 1u));
-    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), cores));
+    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
         SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies
         divide_frames(in_parts, shutter.parts);

@@ -1,6 +1,7 @@
 #include "app/simulation_threads.h"
 
 #include <algorithm>
+#include <thread>
 
 namespace tumble {
 namespace {
@@ -11,6 +12,8 @@ constexpr std::size_t bodies_a_thread = 500;
 constexpr std::size_t many_bodies = 5000;   // from here on a step takes so long that drawing would wait for it
 
 }  // namespace
+
+int machine_threads() { return std::clamp(int(std::thread::hardware_concurrency()), 1, most_threads); }
 
 int simulation_threads_beside_drawing(std::size_t bodies, int cores) {
     const int most = bodies < many_bodies ? std::max(cores / 2, 1) : cores;

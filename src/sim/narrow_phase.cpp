@@ -13,10 +13,6 @@ namespace {
 
 bool awake(const Body& body) { return body.moves() && !body.asleep; }
 
-Pose seen_from(const Pose& frame, const Pose& pose) {
-    return {frame.to_body(pose.position), frame.rotation.transpose() * pose.rotation};
-}
-
 // How far (m) any point within `radius` of the body's centre has moved at most.
 double motion(const Pose& from, const Pose& to, double radius) {
     return (to.position - from.position).norm() + std::sqrt(0.5 * (to.rotation - from.rotation).squaredNorm()) * radius;

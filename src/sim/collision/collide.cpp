@@ -57,7 +57,7 @@ std::uint32_t part_count(const Collider& collider) {
 // Which parts come within the margin of the other shape, by bounds, ascending.
 void find_near_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, double margin,
                      std::vector<std::uint32_t>& parts) {
-    const Pose relative{pose.to_body(pose_other.position), pose.rotation.transpose() * pose_other.rotation};
+    const Pose relative = seen_from(pose, pose_other);
     const Bounds bounds = world_bounds(other, relative).grown(margin);
     parts.clear();
     whole.tree.query(bounds, [&](std::uint32_t part) { parts.push_back(part); });

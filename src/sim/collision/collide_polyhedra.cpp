@@ -65,7 +65,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     }
     if (a.is_box && b.is_box) return collide_boxes(a, pose_a, b, pose_b, margin, scratch, out);
     // In A's frame, which keeps the digits of scenes far from the origin.
-    const Pose b_in_a{pose_a.to_body(pose_b.position), pose_a.rotation.transpose() * pose_b.rotation};
+    const Pose b_in_a = seen_from(pose_a, pose_b);
     const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, EdgeSearch::nearby, scratch);
     const std::size_t first = out.size();
     add_manifold(a, pose_a, b, b_in_a, axis, margin, scratch, out);

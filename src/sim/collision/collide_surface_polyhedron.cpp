@@ -111,7 +111,7 @@ bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose
 void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
                                 double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     // In the body's frame: hulls are larger than triangles.
-    const Pose a_in_b{pose_b.to_body(pose_a.position), pose_b.rotation.transpose() * pose_a.rotation};
+    const Pose a_in_b = seen_from(pose_b, pose_a);
     Bounds region;
     {
         const Vec3 center = a_in_b.rotation.transpose() * (b.bounds.center() - a_in_b.position);

@@ -21,6 +21,11 @@ struct Pose {
     Vec3 to_body(const Vec3& p) const { return rotation.transpose() * (p - position); }
 };
 
+/// A pose in another one's frame.
+inline Pose seen_from(const Pose& frame, const Pose& pose) {
+    return {frame.to_body(pose.position), frame.rotation.transpose() * pose.rotation};
+}
+
 struct HalfSpace {
     Vec3 normal;      // unit; solid below
     double offset;    // m

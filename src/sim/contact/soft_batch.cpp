@@ -32,15 +32,8 @@ void temper(Manifold& m, const ContactProblem& problem) {
         mass = std::min(mass, body.mass);
         speed = std::max(speed, (body.velocity - problem.before[i].velocity).norm());
     }
-    double sum = 0.0;
-    for (const ContactPoint& p : m.points) sum += p.impulse;
-    const double most = tuning::direct_handover * mass * speed;
-    if (sum <= most) return;
-    const double share = most / sum;
-    for (ContactPoint& p : m.points) p.impulse *= share;
-    m.friction[0] *= share;
-    m.friction[1] *= share;
-    m.twist *= share;
+    const double sum = normal_impulse(m), most = tuning::direct_handover * mass * speed;
+    if (sum > most) scale_impulses(m, most / sum);
 }
 
 }  // namespace

@@ -300,8 +300,7 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     if (!normals_.empty()) return;
     const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)), *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
     if (hull_a && hull_b) {   // an edge along the rim of a face: touching, and yet no contact point lies on the face
-        const Pose at = pose_of(pair.a, a), other = pose_of(pair.b, b);
-        const Pose b_in_a{at.to_body(other.position), at.rotation.transpose() * other.rotation};
+        const Pose at = pose_of(pair.a, a), b_in_a = seen_from(at, pose_of(pair.b, b));
         normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, scratch_).normal);
         return;
     }
