@@ -40,27 +40,51 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     match(pairs, bodies);
     ++call_;
     views_.resize(bodies.size());
-    const auto count = std::uint32_t(entries_.size());
-    const bool together = shared(pool);
-    SpinBarrier barrier(together ? std::size_t(pool.size()) : 1);
+    seen_.resize(bodies.size(), 0);
+    share_out(pool);
+    const auto each_thread = [&](auto&& work) {
+        for (std::size_t thread = 0; thread < found_.size(); ++thread) work(thread);
+    };
+    const auto look_at_bodies = [&](std::size_t thread) {
+        for (const std::uint32_t i : found_[thread].bodies) view(views_[i], bodies[i]);
+    };
+    const auto look_at_pairs = [&](std::size_t thread) {
+        for (const std::uint32_t i : found_[thread].entries) examine(i, h, found_[thread]);
+    };
+    if (shared(pool)) {
+        SpinBarrier barrier(found_.size());
+        pool.together([&](std::size_t thread) {
+            look_at_bodies(thread);
+            barrier.wait();
+            look_at_pairs(thread);
+        });
+    } else {
+        each_thread(look_at_bodies);
+        each_thread(look_at_pairs);
+    }
+    put_in_order(pool);
+    return manifolds_;
+}
+
+// Which thread looks at which bodies and pairs. Of the bodies in the list only: those that sleep far from all others are not
+// even looked at.
+void NarrowPhase::share_out(const ThreadPool& pool) {
     for (Found& found : found_) {
         found.manifolds.clear();
         found.anchors.clear();
         found.changes.clear();
+        found.bodies.clear();
+        found.entries.clear();
     }
-    const auto look = [&](std::size_t thread) {
-        // Of the bodies in the list only: those that sleep far from all others are not even looked at.
-        for (const Entry& entry : entries_)
-            for (const std::uint32_t i : {entry.pair.a, entry.pair.b})
-                if ((!together || pool.thread_of(i) == thread) && views_[i].call != call_) view(views_[i], bodies[i]);
-        if (together) barrier.wait();
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (!together || thread_of(entries_[i], pool) == thread) examine(i, h, found_[thread]);
-    };
-    if (together) pool.together(look);
-    else look(0);
-    put_in_order(pool);
-    return manifolds_;
+    const auto of = [&, alone = found_.size() == 1](std::uint32_t body) -> Found& { return found_[alone ? 0 : pool.thread_of(body)]; };
+    for (std::uint32_t k = 0; k < entries_.size(); ++k) {
+        for (const std::uint32_t i : {entries_[k].pair.a, entries_[k].pair.b}) {
+            if (seen_[i] == call_) continue;
+            seen_[i] = call_;
+            of(i).bodies.push_back(i);
+        }
+        of(entries_[k].mover).entries.push_back(k);
+    }
 }
 
 // The entries for the new list of pairs.
@@ -82,6 +106,7 @@ void NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::v
             continue;
         }
         Entry entry{pair};
+        entry.mover = bodies[pair.a].moves() ? pair.a : pair.b;
         if (free_searches_.empty()) {
             entry.search = std::uint32_t(searches_.size());
             searches_.emplace_back();
@@ -120,12 +145,7 @@ void NarrowPhase::unpark(Entry& entry) {
 // Below, meeting costs more than it saves.
 bool NarrowPhase::shared(const ThreadPool& pool) const { return pool.size() > 1 && entries_.size() >= tuning::parallel_grain; }
 
-std::size_t NarrowPhase::thread_of(const Entry& entry, const ThreadPool& pool) const {
-    return pool.thread_of(views_[entry.pair.a].awake ? entry.pair.a : entry.pair.b);
-}
-
 void NarrowPhase::view(View& v, const Body& body) const {
-    v.call = call_;
     const Pose pose = body.pose();
     if (body.moves()) v.travel += motion(v.pose, pose, body.radius);
     v.pose = pose;
@@ -262,12 +282,10 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     }
     spare_manifolds_.resize(all);
     spare_anchors_.resize(all);
-    const bool together = shared(pool);
     const auto bring = [&](std::size_t thread) {
         const Found& found = found_[thread];
         auto change = found.changes.begin();
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (together && thread_of(entries_[i], pool) != thread) continue;
+        for (const std::uint32_t i : found.entries) {
             const bool changed = change != found.changes.end() && change->entry == i;
             const std::uint32_t first = changed ? change++->first : entries_[i].first, end = first + new_count_[i];
             const auto &manifolds = changed ? found.manifolds : manifolds_;
@@ -276,8 +294,8 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
             std::copy(anchors.begin() + first, anchors.begin() + end, spare_anchors_.begin() + new_first_[i]);
         }
     };
-    if (together) pool.together(bring);
-    else bring(0);
+    if (shared(pool)) pool.together(bring);
+    else for (std::size_t thread = 0; thread < found_.size(); ++thread) bring(thread);
     for (std::uint32_t i = 0; i < count; ++i) {
         entries_[i].first = new_first_[i];
         entries_[i].count = new_count_[i];

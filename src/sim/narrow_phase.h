@@ -32,17 +32,17 @@ public:
                                 ThreadPool& pool);
 
 private:
-    // What the pairs need of a body, close together.
-    struct View {
-        Pose pose;
-        Vec3 velocity = Vec3::Zero();
-        double spin = 0.0, radius = 0.0, speculative = 0.0;   // spin: m/s of the farthest point
-        double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
+    // What the pairs need of a body, close together: most look at the first two cache lines only.
+    struct alignas(64) View {
         Bounds bounds;
+        double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
+        double speculative = 0.0;
+        Vec3 velocity = Vec3::Zero();
+        double spin = 0.0, radius = 0.0;   // spin: m/s of the farthest point
         const Collider* collider = nullptr;
-        std::uint64_t call = 0;   // that it was brought up to date in
+        enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
         bool awake = false, flying = false;
-        enum class Kind { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
+        Pose pose;
     };
     // What is known of a pair: the last search, and the smaller body's pose in the frame of the larger: at the search, or at a later look,
     // when it had moved by `spent` since.
@@ -58,6 +58,7 @@ private:
         BroadPhase::Pair pair;
         std::uint32_t search = 0;                 // index in searches_
         std::uint32_t first = 0, count = 0;       // in manifolds_ and anchors_
+        std::uint32_t mover = 0;                  // that of the pair's bodies whose thread looks at it
     };
     // Of this call, an entry whose manifolds do not stay where they are: where the new ones lie.
     struct Change {
@@ -68,6 +69,7 @@ private:
         std::vector<Manifold> manifolds;
         std::vector<Anchors> anchors;
         std::vector<Change> changes;              // ascending by entry
+        std::vector<std::uint32_t> bodies, entries;   // its own, of this call
     };
     struct Parked {
         Search search;
@@ -79,7 +81,7 @@ private:
     void park(const Entry& entry);
     void unpark(Entry& entry);
     bool shared(const ThreadPool& pool) const;
-    std::size_t thread_of(const Entry& entry, const ThreadPool& pool) const;
+    void share_out(const ThreadPool& pool);
     void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;
     bool holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
@@ -96,6 +98,7 @@ private:
     std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
     std::vector<std::uint32_t> new_first_, new_count_;   // by entry
     std::vector<View> views_;                     // one a body
+    std::vector<std::uint64_t> seen_;             // by body: the call that its view was brought up to date in
     std::uint64_t call_ = 0;
     bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
     std::vector<Manifold> manifolds_, spare_manifolds_;

@@ -20,13 +20,15 @@ struct alignas(64) Line {
 };
 
 struct LanePoint {
-    Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();
+    Vec3 arm = Vec3::Zero();   // from A's centre
     double separation = 0.0, impulse = 0.0;
 };
 struct Lane {
-    std::uint32_t a = unmoved, b = unmoved;
+    std::uint32_t a = 0, b = 0;   // slots; 0 stands still
+    bool moves_a = true, moves_b = true;
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
-    double friction = 0.0, bias_rate = 0.0, mass_scale = 1.0, impulse_scale = 0.0, size = 1.0;
+    Vec3 between = Vec3::Zero();   // from B's centre to A's
+    double friction = 0.0, size = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
 };
@@ -36,36 +38,40 @@ class OneColor {
 public:
     OneColor(const Kernel& kernel, std::size_t bodies, const std::vector<Lane>& lanes)
         : kernel_(kernel), lanes_(std::size_t(kernel.lanes)), groups_((lanes.size() + lanes_ - 1) / lanes_),
-          state_(bodies + 1), mass_((bodies + 2) / 2), forces_(mass_.size()), start_(mass_.size()), rows_((groups_ * group_rows * lanes_ + 15) / 16),
-          bodies_(2 * lanes_ * groups_, unmoved), points_(groups_, 0) {
+          state_(bodies + 1), inertia_((bodies + 2) / 2), forces_(inertia_.size()), start_(inertia_.size()),
+          rows_((groups_ * group_rows * lanes_ + 15) / 16), bodies_(2 * lanes_ * groups_, 0), moved_(2 * groups_, 0), points_(groups_, 0) {
         for (std::size_t k = 0; k < lanes.size(); ++k) pack(k, lanes[k]);
     }
     float* state(std::size_t slot) { return state_[slot].f; }
-    float* mass(std::size_t slot) { return mass_[slot / 2].f + 8 * (slot % 2); }
+    float* inertia(std::size_t slot) { return inertia_[slot / 2].f + 8 * (slot % 2); }
     float* force(std::size_t slot) { return forces_[slot / 2].f + 8 * (slot % 2); }
     float& head(std::size_t lane, int row) { return reinterpret_cast<float*>(rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_]; }
     float& at(std::size_t lane, int point, int row) { return head(lane, head_rows + point * point_rows + row); }
 
     void prepare() { call(kernel_.prepare); }
     void warm_start() { call(kernel_.warm_start); }
-    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), rate); }
+    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, moving, fixed}); }
     void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
     void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
     void sum() { kernel_.sum(groups(), 0, groups_); }
-    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), rate); }
+    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), {rate, moving, fixed}); }
+
+    Softness moving{0.0f, 1.0f, 0.0f}, fixed{0.0f, 1.0f, 0.0f};
 
 private:
-    Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), points_.data()}; }
+    Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), moved_.data(), points_.data()}; }
     Bodies bodies() { 
-        return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(mass_.data()),
+        return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(inertia_.data()),
                 reinterpret_cast<float*>(forces_.data()), reinterpret_cast<float*>(start_.data())};
     }
     void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) { pass(groups(), 0, groups_, bodies()); }
 
     void pack(std::size_t k, const Lane& lane) {
         const std::size_t group = k / lanes_, l = k % lanes_;
-        bodies_[2 * lanes_ * group + l] = lane.a;
-        bodies_[2 * lanes_ * group + lanes_ + l] = lane.b;
+        bodies_[2 * lanes_ * group + l] = std::uint32_t(body_floats) * lane.a;
+        bodies_[2 * lanes_ * group + lanes_ + l] = std::uint32_t(body_floats) * lane.b;
+        moved_[2 * group] |= std::uint16_t((lane.a && lane.moves_a) << l);
+        moved_[2 * group + 1] |= std::uint16_t((lane.b && lane.moves_b) << l);
         points_[group] = std::max(points_[group], std::uint8_t(lane.points.size()));
         const auto vector = [&](int row, const Vec3& v) {
             for (int i = 0; i < 3; ++i) head(k, row + i) = float(v[i]);
@@ -73,9 +79,7 @@ private:
         vector(normal, lane.normal);
         vector(tangent_1, lane.tangent);
         head(k, friction_coefficient) = float(lane.friction);
-        head(k, bias_rate) = float(lane.bias_rate);
-        head(k, mass_scale) = float(lane.mass_scale);
-        head(k, impulse_scale) = float(lane.impulse_scale);
+        vector(between, lane.between);
         head(k, size) = float(lane.size);
         head(k, friction_1) = float(lane.start_friction[0]);
         head(k, friction_2) = float(lane.start_friction[1]);
@@ -83,8 +87,7 @@ private:
         for (std::size_t i = 0; i < lane.points.size(); ++i) {
             const LanePoint& p = lane.points[i];
             const int base = head_rows + int(i) * point_rows;
-            vector(base + arm_a, p.arm_a);
-            vector(base + arm_b, p.arm_b);
+            vector(base + turn, p.arm);
             at(k, int(i), normal_mass) = 1.0f;
             at(k, int(i), separation) = float(p.separation);
             at(k, int(i), impulse) = float(p.impulse);
@@ -93,8 +96,9 @@ private:
 
     const Kernel& kernel_;
     std::size_t lanes_, groups_;
-    std::vector<Line> state_, mass_, forces_, start_, rows_;
+    std::vector<Line> state_, inertia_, forces_, start_, rows_;
     std::vector<std::uint32_t> bodies_;
+    std::vector<std::uint16_t> moved_;
     std::vector<std::uint8_t> points_;
 };
 
@@ -107,16 +111,16 @@ std::vector<const Kernel*> kernels() {
     return all;
 }
 
-void random_mass(Random& random, float* mass) {
-    mass[0] = float(random(0.1, 2.0));
+void random_mass(Random& random, float& inverse, float* inertia) {
+    inverse = float(random(0.1, 2.0));
     const Mat3 root = (Mat3() << random(0.5, 2.0), 0, 0, random(-0.5, 0.5), random(0.5, 2.0), 0, random(-0.5, 0.5), random(-0.5, 0.5), random(0.5, 2.0)).finished();
-    const Mat3 inverse = root * root.transpose();
-    const double entries[] = {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
-    for (int i = 0; i < 6; ++i) mass[1 + i] = float(entries[i]);
+    const Mat3 tensor = root * root.transpose();
+    const double entries[] = {tensor(0, 0), tensor(0, 1), tensor(0, 2), tensor(1, 1), tensor(1, 2), tensor(2, 2)};
+    for (int i = 0; i < 6; ++i) inertia[i] = float(entries[i]);
 }
 
 /// A ball of mass m and radius r on what does not move, its centre at r above: slot 1.
-constexpr double m = 2.0, r = 0.5, inertia = 0.4 * m * r * r;
+constexpr double m = 2.0, r = 0.5, moment_of_inertia = 0.4 * m * r * r;
 OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3& spin = Vec3::Zero()) {
     lane.b = 1;
     OneColor color(kernel, 1, {lane});
@@ -124,15 +128,16 @@ OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3&
         color.state(1)[i] = float(velocity[i]);
         color.state(1)[3 + i] = float(spin[i]);
     }
-    color.mass(1)[0] = float(1.0 / m);
-    color.mass(1)[1] = color.mass(1)[4] = color.mass(1)[6] = float(1.0 / inertia);
+    color.state(1)[inverse_mass] = float(1.0 / m);
+    for (const int i : {0, 3, 5}) color.inertia(1)[i] = float(1.0 / moment_of_inertia);
     color.prepare();
     return color;
 }
 Lane ball_lane(double friction, double separation = 0.0) {
     Lane lane;
     lane.friction = friction;
-    lane.points = {{Vec3::Zero(), Vec3(0.0, -r, 0.0), separation, 0.0}};
+    lane.between = Vec3(0.0, -r, 0.0);
+    lane.points = {{Vec3::Zero(), separation, 0.0}};
     return lane;
 }
 
@@ -148,20 +153,21 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
             std::vector<Lane> lanes;
             for (int k = 0; k < count; ++k) {
                 Lane lane;
-                lane.a = random.below(4) == 0 ? unmoved : std::uint32_t(2 * k + 1);
-                lane.b = random.below(8) == 0 ? unmoved | std::uint32_t(2 * k + 2) : std::uint32_t(2 * k + 2);
-                if (lane.a == unmoved && (lane.b & unmoved)) lane.a = std::uint32_t(2 * k + 1);
+                lane.b = std::uint32_t(2 * k + 2);
+                lane.moves_b = random.below(8) != 0;
+                if (random.below(4) != 0 || !lane.moves_b) lane.a = std::uint32_t(2 * k + 1);
                 lane.normal = random.direction();
                 lane.tangent = random.below(2) ? Vec3(Vec3::Zero()) : random.direction();
                 lane.friction = random(0.0, 1.0);
-                lane.bias_rate = random(10.0, 100.0);
-                lane.mass_scale = random(0.5, 1.0);
-                lane.impulse_scale = 1.0 - lane.mass_scale;
+                lane.between = random.vector(1.0);
                 lane.size = random(0.01, 3.0);
                 for (double& f : lane.start_friction) f = random(-0.01, 0.01);
                 for (int i = 1 + random.below(4); i > 0; --i)
-                    lane.points.push_back({random.vector(1.0), random.vector(1.0), random(-0.05, 0.02),
-                                           random(0.0, 0.1)});
+                    lane.points.push_back({random.vector(1.0), random(-0.05, 0.02), random(0.0, 0.1)});
+                if (random.below(3) == 0) {   // idle
+                    for (LanePoint& p : lane.points) p.impulse = 0.0;
+                    for (double& f : lane.start_friction) f = 0.0;
+                }
                 lanes.push_back(lane);
             }
             OneColor color(*kernel, std::size_t(2 * count), lanes);
@@ -170,8 +176,10 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                     color.state(s)[i] = float(random(-1.0, 1.0));
                     color.force(s)[i] = float(random(-0.02, 0.02));
                 }
-                random_mass(random, color.mass(s));
+                random_mass(random, color.state(s)[inverse_mass], color.inertia(s));
             }
+            color.moving = {float(random(10.0, 100.0)), 0.7f, 0.3f};
+            color.fixed = {float(random(10.0, 100.0)), 0.9f, 0.1f};
             color.prepare();
             for (int step = 0; step < 4; ++step) {
                 color.accelerate(step > 0);
@@ -205,13 +213,15 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
 TEST(SoftKernel, UnmovedBodiesAreLeftAlone) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5, -0.01);
-        lane.a = unmoved | 2;
+        lane.a = 2;
+        lane.moves_a = false;
         lane.b = 1;
-        lane.points[0].arm_a = Vec3(0.3, 0.2, 0.1);
+        lane.points[0].arm = Vec3(0.3, 0.2, 0.1);
+        lane.between = Vec3(0.0, -r, 0.0) - lane.points[0].arm;
         OneColor color(*kernel, 2, {lane});
         color.state(1)[1] = -1.0f;
         color.state(2)[0] = 0.25f;   // a belt
-        color.mass(1)[0] = color.mass(1)[1] = color.mass(1)[4] = color.mass(1)[6] = 1.0f;
+        color.state(1)[inverse_mass] = color.inertia(1)[0] = color.inertia(1)[3] = color.inertia(1)[5] = 1.0f;
         color.prepare();
         color.push(480.0f);
         color.relax(480.0f);
@@ -230,13 +240,13 @@ TEST(SoftKernel, AContactStopsWhatApproaches) {
         EXPECT_NEAR(central.at(0, 0, impulse), m * 3.0, 1e-5);
         EXPECT_NEAR(central.state(1)[1], 0.0, 1e-6);
         Lane lane = ball_lane(0.0);
-        lane.points[0].arm_b = Vec3(0.4, -0.3, 0.0);
+        lane.between = Vec3(0.4, -0.3, 0.0);
         OneColor aside = ball(*kernel, lane, {0.0, -3.0, 0.0});
         aside.relax(480.0f);
-        const double j = 3.0 / (1.0 / m + 0.4 * 0.4 / inertia);
+        const double j = 3.0 / (1.0 / m + 0.4 * 0.4 / moment_of_inertia);
         EXPECT_NEAR(aside.at(0, 0, impulse), j, 1e-5);
         EXPECT_NEAR(aside.state(1)[1], -3.0 + j / m, 1e-5);
-        EXPECT_NEAR(aside.state(1)[5], 0.4 * j / inertia, 1e-4);   // about z: x arm times y impulse
+        EXPECT_NEAR(aside.state(1)[5], 0.4 * j / moment_of_inertia, 1e-4);   // about z: x arm times y impulse
         OneColor leaving = ball(*kernel, ball_lane(0.5), {1.0, 0.1, 0.0});
         leaving.push(480.0f);
         leaving.relax(480.0f);
@@ -261,11 +271,9 @@ TEST(SoftKernel, AGapIsClosedNotCrossed) {
 TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.0, -0.01);
-        lane.bias_rate = 50.0;
-        lane.mass_scale = 0.8;
-        lane.impulse_scale = 0.2;
         lane.size = 0.001 / tuning::soft_slop;
         OneColor color = ball(*kernel, lane, Vec3::Zero());
+        color.fixed = {50.0f, 0.8f, 0.2f};
         color.push(480.0f);
         EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * 50.0 * 0.009, 1e-5);
         color.push(480.0f);
@@ -275,6 +283,7 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
         lane.size = 0.1 / tuning::push_limit;
         OneColor limited = ball(*kernel, lane, Vec3::Zero());
+        limited.fixed = color.fixed;
         limited.push(480.0f);
         EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
     }
@@ -293,7 +302,7 @@ TEST(SoftKernel, FrictionIsADisc) {
             EXPECT_NEAR(slides.state(1)[0], (5.0 - 0.3 * 2.0) * way.x(), 1e-5);
             EXPECT_NEAR(slides.state(1)[2], (5.0 - 0.3 * 2.0) * way.z(), 1e-5);
             // The spin of the impulse -0.3 j way at (0, -r, 0).
-            const Vec3 spin = Vec3(0.0, -r, 0.0).cross(Vec3(-0.3 * j * way)) / inertia;
+            const Vec3 spin = Vec3(0.0, -r, 0.0).cross(Vec3(-0.3 * j * way)) / moment_of_inertia;
             for (int i = 0; i < 3; ++i) EXPECT_NEAR(slides.state(1)[3 + i], spin[i], 1e-4);
             OneColor sticks = ball(*kernel, ball_lane(0.3), 0.5 * way + Vec3(0.0, -2.0, 0.0));
             sticks.relax(480.0f);
@@ -307,13 +316,100 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5);
         lane.points.clear();
-        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), Vec3(0.2 * side, -r, 0.0), 0.0, 0.4});
+        for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         fast.push(480.0f);
         EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
-        EXPECT_NEAR(fast.state(1)[4], 10.0 - 0.5 * 0.2 * 0.8 / inertia, 1e-4);
+        EXPECT_NEAR(fast.state(1)[4], 10.0 - 0.5 * 0.2 * 0.8 / moment_of_inertia, 1e-4);
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
         slow.push(480.0f);
         EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
     }
+}
+
+// A sweep over four points at once, from couplings, against the same one by one in double precision: j = (v - r) / K for
+// each point in turn, K = 1/m + (r x n) I^-1 (r x n) over both bodies.
+TEST(SoftKernel, PointsSeeEachOther) {
+    for (const Kernel* kernel : kernels())
+        for (int trial = 0; trial < trials(50); ++trial) {
+            Random random{std::uint64_t(1000 + trial)};
+            Lane lane;
+            lane.a = 1;
+            lane.b = 2;
+            lane.normal = random.direction();
+            lane.between = random.vector(1.0);
+            for (int i = 0; i < 4; ++i) lane.points.push_back({random.vector(0.7), 0.0, 0.0});
+            OneColor color(*kernel, 2, {lane});
+            Vec3 velocity[2], spin[2];
+            Mat3 inverse_inertia[2];
+            double inverse[2];
+            for (std::size_t k = 0; k < 2; ++k) {
+                float* state = color.state(k + 1);
+                random_mass(random, state[inverse_mass], color.inertia(k + 1));
+                inverse[k] = state[inverse_mass];
+                const float* f = color.inertia(k + 1);
+                inverse_inertia[k] << f[0], f[1], f[2], f[1], f[3], f[4], f[2], f[4], f[5];
+                velocity[k] = random.vector(1.0) + (k ? -2.0 : 2.0) * lane.normal;
+                spin[k] = random.vector(1.0);
+                for (int i = 0; i < 3; ++i) {
+                    state[i] = float(velocity[k][i]);
+                    state[3 + i] = float(spin[k][i]);
+                }
+            }
+            color.prepare();
+            color.relax(480.0f);
+            for (int i = 0; i < 4; ++i) {
+                const Vec3 arm[2] = {lane.points[std::size_t(i)].arm, lane.points[std::size_t(i)].arm + lane.between};
+                double compliance = inverse[0] + inverse[1];
+                for (int k = 0; k < 2; ++k) compliance += arm[k].cross(lane.normal).dot(inverse_inertia[k] * arm[k].cross(lane.normal));
+                const double v = lane.normal.dot(velocity[1] + spin[1].cross(arm[1]) - velocity[0] - spin[0].cross(arm[0]));
+                const double j = std::max(0.0, -v / compliance);
+                for (int k = 0; k < 2; ++k) {
+                    const Vec3 impulse = (k ? j : -j) * lane.normal;
+                    velocity[k] += inverse[k] * impulse;
+                    spin[k] += inverse_inertia[k] * arm[k].cross(impulse);
+                }
+                EXPECT_NEAR(color.at(0, i, impulse), j, 2e-5);
+            }
+            for (std::size_t k = 0; k < 2; ++k)
+                for (int i = 0; i < 3; ++i) {
+                    EXPECT_NEAR(color.state(k + 1)[i], velocity[k][i], 5e-5);
+                    EXPECT_NEAR(color.state(k + 1)[3 + i], spin[k][i], 2e-4);
+                }
+        }
+}
+
+// Friction, solved last, ends the slip that the normal impulse has left; solved first, it leaves the normal impulse to stop
+// what it has set going. One point, well held, anywhere on two bodies.
+TEST(SoftKernel, FrictionAndNormalImpulsesSeeEachOther) {
+    for (const Kernel* kernel : kernels())
+        for (int trial = 0; trial < trials(50); ++trial) {
+            Random random{std::uint64_t(2000 + trial)};
+            Lane lane;
+            lane.a = 1;
+            lane.b = 2;
+            lane.normal = random.direction();
+            lane.between = random.vector(1.0);
+            lane.friction = 100.0;
+            lane.points = {{random.vector(0.7), 0.0, 0.5}};
+            for (const bool pushing : {false, true}) {
+                OneColor color(*kernel, 2, {lane});
+                for (std::size_t k = 1; k <= 2; ++k) {
+                    random_mass(random, color.state(k)[inverse_mass], color.inertia(k));
+                    for (int i = 0; i < 6; ++i) color.state(k)[i] = float(random(-0.3, 0.3) + (k == 1 && i < 3 ? 2.0 * lane.normal[i] : 0.0));
+                }
+                color.prepare();
+                if (pushing) color.push(480.0f);
+                else color.relax(480.0f);
+                const auto velocity = [&](std::size_t k, const Vec3& arm) {
+                    const float* f = color.state(k);
+                    return Vec3(Vec3(f[0], f[1], f[2]) + Vec3(f[3], f[4], f[5]).cross(arm));
+                };
+                const Vec3& arm = lane.points[0].arm;
+                const Vec3 relative = velocity(2, arm + lane.between) - velocity(1, arm);
+                if (pushing) EXPECT_NEAR(relative.dot(lane.normal), 0.0, 1e-4);
+                else EXPECT_LT(relative.cross(lane.normal).norm(), 1e-4);
+                EXPECT_GT(color.at(0, 0, impulse), 0.0f);
+            }
+        }
 }

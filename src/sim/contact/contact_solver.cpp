@@ -127,40 +127,29 @@ int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& is
     return levels > tuning::soft_very_high_pile ? 4 : levels > tuning::soft_high_pile ? 2 : 1;
 }
 
-// Soft islands into parts of as fine substeps: as many as threads where no island is a large share, else one.
-void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads) {
+// Soft islands into parts of as fine substeps, each no larger than a cache holds, or of one large island.
+void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem) {
     std::sort(softly_.begin(), softly_.end());
+    fineness_.clear();
+    for (const std::size_t k : softly_) fineness_.push_back(finer(problem, islands, k));
     parts_used_ = 0;
-    std::vector<int> fineness;
-    for (const std::size_t k : softly_) fineness.push_back(finer(problem, islands, k));
     for (const int wanted : {1, 2, 4}) {
-        std::size_t all = 0, largest = 0;
+        SoftSolver::Part* part = nullptr;
         for (std::size_t s = 0; s < softly_.size(); ++s) {
-            if (fineness[s] != wanted) continue;
-            all += islands.manifolds(softly_[s]).size();
-            largest = std::max(largest, islands.manifolds(softly_[s]).size());
-        }
-        if (all == 0) continue;
-        const bool apart = threads > 1 && all >= tuning::parallel_grain && 2 * largest * threads < 3 * all;
-        const std::size_t first = parts_used_, count = apart ? threads : 1;
-        parts_used_ += count;
-        if (parts_.size() < parts_used_) parts_.resize(parts_used_);
-        for (std::size_t p = first; p < parts_used_; ++p) {
-            parts_[p].bodies.clear();
-            parts_[p].manifolds.clear();
-            parts_[p].island_ends.clear();
-            parts_[p].finer = wanted;
-        }
-        std::size_t dealt = 0;
-        for (std::size_t s = 0; s < softly_.size(); ++s) {
-            if (fineness[s] != wanted) continue;
-            SoftSolver::Part& part = parts_[first + std::min(count - 1, dealt * count / all)];
+            if (fineness_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
             const auto manifolds = islands.manifolds(softly_[s]);
-            part.bodies.insert(part.bodies.end(), bodies.begin(), bodies.end());
-            part.manifolds.insert(part.manifolds.end(), manifolds.begin(), manifolds.end());
-            part.island_ends.push_back(part.bodies.size());
-            dealt += manifolds.size();
+            if (!part || part->manifolds.size() + manifolds.size() > tuning::soft_part_manifolds) {
+                if (parts_used_ == parts_.size()) parts_.emplace_back();
+                part = &parts_[parts_used_++];
+                part->bodies.clear();
+                part->manifolds.clear();
+                part->island_ends.clear();
+                part->finer = wanted;
+            }
+            part->bodies.insert(part->bodies.end(), bodies.begin(), bodies.end());
+            part->manifolds.insert(part->manifolds.end(), manifolds.begin(), manifolds.end());
+            part->island_ends.push_back(part->bodies.size());
         }
     }
 }
@@ -187,7 +176,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         softly_.push_back(direct_[k]);
     }
     if (!softly_.empty()) {
-        deal(islands, problem, std::size_t(pool.size()));
+        deal(islands, problem);
         soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
     }
 }

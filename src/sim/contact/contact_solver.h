@@ -43,7 +43,7 @@ private:
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
-    void deal(const ContactIslands& islands, const ContactProblem& problem, std::size_t threads);
+    void deal(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
     Effort effort_;
@@ -53,6 +53,7 @@ private:
     std::vector<Candidate> candidates_;
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
+    std::vector<int> fineness_;           // of softly_
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

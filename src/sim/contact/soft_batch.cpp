@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 constexpr std::size_t colors = 64;   // bits of a mask; what finds none free is solved one by one
+// Manifolds of a colour side by side by what they cost: with impulses before those without, which may stay idle, and as many
+// points together: no lane waits for another's fourth.
+constexpr std::size_t costs = 2 * Manifold::capacity;
+std::size_t cost_class(const Manifold& m) {
+    return std::size_t(Manifold::capacity - m.count) + (normal_impulse(m) > 0.0 ? 0 : Manifold::capacity);
+}
 
 void put(float* row, int stride, const Vec3& v) {
     row[0] = float(v.x());
@@ -46,17 +52,16 @@ void SoftBatch::Floats::resize(std::size_t count) {
 }
 
 // For a substep of d seconds (formulas: soft_solver.h).
-SoftBatch::Softness SoftBatch::softness(double frequency, double d) {
+soft::Softness SoftBatch::softness(double frequency, double d) {
     const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
     const double a = 2.0 * z + d * w, c = d * w * a;
-    return {w / a, c / (1.0 + c), 1.0 / (1.0 + c)};
+    return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
 void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot) {
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
-    moving_ = softness(tuning::soft_frequency / d_, d_);
-    fixed_ = softness(2.0 * tuning::soft_frequency / d_, d_);
+    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(2.0 * tuning::soft_frequency / d_, d_)};
     blocks_.clear();
     std::size_t first = 0;
     for (const std::size_t end : part.island_ends) {
@@ -66,7 +71,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
     find_movers(problem, part);
     slots_ = 1 + part.bodies.size() + movers_.size();
     state_.resize(slots_ * soft::body_floats);
-    for (Floats* array : {&mass_, &before_, &forces_}) array->resize(slots_ * soft::mass_floats);
+    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
     places_.resize(slots_);
     block_of_.resize(slots_);
     reached_.assign(slots_, 0);
@@ -94,7 +99,7 @@ void SoftBatch::find_movers(const ContactProblem& problem, const SoftSolver::Par
 void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot) {
     const std::size_t across = blocks_.size(), homes = across + 1;
     taken_.assign(slots_, {});
-    class_size_.assign(homes * colors * Manifold::capacity, 0);
+    class_size_.assign(homes * colors * costs, 0);
     class_.clear();
     for (const std::uint32_t k : part.manifolds) {
         const Manifold& m = problem.manifolds[k];
@@ -113,8 +118,7 @@ void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& par
         const std::uint64_t bit = std::uint64_t(1) << c;
         if (moves_a) of_a |= bit;
         if (moves_b) of_b |= bit;
-        // Manifolds with as many points side by side: no lane waits for another's fourth.
-        class_.push_back(std::uint32_t((home * colors + c) * Manifold::capacity + std::size_t(Manifold::capacity - m.count)));
+        class_.push_back(std::uint32_t((home * colors + c) * costs + cost_class(m)));
         ++class_size_[class_.back()];
     }
 }
@@ -127,8 +131,8 @@ void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
     for (std::size_t home = 0; home < homes; ++home) {
         for (std::size_t c = 0; c < colors; ++c) {
             std::uint32_t lane = std::uint32_t(groups * lanes);
-            for (std::size_t p = 0; p < Manifold::capacity; ++p) {   // sizes become places
-                std::uint32_t& of_class = class_size_[(home * colors + c) * Manifold::capacity + p];
+            for (std::size_t p = 0; p < costs; ++p) {   // sizes become places
+                std::uint32_t& of_class = class_size_[(home * colors + c) * costs + p];
                 const std::uint32_t size = of_class;
                 of_class = lane;
                 lane += size;
@@ -152,6 +156,7 @@ void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
         if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = part.manifolds[i];
     rows_.resize(groups * soft::group_rows * lanes);
     lane_bodies_.resize(2 * lanes * groups);
+    lane_moved_.resize(2 * groups);
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
 }
@@ -171,8 +176,8 @@ void SoftBatch::give_bodies(ThreadPool& pool) const {
 // Of the places first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
     std::fill_n(state(first + 1), (last - first) * soft::body_floats, 0.0f);
-    for (Floats* array : {&mass_, &before_, &forces_})
-        std::fill_n(array->data() + (first + 1) * soft::mass_floats, (last - first) * soft::mass_floats, 0.0f);
+    for (Floats* array : {&inertia_, &before_, &forces_})
+        std::fill_n(array->data() + (first + 1) * soft::inertia_floats, (last - first) * soft::inertia_floats, 0.0f);
     const double share = 1.0 / substeps_;
     for (std::size_t k = first; k < last; ++k) {
         const std::uint32_t i = blocks_.order()[k];
@@ -184,24 +189,24 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
         float* f = forces_.data() + 8 * (k + 1);
         put(f, 1, share * (body.velocity - problem.before[i].velocity));
         put(f + 3, 1, share * (body.angular_velocity - problem.before[i].angular_velocity));
-        float* m = mass_.data() + soft::mass_floats * (k + 1);
+        s[soft::inverse_mass] = float(body.inverse_mass);
+        float* inertia = inertia_.data() + soft::inertia_floats * (k + 1);
         const Mat3& inverse = body.inverse_inertia;
-        m[0] = float(body.inverse_mass);
-        m[1] = float(inverse(0, 0));
-        m[2] = float(inverse(0, 1));
-        m[3] = float(inverse(0, 2));
-        m[4] = float(inverse(1, 1));
-        m[5] = float(inverse(1, 2));
-        m[6] = float(inverse(2, 2));
+        inertia[0] = float(inverse(0, 0));
+        inertia[1] = float(inverse(0, 1));
+        inertia[2] = float(inverse(0, 2));
+        inertia[3] = float(inverse(1, 1));
+        inertia[4] = float(inverse(1, 2));
+        inertia[5] = float(inverse(2, 2));
     }
 }
 
 // And slot 0, which stands still.
 void SoftBatch::pack_movers(const ContactProblem& problem) {
     const std::size_t dynamic = blocks_.order().size();
-    for (Floats* array : {&mass_, &before_, &forces_}) {
-        std::fill_n(array->data(), soft::mass_floats, 0.0f);
-        std::fill_n(array->data() + (1 + dynamic) * soft::mass_floats, movers_.size() * soft::mass_floats, 0.0f);
+    for (Floats* array : {&inertia_, &before_, &forces_}) {
+        std::fill_n(array->data(), soft::inertia_floats, 0.0f);
+        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats, movers_.size() * soft::inertia_floats, 0.0f);
     }
     std::fill_n(state(0), soft::body_floats, 0.0f);
     std::fill_n(state(1 + dynamic), movers_.size() * soft::body_floats, 0.0f);
@@ -216,20 +221,25 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
 SoftBatch::Place SoftBatch::find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const {
     const Body& b = problem.bodies[body];
     if (b.dynamic()) return places_[slot[body]];
-    if (b.type != BodyType::kinematic) return place_of(b, soft::unmoved);
+    if (b.type != BodyType::kinematic) return place_of(b, 0);
     const auto place = std::lower_bound(movers_.begin(), movers_.end(), body) - movers_.begin();
-    return place_of(b, soft::unmoved | std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
+    return place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
 void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
                           const std::vector<std::uint32_t>& slot) {
     Manifold& m = problem.manifolds[manifold];
     temper(m, problem);
-    const Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
+    Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
+    // Arms go from the body that moves, of two from the smaller: from the other's centre single precision may be too coarse.
+    const bool swapped = !a.dynamic || (b.dynamic && b.radius < a.radius);
+    if (swapped) std::swap(a, b);
     const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
     const int stride = kernel_.lanes;
-    lane_bodies_[2 * lanes * g + l] = a.slot;
-    lane_bodies_[2 * lanes * g + lanes + l] = b.slot;
+    lane_bodies_[2 * lanes * g + l] = std::uint32_t(soft::body_floats) * a.slot;
+    lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
+    lane_moved_[2 * g] |= std::uint16_t(a.dynamic << l);
+    lane_moved_[2 * g + 1] |= std::uint16_t(b.dynamic << l);
     const double share = 1.0 / substeps_;
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
@@ -240,36 +250,37 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
         source.point[count] = std::uint8_t(i);
         float* row = point_row(g, count++, 0) + l;
-        put(row + soft::arm_a * stride, stride, p.position - a.position);
-        put(row + soft::arm_b * stride, stride, p.position - b.position);
+        put(row + soft::turn * stride, stride, p.position - a.position);
         row[soft::normal_mass * stride] = 1.0f;
         row[soft::separation * stride] = float(p.separation);
         row[soft::impulse * stride] = float(share * p.impulse);
     }
     if (count == 0) return release(m);   // left to bounce
     source.count = std::uint8_t(count);
+    source.swapped = swapped;
     lane_points_[g] = std::max(lane_points_[g], source.count);
 
     float* head = row(g, 0) + l;
     const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
-    put(head + soft::normal * stride, stride, m.normal);
+    put(head + soft::normal * stride, stride, swapped ? Vec3(-m.normal) : m.normal);
     put(head + soft::tangent_1 * stride, stride, m.tangent);
-    const Softness& soft = a.dynamic && b.dynamic ? moving_ : fixed_;
+    put(head + soft::between * stride, stride, a.position - b.position);
     put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
-    put_row(soft::bias_rate, soft.bias_rate);
-    put_row(soft::mass_scale, soft.mass_scale);
-    put_row(soft::impulse_scale, soft.impulse_scale);
     put_row(soft::size, size);
-    put_row(soft::friction_1, share * m.friction[0]);
+    // Seen from the other body the second tangent is opposite too, and so is an impulse along the first.
+    put_row(soft::friction_1, (swapped ? -share : share) * m.friction[0]);
     put_row(soft::friction_2, share * m.friction[1]);
     put_row(soft::twist, share * m.twist);
 }
 
 void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
     const std::size_t lanes = std::size_t(kernel_.lanes);
-    const int points = problem.manifolds[lane_manifolds_[lanes * group]].count;   // the most comes first
+    int points = 0;
+    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
+        if (lane_manifolds_[lane] != none) points = std::max(points, problem.manifolds[lane_manifolds_[lane]].count);
     std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
-    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, soft::unmoved);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
+    lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     lane_points_[group] = 0;
     for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane) {
         sources_[lane] = {};
@@ -279,9 +290,8 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
 
 void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
                     SpinBarrier& barrier) {
-    const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_points_.data()};
-    const soft::Bodies bodies{state_.data(), mass_.data(), forces_.data(), before_.data()};
-    const float rate = float(1.0 / d_);
+    const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_moved_.data(), lane_points_.data()};
+    const soft::Bodies bodies{state_.data(), inertia_.data(), forces_.data(), before_.data()};
     const std::size_t across = blocks_.size();
     const Share own = blocks_of(thread, team);
     const std::size_t first_body = blocks_.first(own.begin), end_body = blocks_.first(own.end);
@@ -321,14 +331,14 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     for (int step = 0; step < substeps_; ++step) {
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
         if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
-        each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, rate); });
+        each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
         if (!movers_.empty()) {   // which all threads look at
             meet();
             if (thread == 0) kernel_.move(1 + blocks_.order().size(), slots_, bodies, float(d_));
             meet();
         }
-        each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, rate); });
+        each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
     }
     each_color([&](std::size_t f, std::size_t l) {
         kernel_.sum(groups, f, l);
@@ -349,20 +359,21 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         release(m);
         for (int i = 0; i < source.count; ++i)
             m.points[source.point[i]].impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
-        m.friction[0] = substeps_ * double(head[soft::friction_1 * lanes]);
+        m.friction[0] = (source.swapped ? -substeps_ : substeps_) * double(head[soft::friction_1 * lanes]);
         m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
         m.twist = substeps_ * double(head[soft::twist * lanes]);
         m.tangent = three(soft::tangent_1);
         const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
-        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l], slot_b = lane_bodies_[2 * lanes * g + lanes + l];
-        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        if (!(slot_a & soft::unmoved)) {
+        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
+        const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;
+        Body &a = problem.bodies[source.swapped ? m.b : m.a], &b = problem.bodies[source.swapped ? m.a : m.b];
+        if (lane_moved_[2 * g] >> l & 1) {
             reached_[slot_a] = 1;
             a.momentum -= force;
             a.angular_momentum -= moment;
         }
-        if (!(slot_b & soft::unmoved)) {
+        if (lane_moved_[2 * g + 1] >> l & 1) {
             reached_[slot_b] = 1;
             b.momentum += force;
             b.angular_momentum += moment + (a.position - b.position).cross(force);

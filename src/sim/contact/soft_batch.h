@@ -38,9 +38,6 @@ private:
         std::vector<float> memory_;
         float* data_ = nullptr;
     };
-    struct Softness {
-        double bias_rate, mass_scale, impulse_scale;
-    };
     // What packing needs of a body, close together in memory.
     struct Place {
         Vec3 position = Vec3::Zero();
@@ -52,13 +49,14 @@ private:
     struct Source {
         std::uint8_t count = 0;
         std::uint8_t point[Manifold::capacity] = {};
+        bool swapped = false;   // the lane's A is the manifold's B
     };
 
     struct Share {
         std::size_t begin, end;
     };
 
-    static Softness softness(double frequency, double d);
+    static soft::Softness softness(double frequency, double d);
     static Place place_of(const Body& body, std::uint32_t slot) {
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
@@ -81,8 +79,8 @@ private:
     const soft::Kernel& kernel_;
     double d_ = 0.0;                                  // s, a substep
     int substeps_ = 1;
-    Softness moving_{}, fixed_{};
-    Floats state_, mass_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
+    soft::Substep substep_{};
+    Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
     BodyBlocks blocks_;                               // slot k + 1 is the k-th of its order
     std::size_t slots_ = 0;
     std::vector<Place> places_;                       // by slot
@@ -92,11 +90,12 @@ private:
         std::uint64_t inside = 0, across = 0;
     };
     std::vector<Taken> taken_;                        // by slot: colours, inside of the block and between blocks
-    std::vector<std::uint32_t> class_;                // by manifold of the part: home, colour, number of points
+    std::vector<std::uint32_t> class_;                // by manifold of the part: home, colour, cost
     std::vector<std::uint32_t> class_size_;
     std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
     std::vector<std::size_t> first_color_;            // of each block, then of what lies between them, and the end
     std::vector<std::uint32_t> lane_bodies_;
+    std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;
     std::vector<std::uint32_t> lane_manifolds_;       // by lane; none in lanes left over
     std::vector<Source> sources_;                     // by lane

@@ -8,74 +8,73 @@
 
 namespace tumble::soft {
 
-/// Rows of a group, each as wide as the kernel's lanes. World frame, SI units; impulses in N s of one substep.
+/// Rows of a group, each as wide as the kernel's lanes. World frame, SI units; impulses in N s of one substep. A is the body
+/// whose centre is nearer to the contact, or the one that moves: arms go from there, and the other's differ by `between`.
 enum Head : int {
     normal = 0,            // 3: away from A
-    tangent_1 = 3,         // 3: of the last step, or nothing; then across the normal
-    tangent_2 = 6,         // 3: normal x tangent_1
-    turn_1_a = 9,          // 3: arm x tangent_1, from A's centre to where friction acts
-    turn_1_b = 12,         // 3
-    turn_2_a = 15,
-    turn_2_b = 18,
-    spin_1_a = 21,         // 3: I^-1 (arm x tangent_1)
-    force = 21,            // 3: in the end, the sum of all impulses on B
-    spin_1_b = 24,
-    moment = 24,           // 3: and of their moments about A's centre
-    spin_2_a = 27,
-    spin_2_b = 30,
-    spin_n_a = 33,         // 3: I^-1 n, of the twist
-    spin_n_b = 36,
-    stick_mass = 39,       // 3: inverse of the two-by-two compliance: 11, 12, 22
-    slide_mass = 42,       // of the direction that gives way most
-    twist_mass = 43,
-    inverse_mass_a = 44,
-    inverse_mass_b = 45,
-    friction_coefficient = 46,
-    bias_rate = 47,        // 1/s: overlap to velocity
-    mass_scale = 48,       // of the soft constraint
-    impulse_scale = 49,
-    size = 50,             // m, the smaller body's radius
-    friction_1 = 51,
-    friction_2 = 52,
-    twist = 53,
-    friction_1_sum = 54,   // over the substeps
-    friction_2_sum = 55,
-    twist_sum = 56,
-    head_rows = 57
+    tangent_1 = 3,         // 3: of the last step, or nothing; then across the normal. The second is normal x tangent_1
+    between = 6,           // 3: from B's centre to A's
+    friction_arm = 9,      // 3: from A's centre to where friction acts
+    inertia_a = 12,        // 6: inverse tensor
+    force = 12,            // 3: in the end, the sum of all impulses on B
+    moment = 15,           // 3: and of their moments about A's centre
+    inertia_b = 18,
+    stick_mass = 24,       // 3: inverse of the two-by-two compliance: 11, 12, 22
+    slide_mass = 27,       // of the direction that gives way most
+    twist_mass = 28,
+    friction_coefficient = 29,
+    size = 30,             // m, the smaller body's radius
+    friction_1 = 31,
+    friction_2 = 32,
+    twist = 33,
+    friction_1_sum = 34,   // over the substeps
+    friction_2_sum = 35,
+    twist_sum = 36,
+    coupling = 37,         // 6: what a normal impulse at one point adds to the speed at another, 1/kg: 01, 02, 12, 03, 13, 23
+    head_rows = 43
 };
 enum Point : int {
-    arm_a = 0,             // 3; then replaced by arm x normal
-    arm_b = 3,
-    spin_a = 6,            // 3: I^-1 (arm x normal)
-    spin_b = 9,
-    normal_mass = 12,      // 1 in lanes that have this point, 0 in others; then the effective mass, kg
-    separation = 13,       // m, when the step began
-    lever = 14,            // m, from where friction acts; nothing on entry
-    impulse = 15,
-    impulse_sum = 16,
-    point_rows = 17
+    turn = 0,              // 3: arm from A's centre; then replaced by arm x normal
+    normal_mass = 3,       // 1 in lanes that have this point, 0 in others; then the effective mass, kg
+    separation = 4,        // m, when the step began
+    gap = 5,               // m, now; nothing on entry
+    lever = 6,             // m, from where friction acts; nothing on entry
+    to_friction = 7,       // 3: what its normal impulse adds to the slips and to the twist's speed, and they to its
+    impulse = 10,
+    impulse_sum = 11,
+    point_rows = 12
 };
 inline constexpr int group_rows = head_rows + 4 * point_rows;
 
-/// A body's floats: velocity and angular velocity (6), 2 unused; displacement and turn (6) since the step began, 2 unused.
-inline constexpr int body_floats = 16;
-/// Its inverse mass and inverse inertia tensor (xx, xy, xz, yy, yz, zz), 1 unused.
-inline constexpr int mass_floats = 8;
+/// A body's floats: velocity and angular velocity (6), inverse mass, 1 unused; displacement and turn (6) since the step
+/// began, 2 unused.
+inline constexpr int body_floats = 16, inverse_mass = 6;
+/// Its inverse inertia tensor (xx, xy, xz, yy, yz, zz), 2 unused.
+inline constexpr int inertia_floats = 8;
 
-/// Groups of one kernel's width. `bodies` has for each group the slots of all lanes' A, then those of B; bit 31 marks a body
-/// that impulses do not move: it is read and never written. Slot 0 stands still.
-inline constexpr std::uint32_t unmoved = 1u << 31;
+/// Groups of one kernel's width.
 struct Groups {
     float* rows = nullptr;                     // aligned to 64 bytes
-    const std::uint32_t* bodies = nullptr;
+    const std::uint32_t* bodies = nullptr;     // of each group: where the states of all lanes' A begin, then those of B
+    const std::uint16_t* moved = nullptr;      // of each group: bits of the lanes whose A impulses move, then of those whose B
     const std::uint8_t* points = nullptr;      // most of any lane
 };
+/// What impulses do not move is read and never written. Slot 0 stands still.
 struct Bodies {
     float* state = nullptr;                    // body_floats each, aligned to 64 bytes
-    const float* mass = nullptr;               // mass_floats each
+    const float* inertia = nullptr;            // inertia_floats each
     // 8 each, like the velocities: what a substep's forces add, and the velocities it began with, forces included.
     const float* forces = nullptr;
     float* start = nullptr;
+};
+
+/// Of a soft constraint (soft_solver.h): overlap to velocity, 1/s; factors of the mass and of the impulse before.
+struct Softness {
+    float bias_rate, mass_scale, impulse_scale;
+};
+struct Substep {
+    float per_second;
+    Softness moving, fixed;   // of pairs that both move, and of those with a body that impulses do not move
 };
 
 struct Kernel {
@@ -90,8 +89,8 @@ struct Kernel {
     void (*move)(std::size_t first, std::size_t last, const Bodies&, float substep);
     /// One sweep with overlaps pushed out softly; then, after the bodies have moved, one that takes the push back out of
     /// the velocities and adds up the impulses.
-    void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
-    void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, float substeps_per_second);
+    void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
+    void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     /// Sums the step's impulses up into `force` and `moment`.
     void (*sum)(const Groups&, std::size_t first, std::size_t last);
 };

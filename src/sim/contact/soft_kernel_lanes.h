@@ -29,50 +29,96 @@ struct Tensor {   // symmetric
     }
 };
 
-// Four lanes of four floats, transposed within each block of four lanes.
+// Four floats of each lane: lane after lane in memory, transposed in registers.
 struct Quads {
     Lanes r[4];
+};
+// Eight floats of each lane, one vector a float.
+struct Eights {
+    Quads low, high;
 };
 #if TUMBLE_LANES == 4
 inline Lanes low_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 4, 1, 5); }
 inline Lanes high_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 6, 3, 7); }
 inline Lanes low_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
 inline Lanes high_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
-inline Lanes join(const Four* quad) { return quad[0]; }
-inline void part(Lanes a, Four* quad) { quad[0] = a; }
 inline Lanes root(Lanes a) { return Lanes(_mm_sqrt_ps(__m128(a))); }
+inline bool any(Lanes a) { return _mm_movemask_ps(_mm_cmpneq_ps(__m128(a), _mm_setzero_ps())) != 0; }
+template <class Row>
+inline Eights read(Row&& row) {
+    Eights e;
+    for (int i = 0; i < 4; ++i) {
+        e.low.r[i] = *reinterpret_cast<const Lanes*>(row(i));
+        e.high.r[i] = *reinterpret_cast<const Lanes*>(row(i) + 4);
+    }
+    return e;
+}
+template <class Row>
+inline void write(const Eights& e, Row&& row) {
+    for (int i = 0; i < 4; ++i)
+        if (float* to = row(i)) {
+            *reinterpret_cast<Lanes*>(to) = e.low.r[i];
+            *reinterpret_cast<Lanes*>(to + 4) = e.high.r[i];
+        }
+}
 #elif TUMBLE_LANES == 8
 inline Lanes low_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13); }
 inline Lanes high_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15); }
 inline Lanes low_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13); }
 inline Lanes high_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15); }
-inline Lanes join(const Four* quad) { return __builtin_shufflevector(quad[0], quad[1], 0, 1, 2, 3, 4, 5, 6, 7); }
-inline void part(Lanes a, Four* quad) {
-    quad[0] = __builtin_shufflevector(a, a, 0, 1, 2, 3);
-    quad[1] = __builtin_shufflevector(a, a, 4, 5, 6, 7);
-}
 inline Lanes root(Lanes a) { return Lanes(_mm256_sqrt_ps(__m256(a))); }
+inline bool any(Lanes a) { return _mm256_movemask_ps(_mm256_cmp_ps(__m256(a), _mm256_setzero_ps(), _CMP_NEQ_UQ)) != 0; }
+inline Lanes joined(Lanes a, Lanes b, bool high) {
+    return Lanes(high ? _mm256_permute2f128_ps(__m256(a), __m256(b), 0x31) : _mm256_permute2f128_ps(__m256(a), __m256(b), 0x20));
+}
+template <class Row>
+inline Eights read(Row&& row) {
+    Eights e;
+    for (int i = 0; i < 4; ++i) {
+        const Lanes a = *reinterpret_cast<const Lanes*>(row(i)), b = *reinterpret_cast<const Lanes*>(row(4 + i));
+        e.low.r[i] = joined(a, b, false);
+        e.high.r[i] = joined(a, b, true);
+    }
+    return e;
+}
+template <class Row>
+inline void write(const Eights& e, Row&& row) {
+    for (int i = 0; i < 4; ++i)
+        for (const bool second : {false, true})
+            if (float* to = row(second ? 4 + i : i)) *reinterpret_cast<Lanes*>(to) = joined(e.low.r[i], e.high.r[i], second);
+}
 #else
 inline Lanes low_pairs(Lanes a, Lanes b) { return Lanes(_mm512_unpacklo_ps(__m512(a), __m512(b))); }
 inline Lanes high_pairs(Lanes a, Lanes b) { return Lanes(_mm512_unpackhi_ps(__m512(a), __m512(b))); }
 inline Lanes low_halves(Lanes a, Lanes b) { return Lanes(_mm512_shuffle_ps(__m512(a), __m512(b), 0x44)); }
 inline Lanes high_halves(Lanes a, Lanes b) { return Lanes(_mm512_shuffle_ps(__m512(a), __m512(b), 0xEE)); }
-inline Lanes join(const Four* quad) {
-    __m512 a = _mm512_castps128_ps512(__m128(quad[0]));
-    a = _mm512_insertf32x4(a, __m128(quad[1]), 1);
-    a = _mm512_insertf32x4(a, __m128(quad[2]), 2);
-    return Lanes(_mm512_insertf32x4(a, __m128(quad[3]), 3));
-}
-inline void part(Lanes a, Four* quad) {
-    quad[0] = Four(_mm512_castps512_ps128(__m512(a)));
-    quad[1] = Four(_mm512_extractf32x4_ps(__m512(a), 1));
-    quad[2] = Four(_mm512_extractf32x4_ps(__m512(a), 2));
-    quad[3] = Four(_mm512_extractf32x4_ps(__m512(a), 3));
-}
 inline Lanes root(Lanes a) { return Lanes(_mm512_sqrt_ps(__m512(a))); }
+inline bool any(Lanes a) { return _mm512_cmp_ps_mask(__m512(a), _mm512_setzero_ps(), _CMP_NEQ_UQ) != 0; }
+inline __m512 two_rows(const float* a, const float* b) {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_load_ps(a)), _mm256_load_ps(b), 1);
+}
+template <class Row>
+inline Eights read(Row&& row) {
+    Eights e;
+    for (int i = 0; i < 4; ++i) {
+        const __m512 x = two_rows(row(i), row(4 + i)), y = two_rows(row(8 + i), row(12 + i));
+        e.low.r[i] = Lanes(_mm512_shuffle_f32x4(x, y, 0x88));
+        e.high.r[i] = Lanes(_mm512_shuffle_f32x4(x, y, 0xDD));
+    }
+    return e;
+}
+template <class Row>
+inline void write(const Eights& e, Row&& row) {
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    for (int i = 0; i < 4; ++i)
+        for (const int half : {0, 8}) {
+            const __m512 rows = _mm512_castpd_ps(_mm512_permutex2var_pd(_mm512_castps_pd(__m512(e.low.r[i])), half ? second : first,
+                                                                        _mm512_castps_pd(__m512(e.high.r[i]))));
+            if (float* to = row(half + i)) _mm256_store_ps(to, _mm512_castps512_ps256(rows));
+            if (float* to = row(half + 4 + i)) _mm256_store_ps(to, _mm512_extractf32x8_ps(rows, 1));
+        }
+}
 #endif
-
-constexpr int blocks = TUMBLE_LANES / 4;
 
 inline Quads transposed(const Quads& q) {
     const Lanes a = low_pairs(q.r[0], q.r[1]), b = high_pairs(q.r[0], q.r[1]);
@@ -80,80 +126,80 @@ inline Quads transposed(const Quads& q) {
     return {{low_halves(a, c), high_halves(a, c), low_halves(b, d), high_halves(b, d)}};
 }
 
-// Floats [4 part, 4 part + 4) of each lane's row, one vector a float.
-inline Quads gather(const float* base, int stride, const std::uint32_t* lane, int quarter) {
-    Quads q;
-    for (int i = 0; i < 4; ++i) {
-        Four rows[blocks];
-        for (int k = 0; k < blocks; ++k)
-            rows[k] = *reinterpret_cast<const Four*>(base + std::size_t(lane[4 * k + i] & ~unmoved) * std::size_t(stride) + 4 * quarter);
-        q.r[i] = join(rows);
-    }
-    return transposed(q);
-}
-
-inline void scatter(float* base, int stride, const std::uint32_t* lane, int quarter, const Quads& values) {
-    const Quads q = transposed(values);
-    for (int i = 0; i < 4; ++i) {
-        Four rows[blocks];
-        part(q.r[i], rows);
-        for (int k = 0; k < blocks; ++k)
-            if (!(lane[4 * k + i] & unmoved))
-                *reinterpret_cast<Four*>(base + std::size_t(lane[4 * k + i]) * std::size_t(stride) + 4 * quarter) = rows[k];
-    }
+template <class Row>
+inline Eights gather(Row&& row) {
+    const Eights e = read(row);
+    return {transposed(e.low), transposed(e.high)};
 }
 
 struct Motion {
     Vector linear, angular;
+    Lanes inverse_mass;   // with velocities
 };
 
 // half 0: velocities, half 1: displacements.
 inline Motion load(const Bodies& bodies, const std::uint32_t* lane, int half) {
-    const Quads a = gather(bodies.state, body_floats, lane, 2 * half), b = gather(bodies.state, body_floats, lane, 2 * half + 1);
-    return {{a.r[0], a.r[1], a.r[2]}, {a.r[3], b.r[0], b.r[1]}};
+    const Eights e = gather([&](int i) { return bodies.state + lane[i] + 8 * half; });
+    return {{e.low.r[0], e.low.r[1], e.low.r[2]}, {e.low.r[3], e.high.r[0], e.high.r[1]}, e.high.r[2]};
 }
 
-inline void save(const Bodies& bodies, const std::uint32_t* lane, const Motion& m) {
-    scatter(bodies.state, body_floats, lane, 0, {{m.linear.x, m.linear.y, m.linear.z, m.angular.x}});
-    scatter(bodies.state, body_floats, lane, 1, {{m.angular.y, m.angular.z, Lanes{}, Lanes{}}});
+inline Tensor load_inertia(const Bodies& bodies, const std::uint32_t* lane) {
+    const Eights e = gather([&](int i) { return bodies.inertia + lane[i] / body_floats * inertia_floats; });
+    return {e.low.r[0], e.low.r[1], e.low.r[2], e.low.r[3], e.high.r[0], e.high.r[1]};
+}
+
+// Velocities of what impulses move.
+inline void save(const Bodies& bodies, const std::uint32_t* lane, std::uint32_t moved, const Motion& m) {
+    const Eights e{transposed({{m.linear.x, m.linear.y, m.linear.z, m.angular.x}}),
+                   transposed({{m.angular.y, m.angular.z, m.inverse_mass, Lanes{}}})};
+    if (moved == (1u << TUMBLE_LANES) - 1u) write(e, [&](int i) { return bodies.state + lane[i]; });
+    else write(e, [&](int i) { return moved >> i & 1u ? bodies.state + lane[i] : nullptr; });
 }
 
 struct Group {
     Lanes* rows;
     const std::uint32_t *a, *b;
+    std::uint32_t moved_a, moved_b;
     int points;
 
     Group(const Groups& groups, std::size_t index)
         : rows(reinterpret_cast<Lanes*>(groups.rows) + index * group_rows), a(groups.bodies + 2 * TUMBLE_LANES * index),
-          b(a + TUMBLE_LANES), points(groups.points[index]) {}
+          b(a + TUMBLE_LANES), moved_a(groups.moved[2 * index]), moved_b(groups.moved[2 * index + 1]), points(groups.points[index]) {}
 
     Lanes& operator[](int row) const { return rows[row]; }
     Lanes& at(int point, int row) const { return rows[head_rows + point * point_rows + row]; }
     Vector vector(int row) const { return {rows[row], rows[row + 1], rows[row + 2]}; }
     Vector vector(int point, int row) const { return vector(head_rows + point * point_rows + row); }
+    Tensor tensor(int row) const { return {rows[row], rows[row + 1], rows[row + 2], rows[row + 3], rows[row + 4], rows[row + 5]}; }
     void set(int row, const Vector& v) const {
         rows[row] = v.x;
         rows[row + 1] = v.y;
         rows[row + 2] = v.z;
     }
     void set(int point, int row, const Vector& v) const { set(head_rows + point * point_rows + row, v); }
+    void set(int row, const Tensor& t) const {
+        set(row, Vector{t.xx, t.xy, t.xz});
+        set(row + 3, Vector{t.yy, t.yz, t.zz});
+    }
 };
 
-inline void apply_normal(const Group& g, int i, Motion& a, Motion& b, Lanes j) {
-    const Vector n = g.vector(normal);
-    a.linear = a.linear - (j * g[inverse_mass_a]) * n;
-    a.angular = a.angular - j * g.vector(i, spin_a);
-    b.linear = b.linear + (j * g[inverse_mass_b]) * n;
-    b.angular = b.angular + j * g.vector(i, spin_b);
+constexpr int coupled(int i, int k) { return coupling + k * (k - 1) / 2 + i; }   // of points i < k
+
+// An impulse on B with its moment about A's centre, and their opposites on A.
+inline void apply(const Group& g, const Vector& j, const Vector& moment_a, Motion& a, Motion& b) {
+    a.linear = a.linear - a.inverse_mass * j;
+    b.linear = b.linear + b.inverse_mass * j;
+    a.angular = a.angular - g.tensor(inertia_a) * moment_a;
+    b.angular = b.angular + g.tensor(inertia_b) * (moment_a + cross(g.vector(between), j));
 }
 
-inline void apply_friction(const Group& g, Motion& a, Motion& b, Lanes j_1, Lanes j_2, Lanes j_twist) {
-    const Vector j = j_1 * g.vector(tangent_1) + j_2 * g.vector(tangent_2);
-    a.linear = a.linear - g[inverse_mass_a] * j;
-    b.linear = b.linear + g[inverse_mass_b] * j;
-    a.angular = a.angular - (j_1 * g.vector(spin_1_a) + j_2 * g.vector(spin_2_a) + j_twist * g.vector(spin_n_a));
-    b.angular = b.angular + (j_1 * g.vector(spin_1_b) + j_2 * g.vector(spin_2_b) + j_twist * g.vector(spin_n_b));
-}
+// What B does seen from A: the velocity of B's part at A's centre and the spin. At an arm r from A's centre the velocity is
+// linear + angular x r, and along the normal n: n . linear + angular . (r x n).
+struct Relative {
+    Vector linear, angular;
+    Relative(const Group& g, const Motion& a, const Motion& b)
+        : linear(b.linear - a.linear + cross(b.angular, g.vector(between))), angular(b.angular - a.angular) {}
+};
 
 // Across the normal: the last step's direction, or, where there is none, the axis that the normal looks along least.
 inline Vector tangent(const Vector& n, const Vector& last) {
@@ -171,60 +217,50 @@ inline Vector tangent(const Vector& n, const Vector& last) {
 void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
-        const Quads mass_a = gather(bodies.mass, mass_floats, g.a, 0), more_a = gather(bodies.mass, mass_floats, g.a, 1);
-        const Quads mass_b = gather(bodies.mass, mass_floats, g.b, 0), more_b = gather(bodies.mass, mass_floats, g.b, 1);
-        const Tensor inertia_a{mass_a.r[1], mass_a.r[2], mass_a.r[3], more_a.r[0], more_a.r[1], more_a.r[2]};
-        const Tensor inertia_b{mass_b.r[1], mass_b.r[2], mass_b.r[3], more_b.r[0], more_b.r[1], more_b.r[2]};
-        const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1);
+        const Tensor of_a = load_inertia(bodies, g.a), of_b = load_inertia(bodies, g.b);
+        const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1), c = g.vector(between);
         // Lanes without a manifold have no normal: their compliances are made 1, their impulses stay 0.
         const Lanes empty = n.x == 0.0f && n.y == 0.0f && n.z == 0.0f ? all(1.0f) : Lanes{};
-        const Lanes both = mass_a.r[0] + mass_b.r[0] + empty;
-        g[inverse_mass_a] = mass_a.r[0];
-        g[inverse_mass_b] = mass_b.r[0];
+        const Lanes both = load(bodies, g.a, 0).inverse_mass + load(bodies, g.b, 0).inverse_mass + empty;
         g.set(tangent_1, t1);
-        g.set(tangent_2, t2);
+        g.set(inertia_a, of_a);
+        g.set(inertia_b, of_b);
 
         // Friction acts at the centroid of the points that touch or nearly do.
         Vector center{};
         Lanes weights = empty;
         for (int i = 0; i < g.points; ++i) {
             const Lanes weight = g.at(i, normal_mass) * (g.at(i, separation) < friction_near * g[size] ? all(1.0f) : all(friction_far_weight));
-            center = center + weight * g.vector(i, arm_a);
+            center = center + weight * g.vector(i, turn);
             weights += weight;
         }
-        const Vector arm_of_a = (1.0f / weights) * center, arm_of_b = arm_of_a + (g.vector(0, arm_b) - g.vector(0, arm_a));
-        const Vector a1 = cross(arm_of_a, t1), b1 = cross(arm_of_b, t1), a2 = cross(arm_of_a, t2), b2 = cross(arm_of_b, t2);
-        const Vector ia1 = inertia_a * a1, ib1 = inertia_b * b1, ia2 = inertia_a * a2, ib2 = inertia_b * b2;
-        const Vector ian = inertia_a * n, ibn = inertia_b * n;
+        const Vector arm = (1.0f / weights) * center, arm_of_b = arm + c;
+        const Vector a1 = cross(arm, t1), b1 = cross(arm_of_b, t1), a2 = cross(arm, t2), b2 = cross(arm_of_b, t2);
+        const Vector ia1 = of_a * a1, ib1 = of_b * b1, ia2 = of_a * a2, ib2 = of_b * b2, ia3 = of_a * n, ib3 = of_b * n;
         const Lanes k11 = both + dot(a1, ia1) + dot(b1, ib1), k22 = both + dot(a2, ia2) + dot(b2, ib2);
         const Lanes k12 = dot(a2, ia1) + dot(b2, ib1);
         const Lanes inverse = 1.0f / (k11 * k22 - k12 * k12);
-        const Lanes twist_compliance = dot(n, ian) + dot(n, ibn);
+        g.set(friction_arm, arm);
         g[stick_mass] = k22 * inverse;
         g[stick_mass + 1] = -k12 * inverse;
         g[stick_mass + 2] = k11 * inverse;
         g[slide_mass] = 2.0f / (k11 + k22 + root((k11 - k22) * (k11 - k22) + 4.0f * k12 * k12));
-        g[twist_mass] = 1.0f / (twist_compliance + empty);
-        g.set(turn_1_a, a1);
-        g.set(turn_1_b, b1);
-        g.set(turn_2_a, a2);
-        g.set(turn_2_b, b2);
-        g.set(spin_1_a, ia1);
-        g.set(spin_1_b, ib1);
-        g.set(spin_2_a, ia2);
-        g.set(spin_2_b, ib2);
-        g.set(spin_n_a, ian);
-        g.set(spin_n_b, ibn);
+        g[twist_mass] = 1.0f / (dot(n, ia3) + dot(n, ib3) + empty);
+
+        const Vector cn = cross(c, n);
         for (int i = 0; i < g.points; ++i) {
-            const Vector away = g.vector(i, arm_a) - arm_of_a;
+            const Vector away = g.vector(i, turn) - arm;
             g.at(i, lever) = root(dot(away, away));
-            const Vector an = cross(g.vector(i, arm_a), n), bn = cross(g.vector(i, arm_b), n);
-            const Vector ian_i = inertia_a * an, ibn_i = inertia_b * bn;
-            g.set(i, arm_a, an);
-            g.set(i, arm_b, bn);
-            g.set(i, spin_a, ian_i);
-            g.set(i, spin_b, ibn_i);
-            g.at(i, normal_mass) = g.at(i, normal_mass) / (both + dot(an, ian_i) + dot(bn, ibn_i));
+            const Vector an = cross(g.vector(i, turn), n), bn = an + cn;
+            const Vector ian = of_a * an, ibn = of_b * bn;
+            for (int earlier = 0; earlier < i; ++earlier) {
+                const Vector other = g.vector(earlier, turn);
+                g[coupled(earlier, i)] = both + dot(other, ian) + dot(other + cn, ibn);
+            }
+            g.set(i, turn, an);
+            g.set(i, to_friction, {dot(an, ia1) + dot(bn, ib1), dot(an, ia2) + dot(bn, ib2), dot(an, ia3) + dot(bn, ib3)});
+            g.at(i, gap) = g.at(i, separation);
+            g.at(i, normal_mass) = g.at(i, normal_mass) / (both + dot(an, ian) + dot(bn, ibn));
         }
     }
 }
@@ -233,10 +269,17 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
-        for (int i = 0; i < g.points; ++i) apply_normal(g, i, a, b, g.at(i, impulse));
-        apply_friction(g, a, b, g[friction_1], g[friction_2], g[twist]);
-        save(bodies, g.a, a);
-        save(bodies, g.b, b);
+        const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
+        const Vector friction = g[friction_1] * t1 + g[friction_2] * cross(n, t1);
+        Lanes along_normal{};
+        Vector turning = g[twist] * n + cross(g.vector(friction_arm), friction);
+        for (int i = 0; i < g.points; ++i) {
+            along_normal += g.at(i, impulse);
+            turning = turning + g.at(i, impulse) * g.vector(i, turn);
+        }
+        apply(g, along_normal * n + friction, turning, a, b);
+        save(bodies, g.a, g.moved_a, a);
+        save(bodies, g.b, g.moved_b, b);
     }
 }
 
@@ -261,18 +304,53 @@ void move(std::size_t first, std::size_t last, const Bodies& bodies, float subst
     }
 }
 
+// How far the points are apart now. Bodies move between the two sweeps of a substep: what relax finds holds for the next push.
+template <int points>
+inline void find_gaps(const Group& g, const Bodies& bodies) {
+    const Relative moved(g, load(bodies, g.a, 1), load(bodies, g.b, 1));
+    const Lanes parted = dot(g.vector(normal), moved.linear);
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) g.at(i, gap) = g.at(i, separation) + parted + dot(moved.angular, g.vector(i, turn));
+}
+
+// The velocities that a manifold's impulses act on: of its points along the normal; the slips along both tangents and the
+// twist's speed, where friction acts. As the impulses change each other's they are brought up to date by the couplings; the
+// bodies get the sum of the impulses in the end.
+template <int points>
+struct Speeds {
+    Lanes parting[points];
+    Vector friction;
+};
+template <int points>
+struct Changes {   // of impulses
+    Lanes normal[points];
+    Vector friction;
+};
+
+template <int points>
+inline Speeds<points> speeds_of(const Group& g, const Motion& a, const Motion& b) {
+    const Relative relative(g, a, b);
+    const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
+    const Vector slip = relative.linear + cross(relative.angular, g.vector(friction_arm));
+    const Lanes parting = dot(n, relative.linear);
+    Speeds<points> speeds;
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) speeds.parting[i] = parting + dot(relative.angular, g.vector(i, turn));
+    speeds.friction = {dot(slip, t1), dot(slip, cross(n, t1)), dot(n, relative.angular)};
+    return speeds;
+}
+
 // Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now.
-inline void solve_friction(const Group& g, Motion& a, Motion& b) {
+template <int points>
+inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes<points>& changes) {
     Lanes load_all = Lanes{}, load_levers = Lanes{};
-    for (int i = 0; i < g.points; ++i) {
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) {
         load_all += g.at(i, impulse);
         load_levers += g.at(i, impulse) * g.at(i, lever);
     }
     const Lanes limit = g[friction_coefficient] * load_all, twist_limit = g[friction_coefficient] * load_levers;
-    const Vector slip = b.linear - a.linear;
-    const Lanes v1 = dot(slip, g.vector(tangent_1)) + dot(b.angular, g.vector(turn_1_b)) - dot(a.angular, g.vector(turn_1_a));
-    const Lanes v2 = dot(slip, g.vector(tangent_2)) + dot(b.angular, g.vector(turn_2_b)) - dot(a.angular, g.vector(turn_2_a));
-    const Lanes turning = dot(g.vector(normal), b.angular - a.angular);
+    const Lanes v1 = speeds.friction.x, v2 = speeds.friction.y;
     // What stops the slip altogether, if the disc allows it. Else one mass for both directions: friction then ends up
     // against the slip, from where each direction's own mass would turn it aside.
     const Lanes stick_1 = g[friction_1] - (g[stick_mass] * v1 + g[stick_mass + 1] * v2);
@@ -282,72 +360,122 @@ inline void solve_friction(const Group& g, Motion& a, Motion& b) {
     const Lanes scale = size > limit ? limit / size : all(1.0f);
     const auto sticks = stick_1 * stick_1 + stick_2 * stick_2 <= limit * limit;
     const Lanes j1 = sticks ? stick_1 : scale * slide_1, j2 = sticks ? stick_2 : scale * slide_2;
-    const Lanes j3 = larger(-twist_limit, smaller(twist_limit, g[twist] - g[twist_mass] * turning));
-    apply_friction(g, a, b, j1 - g[friction_1], j2 - g[friction_2], j3 - g[twist]);
+    const Lanes j3 = larger(-twist_limit, smaller(twist_limit, g[twist] - g[twist_mass] * speeds.friction.z));
+    changes.friction = {j1 - g[friction_1], j2 - g[friction_2], j3 - g[twist]};
     g[friction_1] = j1;
     g[friction_2] = j2;
     g[twist] = j3;
 }
 
-template <bool pushing>
-inline void sweep(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, float substeps_per_second) {
-    for (std::size_t k = first; k < last; ++k) {
-        const Group g(groups, k);
-        Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
-        const Motion moved_a = load(bodies, g.a, 1), moved_b = load(bodies, g.b, 1);
-        if constexpr (pushing) solve_friction(g, a, b);
-        const Lanes parted = dot(moved_b.linear - moved_a.linear, g.vector(normal));
-        for (int i = 0; i < g.points; ++i) {
-            const Vector an = g.vector(i, arm_a), bn = g.vector(i, arm_b);
-            const Lanes gap = g.at(i, separation) + parted + dot(moved_b.angular, bn) - dot(moved_a.angular, an);
-            const Lanes speed = dot(b.linear - a.linear, g.vector(normal)) + dot(b.angular, bn) - dot(a.angular, an);
-            const Lanes closing = gap * substeps_per_second, old = g.at(i, impulse);
-            Lanes next;
-            if constexpr (pushing) {
-                const Lanes push = larger(g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), -push_limit * g[size]);
-                const auto apart = gap > 0.0f;
-                const Lanes bias = apart ? closing : push;
-                const Lanes mass = apart ? all(1.0f) : g[mass_scale], keep = apart ? Lanes{} : g[impulse_scale];
-                next = old - g.at(i, normal_mass) * mass * (speed + bias) - keep * old;
-            } else {
-                const Lanes bias = larger(closing, Lanes{});
-                next = old - g.at(i, normal_mass) * (speed + bias);
-            }
-            next = larger(next, Lanes{});
-            g.at(i, impulse) = next;
-            apply_normal(g, i, a, b, next - old);
+// One point after the other.
+template <bool pushing, int points>
+inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds, Changes<points>& changes) {
+    const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
+    const auto choose = [&](float fixed, float moving) { return held ? all(fixed) : all(moving); };
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) {
+        const Lanes closing = g.at(i, gap) * substep.per_second, old = g.at(i, impulse);
+        Lanes next;
+        if constexpr (pushing) {
+            const Lanes rate = choose(substep.fixed.bias_rate, substep.moving.bias_rate);
+            const Lanes out = larger(rate * smaller(g.at(i, gap) + slop * g[size], Lanes{}), -push_limit * g[size]);
+            const auto apart = g.at(i, gap) > 0.0f;
+            const Lanes bias = apart ? closing : out;
+            const Lanes mass = apart ? all(1.0f) : choose(substep.fixed.mass_scale, substep.moving.mass_scale);
+            const Lanes keep = apart ? Lanes{} : choose(substep.fixed.impulse_scale, substep.moving.impulse_scale);
+            next = old - g.at(i, normal_mass) * mass * (speeds.parting[i] + bias) - keep * old;
+        } else {
+            next = old - g.at(i, normal_mass) * (speeds.parting[i] + larger(closing, Lanes{}));
         }
-        if constexpr (!pushing) {
-            // Last, so that it holds what the normal impulses now allow.
-            solve_friction(g, a, b);
-            for (int i = 0; i < g.points; ++i) g.at(i, impulse_sum) += g.at(i, impulse);
-            g[friction_1_sum] += g[friction_1];
-            g[friction_2_sum] += g[friction_2];
-            g[twist_sum] += g[twist];
-        }
-        save(bodies, g.a, a);
-        save(bodies, g.b, b);
+        next = larger(next, Lanes{});
+        g.at(i, impulse) = next;
+        changes.normal[i] = next - old;
+#pragma GCC unroll 4
+        for (int later = i + 1; later < points; ++later) speeds.parting[later] += g[coupled(i, later)] * changes.normal[i];
     }
 }
 
-void push(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, float substeps_per_second) {
-    sweep<true>(groups, first, last, bodies, substeps_per_second);
+// Whether no lane has any impulse: until one has, nothing changes.
+template <int points>
+inline bool idle(const Group& g) {
+    Lanes sum = g[friction_1] * g[friction_1] + g[friction_2] * g[friction_2] + g[twist] * g[twist];
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) sum += g.at(i, impulse);
+    return !any(sum);
 }
-void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, float substeps_per_second) {
-    sweep<false>(groups, first, last, bodies, substeps_per_second);
+
+template <bool pushing, int points>
+inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) {
+    if constexpr (!pushing) find_gaps<points>(g, bodies);
+    Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
+    Speeds<points> speeds = speeds_of<points>(g, a, b);
+    Changes<points> changes;
+    const bool was_idle = idle<points>(g);
+    if constexpr (pushing) {
+        solve_friction(g, speeds, changes);
+#pragma GCC unroll 4
+        for (int i = 0; i < points; ++i) speeds.parting[i] += dot(g.vector(i, to_friction), changes.friction);
+    }
+    solve_normals<pushing>(g, a, b, substep, speeds, changes);
+    if (was_idle && idle<points>(g)) return;
+    if constexpr (!pushing) {
+        // Friction last, so that it holds what the normal impulses now allow.
+#pragma GCC unroll 4
+        for (int i = 0; i < points; ++i) speeds.friction = speeds.friction + changes.normal[i] * g.vector(i, to_friction);
+        solve_friction(g, speeds, changes);
+#pragma GCC unroll 4
+        for (int i = 0; i < points; ++i) g.at(i, impulse_sum) += g.at(i, impulse);
+        g[friction_1_sum] += g[friction_1];
+        g[friction_2_sum] += g[friction_2];
+        g[twist_sum] += g[twist];
+    }
+    const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
+    const Vector friction = changes.friction.x * t1 + changes.friction.y * cross(n, t1);
+    Lanes along_normal{};
+    Vector turning = cross(g.vector(friction_arm), friction) + changes.friction.z * n;
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) {
+        along_normal += changes.normal[i];
+        turning = turning + changes.normal[i] * g.vector(i, turn);
+    }
+    apply(g, along_normal * n + friction, turning, a, b);
+    save(bodies, g.a, g.moved_a, a);
+    save(bodies, g.b, g.moved_b, b);
+}
+
+template <bool pushing>
+inline void sweep(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
+    for (std::size_t k = first; k < last; ++k) {
+        const Group g(groups, k);
+        switch (g.points) {   // each count in registers of its own
+            case 1: solve<pushing, 1>(g, bodies, substep); break;
+            case 2: solve<pushing, 2>(g, bodies, substep); break;
+            case 3: solve<pushing, 3>(g, bodies, substep); break;
+            case 4: solve<pushing, 4>(g, bodies, substep); break;
+            default: break;   // all left to bounce
+        }
+    }
+}
+
+void push(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
+    sweep<true>(groups, first, last, bodies, substep);
+}
+void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
+    sweep<false>(groups, first, last, bodies, substep);
 }
 
 void sum(const Groups& groups, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
-        const Lanes j1 = g[friction_1_sum], j2 = g[friction_2_sum];
+        const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
+        const Vector friction = g[friction_1_sum] * t1 + g[friction_2_sum] * cross(n, t1);
         Lanes along_normal{};
-        Vector turning = g[twist_sum] * g.vector(normal) + j1 * g.vector(turn_1_a) + j2 * g.vector(turn_2_a);
+        Vector turning = g[twist_sum] * n + cross(g.vector(friction_arm), friction);
         for (int i = 0; i < g.points; ++i) {
             along_normal += g.at(i, impulse_sum);
-            turning = turning + g.at(i, impulse_sum) * g.vector(i, arm_a);
+            turning = turning + g.at(i, impulse_sum) * g.vector(i, turn);
         }
-        g.set(force, along_normal * g.vector(normal) + j1 * g.vector(tangent_1) + j2 * g.vector(tangent_2));
+        g.set(force, along_normal * n + friction);
         g.set(moment, turning);
     }
 }

@@ -17,28 +17,40 @@ SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_
 SoftSolver::~SoftSolver() = default;
 
 void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool) {
-    while (batches_.size() < parts.size()) batches_.push_back(std::make_unique<SoftBatch>(kernel_));
     const auto threads = std::size_t(pool.size());
-    if (parts.size() == 1) {   // one island, or too little work to share: the threads share its blocks
-        SoftBatch& batch = *batches_[0];
-        batch.prepare(problem, parts[0], slot_);
-        const bool worth_it = threads > 1 && parts[0].manifolds.size() >= tuning::soft_team_manifolds;
-        const std::size_t team = worth_it ? threads : 1;
-        SpinBarrier barrier(team);
-        if (!worth_it) return batch.run(problem, slot_, 0, 1, barrier);
-        batch.give_bodies(pool);
-        return pool.together([&](std::size_t thread) { batch.run(problem, slot_, thread, team, barrier); });
-    }
-    if (threads > 1)
-        for (std::size_t k = 0; k < parts.size(); ++k)
-            for (const std::uint32_t i : parts[k].bodies) pool.give(i, k % threads);
-    pool.together([&](std::size_t thread) {
-        for (std::size_t k = thread; k < parts.size(); k += threads) {
-            SpinBarrier alone(1);
-            batches_[k]->prepare(problem, parts[k], slot_);
-            batches_[k]->run(problem, slot_, 0, 1, alone);
+    while (batches_.size() < threads) batches_.push_back(std::make_unique<SoftBatch>(kernel_));
+    small_.clear();
+    std::size_t all_small = 0;
+    for (const Part& part : parts) {
+        const bool one_large = part.island_ends.size() == 1 && part.manifolds.size() >= tuning::soft_team_manifolds;
+        if (threads == 1 || !one_large) {
+            small_.push_back(&part);
+            all_small += part.manifolds.size();
+            continue;
         }
-    });
+        SoftBatch& batch = *batches_[0];
+        batch.prepare(problem, part, slot_);
+        batch.give_bodies(pool);
+        SpinBarrier barrier(threads);
+        pool.together([&](std::size_t thread) { batch.run(problem, slot_, thread, threads, barrier); });
+    }
+    // Neighbours in the list, and the same ones from step to step.
+    const auto each_of = [&](std::size_t thread, std::size_t team, auto&& visit) {
+        for (std::size_t k = small_.size() * thread / team; k < small_.size() * (thread + 1) / team; ++k) visit(*small_[k]);
+    };
+    const auto run = [&](std::size_t thread, std::size_t team) {
+        each_of(thread, team, [&](const Part& part) {
+            SpinBarrier alone(1);
+            batches_[thread]->prepare(problem, part, slot_);
+            batches_[thread]->run(problem, slot_, 0, 1, alone);
+        });
+    };
+    if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);
+    for (std::size_t thread = 0; thread < threads; ++thread)
+        each_of(thread, threads, [&](const Part& part) {
+            for (const std::uint32_t i : part.bodies) pool.give(i, thread);
+        });
+    pool.together([&](std::size_t thread) { run(thread, threads); });
 }
 
 }  // namespace tumble

@@ -53,7 +53,8 @@ public:
 private:
     const soft::Kernel& kernel_;
     std::vector<std::uint32_t> slot_;                 // by body
-    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a part
+    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a thread
+    std::vector<const Part*> small_;                  // which one thread solves
 };
 
 /// Substeps of a step of h seconds.
