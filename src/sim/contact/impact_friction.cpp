@@ -31,34 +31,43 @@ std::pair<double, double> least_in_disc(double k0, double k1, double g0, double 
 
 }  // namespace
 
-ImpactFriction::ImpactFriction(const ContactCluster& cluster) {
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
-        const Contact& c = cluster.contact(i);
-        if (c.friction <= 0.0) continue;
-        Block block;
-        block.contact = i;
-        const Vec3 t = c.normal.unitOrthogonal(), s = c.normal.cross(t);
-        const VelocityRow along_t = cluster.relative_row(c, t), along_s = cluster.relative_row(c, s);
-        const double tt = along_t.squared_norm(), ss = along_s.squared_norm(), ts = along_t.dot(along_s);
-        // Eigenvectors of the two-by-two compliance.
-        const double half = 0.5 * (tt - ss), root = std::sqrt(half * half + ts * ts);
-        double cosine = 1.0, sine = 0.0;
-        if (root > 0.0) {
-            const double x = half >= 0.0 ? half + root : std::abs(ts), y = half >= 0.0 ? ts : std::copysign(root - half, ts);
-            const double norm = std::sqrt(x * x + y * y);
-            cosine = x / norm;
-            sine = y / norm;
-        }
-        block.first = cosine * t + sine * s;
-        block.second = cosine * s - sine * t;
-        block.first_row = cluster.relative_row(c, block.first);
-        block.second_row = cluster.relative_row(c, block.second);
-        block.first_offset = cluster.offset(c, block.first);
-        block.second_offset = cluster.offset(c, block.second);
-        block.first_compliance = block.first_row.squared_norm();
-        block.second_compliance = block.second_row.squared_norm();
-        blocks_.push_back(block);
+ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, std::size_t contact) {
+    const Contact& c = cluster.contact(contact);
+    Block block;
+    block.contact = contact;
+    const Vec3 t = c.normal.unitOrthogonal(), s = c.normal.cross(t);
+    const VelocityRow along_t = cluster.relative_row(c, t), along_s = cluster.relative_row(c, s);
+    const double tt = along_t.squared_norm(), ss = along_s.squared_norm(), ts = along_t.dot(along_s);
+    // Eigenvectors of the two-by-two compliance.
+    const double half = 0.5 * (tt - ss), root = std::sqrt(half * half + ts * ts);
+    double cosine = 1.0, sine = 0.0;
+    if (root > 0.0) {
+        const double x = half >= 0.0 ? half + root : std::abs(ts), y = half >= 0.0 ? ts : std::copysign(root - half, ts);
+        const double norm = std::sqrt(x * x + y * y);
+        cosine = x / norm;
+        sine = y / norm;
     }
+    block.first = cosine * t + sine * s;
+    block.second = cosine * s - sine * t;
+    block.first_row = cluster.relative_row(c, block.first);
+    block.second_row = cluster.relative_row(c, block.second);
+    block.first_offset = cluster.offset(c, block.first);
+    block.second_offset = cluster.offset(c, block.second);
+    block.first_compliance = block.first_row.squared_norm();
+    block.second_compliance = block.second_row.squared_norm();
+    return block;
+}
+
+// Where there is no normal impulse there is no friction: most contacts of a heap have none in an impact.
+void ImpactFriction::add_blocks(const ContactCluster& cluster) {
+    const std::size_t before = blocks_.size();
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        if (has_block_[i] || !(cluster.impulse(i) > 0.0) || cluster.contact(i).friction <= 0.0) continue;
+        has_block_[i] = 1;
+        blocks_.push_back(make_block(cluster, i));
+    }
+    if (blocks_.size() == before) return;
+    std::sort(blocks_.begin(), blocks_.end(), [](const Block& l, const Block& r) { return l.contact < r.contact; });
 }
 
 double ImpactFriction::tolerance() const {
@@ -82,6 +91,7 @@ double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
 }
 
 bool ImpactFriction::apply(ContactCluster& cluster) {
+    add_blocks(cluster);
     double most = 0.0;
     const int sweeps = blocks_.size() <= tuning::friction_few
                            ? tuning::friction_sweeps

@@ -15,7 +15,7 @@ namespace tumble {
 
 class ImpactFriction {
 public:
-    explicit ImpactFriction(const ContactCluster& cluster);
+    explicit ImpactFriction(const ContactCluster& cluster) : has_block_(cluster.size(), 0) {}
 
     /// Brings the friction impulses up to the cluster's present normal impulses and velocities. False when next to nothing
     /// changed.
@@ -35,9 +35,12 @@ private:
         double f0 = 0.0, f1 = 0.0;       // N s along the two
     };
 
+    static Block make_block(const ContactCluster& cluster, std::size_t contact);
+    void add_blocks(const ContactCluster& cluster);
     double relax(ContactCluster& cluster, Block& block) const;
 
-    std::vector<Block> blocks_;
+    std::vector<char> has_block_;           // by contact of the cluster
+    std::vector<Block> blocks_;             // of the contacts that have had a normal impulse, ascending
 };
 
 }  // namespace tumble

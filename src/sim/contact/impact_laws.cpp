@@ -56,7 +56,12 @@ void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, 
 class Propagation {
 public:
     Propagation(ContactCluster& cluster, double threshold)
-        : cluster_(cluster), threshold_(threshold), projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts) {}
+        : cluster_(cluster), threshold_(threshold),
+          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts, tuning::pass_sweep_tolerance), changed_(cluster.bodies() + 1, 1) {
+        // What is not dynamic has the last place, and never changes.
+        const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
+        for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
+    }
 
     int run() {
         int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
@@ -68,11 +73,13 @@ public:
                 limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
                 depth_known = true;
             }
-            work += double(active_.size()) * double(active_.size()) * (elastic() ? tuning::impact_elastic_work : 1.0);
-            if (pass >= limit || work > tuning::impact_work || squeezed(pass) || !reflect()) {
+            const bool spent = pass >= limit || work > tuning::impact_work;
+            const double cost = elastic() ? tuning::impact_elastic_work : 1.0;
+            if (spent || squeezed(pass) || !reflect()) {
                 stop(cluster_);
                 return pass + 1;
             }
+            work += cost * projection_.work();
         }
     }
 
@@ -83,6 +90,8 @@ private:
         restitution_.clear();
         bool any = false;
         for (std::size_t i = 0; i < cluster_.size(); ++i) {
+            // Else it is as it was after the pass before.
+            if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
             if (!cluster_.approaching(i)) continue;
             active_.push_back(demand(cluster_, i, 0.0));
             restitution_.push_back(restitution_now(cluster_, i, threshold_));
@@ -101,6 +110,9 @@ private:
         if (!(f > 0.0 && f < 2.0)) return false;
         for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
         apply(cluster_, active_, lambda_, std::min(f, Change(cluster_, active_, lambda_).reflection()));
+        std::fill(changed_.begin(), changed_.end(), 0);
+        for (const Projection::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
+        changed_.back() = 0;
         return true;
     }
 
@@ -136,6 +148,8 @@ private:
     Projection projection_;
     std::vector<Projection::Demand> active_;
     std::vector<double> restitution_, lambda_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
+    std::vector<char> changed_;                                     // by place: whether the last pass may have
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "sim/contact/projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -33,20 +34,68 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
 
 }  // namespace
 
-Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
-    : rows_(rows), exact_(exact), place_(bodies, VelocityRow::none) {}
+Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact, double sweep_tolerance)
+    : rows_(rows), exact_(exact), sweep_tolerance_(sweep_tolerance), parent_(bodies), place_(bodies, VelocityRow::none) {}
 
 bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
-    demands_ = &demands;
     bound_ = bound;
+    work_ = 0.0;
+    if (bound.velocity) return solve_part(demands, multipliers);   // a bound is on all velocities together
+    find_parts(demands);
+    if (part_count_ == 1) return solve_part(demands, multipliers);
+    bool met = true;
+    multipliers.assign(demands.size(), 0.0);
+    for (std::size_t k = 0; k < part_count_; ++k) {
+        part_demands_.clear();
+        for (const std::uint32_t i : parts_[k]) part_demands_.push_back(demands[i]);
+        met = solve_part(part_demands_, part_multipliers_) && met;
+        for (std::size_t i = 0; i < parts_[k].size(); ++i) multipliers[parts_[k][i]] = part_multipliers_[i];
+    }
+    return met;
+}
+
+std::uint32_t Projection::root(std::uint32_t body) {
+    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+    return body;
+}
+
+// In the order of their first demands.
+void Projection::find_parts(const std::vector<Demand>& demands) {
+    const auto bodies_of = [&](const Demand& d) { return std::array{rows_[d.row].a, rows_[d.row].b}; };
+    for (const Demand& d : demands)
+        for (const std::uint32_t body : bodies_of(d))
+            if (body != VelocityRow::none) parent_[body] = body;
+    for (const Demand& d : demands) {
+        const auto [a, b] = bodies_of(d);
+        if (a != VelocityRow::none && b != VelocityRow::none) parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+    }
+    part_count_ = 0;
+    for (std::uint32_t i = 0; i < demands.size(); ++i) {
+        const auto [a, b] = bodies_of(demands[i]);
+        std::uint32_t& part = place_[root(a != VelocityRow::none ? a : b)];
+        if (part == VelocityRow::none) {
+            part = std::uint32_t(part_count_++);
+            if (parts_.size() < part_count_) parts_.emplace_back();
+            parts_[part].clear();
+        }
+        parts_[part].push_back(i);
+    }
+    for (const Demand& d : demands)
+        for (const std::uint32_t body : bodies_of(d))
+            if (body != VelocityRow::none) place_[body] = VelocityRow::none;
+}
+
+bool Projection::solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
+    demands_ = &demands;
     multipliers_ = &multipliers;
     multipliers.assign(demands.size(), 0.0);
+    work_ += double(demands.size()) * double(demands.size());
     place_bodies();
     change_.setZero(size_);
     return demands.size() <= exact_ ? active_set() : sweeps();
 }
 
-// Only the bodies that the set touches take part: the cost is that of the set, not of the cluster.
+// Only the bodies that the part touches take part: the cost is that of the part, not of the cluster.
 void Projection::place_bodies() {
     local_.clear();
     std::uint32_t count = 0;
@@ -297,7 +346,7 @@ bool Projection::sweeps() {
             most = std::max(most, std::abs(step));
         }
         if (sweep == 0) first = most;
-        if (most <= tuning::projection_sweep_tolerance * first) return true;
+        if (most <= sweep_tolerance_ * first) return true;
     }
     return false;
 }

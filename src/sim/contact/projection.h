@@ -7,7 +7,10 @@
 // dual method for solving strictly convex quadratic programs": the most violated row is taken in, a row whose impulse
 // would turn negative is let go, and no row is ever taken in that depends on those held (the four corners of a flat box
 // have rank three). The held rows are kept as W = Q R, orthogonalised twice where it matters, so the result is exact to
-// rounding. Where rows depend on each other d is unique and the multipliers are not: they are then spread evenly. Sets of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
+// rounding. Where rows depend on each other d is unique and the multipliers are not: they are then spread evenly.
+//
+// Contacts that hang together by no body have nothing to do with each other: each such part of the set is solved by itself.
+// Parts of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
 #pragma once
 
 #include "sim/contact/velocity_row.h"
@@ -26,8 +29,10 @@ struct VelocityBound {
 
 class Projection {
 public:
-    /// `rows` of unit length over `bodies` bodies; kept by reference. Sets of up to `exact` demands are solved exactly.
-    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
+    /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly, larger
+    /// ones until the multipliers change by less than `sweep_tolerance` of their first change.
+    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts,
+               double sweep_tolerance = tuning::projection_sweep_tolerance);
 
     struct Demand {
         std::uint32_t row;
@@ -38,10 +43,15 @@ public:
     /// Finds `multipliers`, one for each demand. False when not all demands can be met together within the bound, if there
     /// is one (or, beyond reason, were not met in time); the multipliers are then those of the rows that can.
     bool solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound = {});
+    /// What the last solve has taken, in squared demands of its parts.
+    double work() const { return work_; }
 
 private:
     using Index = Eigen::Index;
 
+    void find_parts(const std::vector<Demand>& demands);
+    std::uint32_t root(std::uint32_t body);
+    bool solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers);
     void place_bodies();
     bool active_set();
     bool sweeps();
@@ -60,7 +70,14 @@ private:
 
     const std::vector<VelocityRow>& rows_;
     std::size_t exact_;
-    std::vector<std::uint32_t> place_;         // body of the cluster to body of the set
+    double sweep_tolerance_;
+    double work_ = 0.0;
+    std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find of those that demands connect
+    std::vector<std::vector<std::uint32_t>> parts_;   // demands; the first part_count_ of them are in use
+    std::size_t part_count_ = 0;
+    std::vector<Demand> part_demands_;
+    std::vector<double> part_multipliers_;
+    std::vector<std::uint32_t> place_;         // body of the cluster to body of the part
     const std::vector<Demand>* demands_ = nullptr;
     std::vector<double>* multipliers_ = nullptr;
     std::vector<VelocityRow> local_;           // the set's rows, over the bodies they touch
