@@ -159,6 +159,7 @@ std::string reason(const std::exception& error) {
         FrameMaker maker(scene, options, forms, memory);
         while ((asked = receive_message(socket, job)))
             if (!send_message(socket, maker.make(job))) break;
+        ::_exit(0);   // nor those of its own OpenGL, which takes milliseconds to let go of what ends anyway
     } catch (const std::exception& error) {
         const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
         memory.write_words(out_of_memory ? "out of memory" : reason(error));

@@ -148,7 +148,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         const bool in_view = visibility.bodies[i] && wanted[i] != 0;
-        const bool casts = scene.light.shadows && casting[i] != 0 && view.sees_swept(ball.center, ball.radius, light);
+        const bool casts = scene.light.shadows && casting[i] != 0;
         const bool patterned = look.pattern != Pattern::plain;
         const double distance = ball.center.norm();
         if (casts) {

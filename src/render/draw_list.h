@@ -48,7 +48,7 @@ struct DrawList {
 };
 
 /// `wanted`, `casting`: of each item of drawn_items.h, whether it is to be drawn where it is visible, and into the shadow
-/// maps where its shadow may be.
+/// maps.
 DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
                         const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
                         const ShadowFit& shadows, const std::vector<char>& wanted,

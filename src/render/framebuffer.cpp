@@ -89,14 +89,14 @@ void Framebuffer::begin_background() { begin_all(background_, 1.0); }
 
 void Framebuffer::begin_whole() {
     begin_all(drawn_, 1.0);
-    open_ = {{0, 0, width_, height_}};
+    whole_open_ = true;
 }
 
-void Framebuffer::begin(const std::vector<Rectangle>& rectangles) {
-    copy(closed_, drawn_, open_, GL_DEPTH_BUFFER_BIT);
+void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing) {
+    copy(closed_, drawn_, whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : closing, GL_DEPTH_BUFFER_BIT);
     copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind(drawn_);
-    open_ = rectangles;
+    whole_open_ = false;
 }
 
 void Framebuffer::resolve(const std::vector<Rectangle>& rectangles) const {

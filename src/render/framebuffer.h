@@ -28,8 +28,9 @@ public:
     void begin_whole();
 
     /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
-    /// colours and depths; everywhere else depth is nearest.
-    void begin(const std::vector<Rectangle>& rectangles);
+    /// colours and depths; everywhere else depth is nearest. `closing`: what could be drawn to before and cannot now, at
+    /// least.
+    void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing);
 
     /// Averages the samples there.
     void resolve(const std::vector<Rectangle>& rectangles) const;
@@ -50,7 +51,7 @@ private:
     int width_, height_, samples_;
     Target background_, drawn_;
     Target closed_;   // nearest depths only. Copied back where the picture was open: a third of what clearing costs
-    std::vector<Rectangle> open_;     // what of the picture can be drawn to
+    bool whole_open_ = false;         // all of the picture can be drawn to
     std::optional<Target> resolved_;  // only with several samples
 };
 

@@ -11,17 +11,20 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 
 MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks)
     : gl_(&gl), looks_(&looks), instances_(gl, GlKind::buffer) {
-    const auto add = [&](const DrawMesh& mesh, bool closed = true) {
-        meshes_.emplace_back().emplace(gl, MeshData{mesh.vertices, mesh.indices, {}, closed});
-    };
-    add(make_half_box(), false);   // mirrored as needed: no side of its triangles is the front
-    add(make_face());
-    for (std::size_t level = 0; level < ball_levels; ++level) add(make_ball(int(level)));
-    add(make_cylinder(cylinder_sides));
     meshes_.resize(scene_mesh(looks.meshes.size(), 0));
 }
 
+void MeshLibrary::make_primitive(std::size_t mesh) {
+    const bool closed = mesh != half_box_mesh;   // that is mirrored as needed: no side of its triangles is the front
+    const DrawMesh made = mesh == half_box_mesh   ? make_half_box()
+                          : mesh == face_mesh     ? make_face()
+                          : mesh == cylinder_mesh ? make_cylinder(cylinder_sides)
+                                                  : make_ball(int(mesh - first_ball_mesh));
+    meshes_[mesh].emplace(*gl_, MeshData{made.vertices, made.indices, {}, closed});
+}
+
 void MeshLibrary::make(std::size_t mesh, MeshDetails& details) {
+    if (mesh < first_scene_mesh) return make_primitive(mesh);
     const std::size_t which = (mesh - first_scene_mesh) / mesh_levels, level = (mesh - first_scene_mesh) % mesh_levels;
     const MeshLook& look = looks_->meshes[which];
     const Closedness form = closedness(look.asset->surface);

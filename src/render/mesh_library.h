@@ -20,6 +20,7 @@ public:
 
 private:
     void make(std::size_t mesh, MeshDetails& details);
+    void make_primitive(std::size_t mesh);
 
     const GlFunctions* gl_;
     const SceneLooks* looks_;

@@ -17,6 +17,7 @@
 #include "render/occlusion_texture.h"
 #include "render/plane_painter.h"
 #include "render/render_times.h"
+#include "render/shadow_cover.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
 
@@ -51,6 +52,7 @@ struct Renderer::State {
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks, view.eye()),
           changes(scene, looks, view),
+          last_marks(view),
           details(looks),
           edges(looks, view, details),
           drawn_image(scene.output.width, scene.output.height),
@@ -129,7 +131,7 @@ struct Renderer::State {
             planes.draw_open(patches, looks);
             background_kept = true;
         }
-        framebuffer.begin(changed);
+        framebuffer.begin(changed, closing);
     }
 
     DrawnParts drawn;
@@ -141,6 +143,7 @@ struct Renderer::State {
     ShadowStage stage;
     OcclusionMaker occlusion;
     ChangeFinder changes;
+    TileMarks last_marks;
     MeshDetails details;
     EdgeFinder edges;
     Image drawn_image;  // as it was drawn, with surface numbers in alpha
@@ -156,7 +159,7 @@ struct Renderer::State {
     SurfacePrograms programs;
     PlanePainter planes;
     bool background_kept = false;
-    std::vector<Rectangle> changed;
+    std::vector<Rectangle> changed, closing;   // what is drawn anew; what was before and is not now
     bool full_redraw, draw_hidden;
     RenderTimes* times;
     CompilationTurns* turns;   // until its shaders are compiled
@@ -196,15 +199,20 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     TileMarks marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
     s.changed = marks.rectangles();
+    s.closing = s.last_marks.rectangles_outside(marks);
+    s.last_marks = marks;
 
     ShadowMarks shadow_marks = s.changes.shadow_marks();
     if (s.full_redraw) shadow_marks.mark_all();
     const bool all_shadows = shadow_marks.all();
+    const Vec3 light = s.scene.light.direction.normalized();
     std::vector<char> wanted, casting;
     for (const DrawnItem& item : items) {
         wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
-        casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) ? 1 : 0);
+        casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) &&
+                          s.view.sees_swept(item.center, item.radius, light) ? 1 : 0);
     }
+    if (s.scene.light.shadows && !s.draw_hidden) drop_hidden_casters(s.looks, items, shadows, casting);
     const OcclusionAtlas& atlas = s.occlusion.atlas();
     const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
     std::vector<std::vector<Rectangle>> touched;

@@ -1,15 +1,16 @@
 #include "render/screen_hull.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tumble {
 
 // Andrew 1979, Another Efficient Algorithm for Convex Hulls in Two Dimensions.
-std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
+FewPoints convex_hull(FewPoints points) {
     std::sort(points.begin(), points.end(), [](const ScreenPoint& a, const ScreenPoint& b) {
         return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
     });
-    std::vector<ScreenPoint> hull;
+    FewPoints hull;
     const auto half = [&](auto begin, auto end) {
         const std::size_t base = hull.size();
         for (auto at = begin; at != end; ++at) {
@@ -18,9 +19,9 @@ std::vector<ScreenPoint> convex_hull(std::vector<ScreenPoint> points) {
         }
         hull.pop_back();  // the next half begins with it
     };
-    if (points.empty()) return hull;
+    if (points.size() == 0) return hull;
     half(points.begin(), points.end());
-    half(points.rbegin(), points.rend());
+    half(std::reverse_iterator(points.end()), std::reverse_iterator(points.begin()));
     return hull;
 }
 

@@ -7,6 +7,8 @@
 namespace tumble {
 namespace {
 
+constexpr std::size_t group = 8;   // points that are worked out together; the last group is filled up
+
 inline float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 // The lattice as an occluder sees it: both probes of the first point, in the occluder's axes, and the steps.
@@ -16,12 +18,13 @@ struct Seen {
     float per_near, per_far;                      // 1/m
 };
 
-TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t count, const Seen& s, float* open) {
+// Of points in full groups.
+TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
     const float nx = s.near[0], ny = s.near[1], nz = s.near[2], fx = s.far[0], fy = s.far[1], fz = s.far[2];
     const float ax = s.across[0], ay = s.across[1], az = s.across[2], bx = s.along[0], by = s.along[1], bz = s.along[2];
     const float hx = s.half[0], hy = s.half[1], hz = s.half[2], radius = s.radius;
     const float per_near = s.per_near, per_far = s.per_far;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < group * groups; ++k) {
         const float x = i[k] * ax + j[k] * bx, y = i[k] * ay + j[k] * by, z = i[k] * az + j[k] * bz;
         const float near = box_distance(nx + x, ny + y, nz + z, hx, hy, hz) - radius;
         const float far = box_distance(fx + x, fy + y, fz + z, hx, hy, hz) - radius;
@@ -53,13 +56,13 @@ void SurfaceLattice::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& a
     across_ = across;
     along_ = along;
     normal_ = normal;
-    const std::size_t count = std::size_t(columns) * std::size_t(rows);
-    open_.assign(count, 1.0f);
+    const std::size_t count = std::size_t(columns) * std::size_t(rows), room = (count + group - 1) / group * group;
+    open_.assign(room, 1.0f);
     if (columns == columns_ && rows == rows_) return;
     columns_ = columns;
     rows_ = rows;
-    i_.resize(count);
-    j_.resize(count);
+    i_.assign(room, 0.0f);
+    j_.assign(room, 0.0f);
     for (int j = 0, k = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i, ++k) {
             i_[std::size_t(k)] = float(i);
@@ -69,7 +72,11 @@ void SurfaceLattice::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& a
 
 void SurfaceLattice::darken(const Occluder& occluder, float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+    constexpr float spare = 1.0001f;   // for rounding: what is skipped would have been multiplied by 1
     const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center), outward = occluder.to_local * normal_;
+    // What lies behind the face is farther from the probes than they from it.
+    const float top = outward.cwiseAbs().dot(occluder.half_size) + occluder.radius - outward.dot(first);
+    if (top < (1.0f - spare) * near_step) return;
     Seen seen{};
     put(first + outward * near_step, seen.near);
     put(first + outward * far_step, seen.far);
@@ -79,11 +86,10 @@ void SurfaceLattice::darken(const Occluder& occluder, float reach) {
     seen.radius = occluder.radius;
     seen.per_near = 1.0f / near_step;
     seen.per_far = 1.0f / far_step;
-    constexpr float spare = 1.0001f;   // for rounding: what is skipped would have been multiplied by 1
     if (clear_of(seen, seen.near, columns_, rows_, spare * (near_step + seen.radius)) &&
         clear_of(seen, seen.far, columns_, rows_, spare * (far_step + seen.radius)))
         return;
-    darken_points(i_.data(), j_.data(), open_.size(), seen, open_.data());
+    darken_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
 }
 
 void SurfaceLattice::darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach) {

@@ -4,6 +4,7 @@
 
 #include "render/occluders.h"
 
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -22,8 +23,8 @@ public:
     void darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach);
 
     /// The points' shares of the sky's light.
-    std::vector<float>& open() { return open_; }
-    const std::vector<float>& open() const { return open_; }
+    std::span<float> open() { return {open_.data(), std::size_t(columns_) * std::size_t(rows_)}; }
+    std::span<const float> open() const { return {open_.data(), std::size_t(columns_) * std::size_t(rows_)}; }
 
 private:
     Eigen::Vector3f corner_, across_, along_, normal_;

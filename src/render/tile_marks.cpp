@@ -1,9 +1,11 @@
 #include "render/tile_marks.h"
 
+#include "core/check.h"
 #include "render/screen_hull.h"
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -49,8 +51,8 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
     const Place place = place_of(points, *view_);
     if (place == Place::behind || all()) return;
     if (place == Place::beside) return mark_all();
-    std::vector<ScreenPoint> corners;
-    corners.reserve(points.size());
+    TUMBLE_CHECK_LE(points.size(), FewPoints::most);
+    FewPoints corners;
     double rim = margin;   // pixels
     double leftmost = std::numeric_limits<double>::infinity(), rightmost = -leftmost;
     double top = leftmost, bottom = -leftmost;
@@ -69,9 +71,11 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
     if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
     // What is small needs no finer look: the tiles around it.
     if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
-        corners = {{leftmost, top}, {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}};
+        corners = {};
+        for (const auto& [x, y] : {std::pair(leftmost, top), {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}})
+            corners.push_back({x, y});
     } else {
-        corners = convex_hull(std::move(corners));
+        corners = convex_hull(corners);
     }
     for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
@@ -130,6 +134,10 @@ bool TileMarks::touched_by(std::span<const Vec3> points) const {
 std::vector<Rectangle> TileMarks::rectangles() const {
     if (all()) return {{0, 0, grid_.width, grid_.height}};
     return cell_rectangles(grid_, [&](int column, int row) { return at(column, row); });
+}
+
+std::vector<Rectangle> TileMarks::rectangles_outside(const TileMarks& others) const {
+    return cell_rectangles(grid_, [&](int column, int row) { return at(column, row) && !others.at(column, row); });
 }
 
 Rectangle TileMarks::bounds() const {

@@ -33,6 +33,7 @@ public:
 
     const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
+    std::vector<Rectangle> rectangles_outside(const TileMarks& others) const;   // of tiles that are not marked there
 
     /// The rectangle around all that is marked.
     Rectangle bounds() const;

@@ -72,7 +72,9 @@ ScreenCover::ScreenCover(const CameraView& view)
 void ScreenCover::add(const Corners& corners) {
     Projected box;
     if (!project(corners, *view_, box)) return;
-    const std::vector<Point> hull = convex_hull({box.points.begin(), box.points.end()});
+    FewPoints points;
+    for (const Point& p : box.points) points.push_back(p);
+    const FewPoints hull = convex_hull(points);
     if (hull.size() < 3) return;
     // On each line between rows of cells, the hull without its rim is an interval; a cell is covered within both of its.
     const auto interval = [&](double y, double& left, double& right) {

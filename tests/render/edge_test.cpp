@@ -135,7 +135,7 @@ TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     for (double angle = 0.1; angle < 1.5; angle += 0.45) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, 0.5).normalized()));
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), Vec3(2.0, 1.4, 1.0), {255, 255, 255}, turned)};
-        std::vector<ScreenPoint> corners;
+        FewPoints corners;
         for (const Vec3& p : box_corners(view.relative(scene.bodies[0].position), turned.toRotationMatrix(),
                                          Vec3(1.0, 0.7, 0.5)))
             corners.push_back(view.pixel(p));
