@@ -28,6 +28,10 @@ inline constexpr double reuse_motion = 2e-3;
 inline constexpr double fat_bounds = 0.05;
 inline constexpr double fat_steps = 8.0;
 
+/// The velocity of a kinematic body changes evenly over a step where the mean of it is that of beginning and end, to this part
+/// of the change: far more than a smooth path leaves (h^2 of it), less than most bends.
+inline constexpr double kinematic_bend = 0.1;
+
 /// Slower approaches than this times |g| h do not bounce. A resting contact meets gravity's own g h each step;
 /// twice that is told apart from it.
 inline constexpr double restitution_threshold = 2.0;
