@@ -44,6 +44,8 @@ inline constexpr int soft_most_substeps = 64;
 /// Piles of more levels than this get substeps half as long, or a quarter: high piles of soft contacts would buckle.
 inline constexpr int soft_high_pile = 32;
 inline constexpr int soft_very_high_pile = 64;
+/// And where a body would sink in by more than this part of its radius under its own weight: g d^2 in a substep d.
+inline constexpr double soft_sag = 3e-3;
 /// Steps for which the load of an island that is solved softly is taken to hold.
 inline constexpr int soft_load_age = 8;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer

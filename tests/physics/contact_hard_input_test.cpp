@@ -338,3 +338,19 @@ TEST(ContactHardInput, AHundredThousandBodies) {
         ASSERT_LE((s.bodies[i].center_of_mass - at).norm(), 1e-6) << i;
     }
 }
+
+// Small bodies that overlap are pushed apart under load, too: a cube of 2 mm carries one of 4 mm, eight times as heavy, that
+// began a millimetre inside of it. The push-out, 5 radii a second, is slow against what gravity adds in a substep.
+TEST(ContactHardInput, SmallBodiesDoNotSinkIntoEachOther) {
+    for (const int steps : {1, 16}) {
+        SceneDescription scene = ground_scene(0.0, 0.5, steps);
+        scene.simulation.contact_solver = ContactSolverChoice::soft;
+        add_box(scene, {2e-3, 2e-3, 2e-3}, {0.0, 1e-3, 0.0}, 8e-6);
+        add_box(scene, {4e-3, 4e-3, 4e-3}, {0.0, 3e-3, 0.0}, 64e-6);
+        set_friction(scene, 0.5);
+        World world(scene);
+        run(world, scene, 2.0);
+        EXPECT_NEAR(world.snapshot().bodies[2].center_of_mass.y(), 4e-3, 1e-4) << steps;
+        EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.y(), 1e-3, 1e-4) << steps;
+    }
+}

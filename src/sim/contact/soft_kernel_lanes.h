@@ -304,10 +304,12 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
             const Lanes closing = gap * substeps_per_second, old = g.at(i, impulse);
             Lanes next;
             if constexpr (pushing) {
-                const Lanes push = larger(g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), -push_limit * g[size]);
-                const auto apart = gap > 0.0f;
-                const Lanes bias = apart ? closing : push;
-                const Lanes mass = apart ? all(1.0f) : g[mass_scale], keep = apart ? Lanes{} : g[impulse_scale];
+                // Deeper than the limit the spring pushes no faster, but it carries more all the same.
+                const Lanes spring = g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), most = -push_limit * g[size];
+                const auto apart = gap > 0.0f, limited = spring < most;
+                const Lanes bias = apart ? closing : limited ? most : spring;
+                const Lanes give = limited ? g[impulse_scale] * (most / spring) : g[impulse_scale];
+                const Lanes mass = apart ? all(1.0f) : g[mass_scale], keep = apart ? Lanes{} : give;
                 next = old - g.at(i, normal_mass) * mass * (speed + bias) - keep * old;
             } else {
                 const Lanes bias = larger(closing, Lanes{});
