@@ -9,7 +9,7 @@ namespace tumble {
 /// Clips scratch.incident (with scratch.labels for its vertices) to the prism of scratch.reference and keeps what lies
 /// nearer than margin to the reference plane. `normal` is the reference face's, outward. `reference_on_b` turns the
 /// manifold's normal so that it points away from A. `reference_label` tells faces apart in the feature ids.
-/// `must_touch`: the shapes are known to overlap, so that the deepest vertex stands in if clipping leaves nothing.
+/// `must_touch`: the shapes are known to overlap, so that the deepest vertex comes in if clipping leaves none that touches.
 void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
                        double margin, bool must_touch, CollisionScratch& scratch, std::vector<Manifold>& out);
 
