@@ -46,6 +46,9 @@ inline constexpr int soft_high_pile = 32;
 inline constexpr int soft_very_high_pile = 64;
 /// And where a body would sink in by more than this part of its radius under its own weight: g d^2 in a substep d.
 inline constexpr double soft_sag = 3e-3;
+/// In islands of so many bodies the soft contacts are watched for energy they give: those of needles that spin by radians in a
+/// substep may. In large ones the sum would tell nothing of the one that gains.
+inline constexpr std::size_t soft_energy_bodies = 32;
 /// Steps for which the load of an island that is solved softly is taken to hold.
 inline constexpr int soft_load_age = 8;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
