@@ -55,6 +55,9 @@ inline constexpr int soft_load_age = 8;
 /// keeps a pyramid trembling (0.25: 0.1 m/s), softer sinks in (0.125: twice the overlap).
 inline constexpr double soft_frequency = 0.18;
 inline constexpr double soft_damping = 2.0;
+/// Deeper than push_limit allows they give way by no less than this part of their softness: bodies of millimetres still carry
+/// many of their weights, and what a press squeezes still gives way.
+inline constexpr double soft_least_give = 0.25;
 /// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
 inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.

@@ -188,17 +188,15 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     }
     const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
     scratch.points.clear();
-    bool touches = false;
     const auto keep = [&](const Corner& corner) {
         const double separation = height(corner.p);
         if (separation > margin) return;
-        touches = touches || separation <= 0.0;
         Vec3 p = corner.p;
         p[axis] -= 0.5 * sign * separation;
         scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
     };
     for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
-    if (!touches && must_touch) keep(deepest);   // clipped away, being in beyond the rim
+    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);

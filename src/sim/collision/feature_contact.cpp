@@ -5,7 +5,7 @@
 namespace tumble {
 
 void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
-                       double margin, bool must_touch, CollisionScratch& scratch, std::vector<Manifold>& out) {
+                       double margin, Overlap overlap, CollisionScratch& scratch, std::vector<Manifold>& out) {
     label_polygon(scratch.incident, scratch.labels, scratch.polygon);
     clip_to_prism(scratch.reference, normal, scratch.polygon, scratch.spare);
     const Vec3& origin = scratch.reference[0];
@@ -19,7 +19,7 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
         scratch.points.push_back({frame.to_world(p - 0.5 * separation * normal), separation, base | feature});
     };
     for (const ClipVertex& v : scratch.polygon) keep(v.position, v.feature);
-    if (!touches && must_touch) {
+    if ((scratch.points.empty() && overlap == Overlap::shallow) || (!touches && overlap == Overlap::deep)) {
         // What is in beyond the reference face's rim has been clipped away, and what is left of the incident face hangs above:
         // the deepest vertex speaks.
         std::size_t deepest = 0;

@@ -2,7 +2,7 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
-constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit);
+constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
 typedef float Four __attribute__((vector_size(16)));
@@ -304,11 +304,11 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
             const Lanes closing = gap * substeps_per_second, old = g.at(i, impulse);
             Lanes next;
             if constexpr (pushing) {
-                // Deeper than the limit the spring pushes no faster, but it carries more all the same.
+                // Deeper than the limit the spring pushes no faster, but between bodies that move carries some more all the same.
                 const Lanes spring = g[bias_rate] * smaller(gap + slop * g[size], Lanes{}), most = -push_limit * g[size];
-                const auto apart = gap > 0.0f, limited = spring < most;
-                const Lanes bias = apart ? closing : limited ? most : spring;
-                const Lanes give = limited ? g[impulse_scale] * (most / spring) : g[impulse_scale];
+                const auto apart = gap > 0.0f, limited = spring < most && g[inverse_mass_a] > 0.0f && g[inverse_mass_b] > 0.0f;
+                const Lanes bias = apart ? closing : larger(spring, most);
+                const Lanes give = limited ? g[impulse_scale] * larger(most / spring, all(least_give)) : g[impulse_scale];
                 const Lanes mass = apart ? all(1.0f) : g[mass_scale], keep = apart ? Lanes{} : give;
                 next = old - g.at(i, normal_mass) * mass * (speed + bias) - keep * old;
             } else {
