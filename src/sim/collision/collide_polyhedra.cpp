@@ -17,7 +17,7 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
                   const SeparatingAxis& axis, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Pose identity;
     const double level = axis_preference(std::min(a.radius, b.radius));
-    const Overlap overlap = axis.grazed || !(axis.separation < 0.0) ? Overlap::none : axis.separation < -level ? Overlap::deep : Overlap::shallow;
+    const Overlap overlap = axis.grazed ? Overlap::none : overlap_of(axis.separation, std::min(a.radius, b.radius));
     switch (axis.kind) {
         case SeparatingAxis::Kind::none: return;
         case SeparatingAxis::Kind::face_a: {

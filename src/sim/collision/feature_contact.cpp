@@ -1,8 +1,15 @@
 #include "sim/collision/feature_contact.h"
 
+#include "sim/collision/separating_axis.h"
+
 #include <algorithm>
 
 namespace tumble {
+
+Overlap overlap_of(double separation, double smaller_radius) {
+    if (separation < -axis_preference(smaller_radius)) return Overlap::deep;
+    return separation < 0.0 ? Overlap::shallow : Overlap::none;
+}
 
 void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
                        double margin, Overlap overlap, CollisionScratch& scratch, std::vector<Manifold>& out) {
