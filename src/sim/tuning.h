@@ -28,6 +28,10 @@ inline constexpr double reuse_motion = 2e-3;
 inline constexpr double fat_bounds = 0.05;
 inline constexpr double fat_steps = 8.0;
 
+/// The velocity of a kinematic body changes evenly over a step where the mean of it is that of beginning and end, to this part
+/// of the change: far more than a smooth path leaves (h^2 of it), less than most bends.
+inline constexpr double kinematic_bend = 0.1;
+
 /// Slower approaches than this times |g| h do not bounce. A resting contact meets gravity's own g h each step;
 /// twice that is told apart from it.
 inline constexpr double restitution_threshold = 2.0;
@@ -40,12 +44,22 @@ inline constexpr int soft_most_substeps = 64;
 /// Piles of more levels than this get substeps half as long, or a quarter: high piles of soft contacts would buckle.
 inline constexpr int soft_high_pile = 32;
 inline constexpr int soft_very_high_pile = 64;
+/// And where a body would sink in by more than this part of its radius under its own weight: g d^2 in a substep d.
+inline constexpr double soft_sag = 3e-3;
+/// In islands of so many bodies the soft contacts are watched for energy they give: those of needles that spin by radians in a
+/// substep may. In large ones the sum would tell nothing of the one that gains.
+inline constexpr std::size_t soft_energy_bodies = 32;
+/// And where any of them turns by more than this in a substep, rad.
+inline constexpr double soft_energy_turn = 0.1;
 /// Steps for which the load of an island that is solved softly is taken to hold.
 inline constexpr int soft_load_age = 8;
 /// Stiffness of its contacts: cycles in a substep, twice that against what does not move; and their damping ratio. Stiffer
 /// keeps a pyramid trembling (0.25: 0.1 m/s), softer sinks in (0.125: twice the overlap).
 inline constexpr double soft_frequency = 0.18;
 inline constexpr double soft_damping = 2.0;
+/// Deeper than push_limit allows they give way by no less than this part of their softness: bodies of millimetres still carry
+/// many of their weights, and what a press squeezes still gives way.
+inline constexpr double soft_least_give = 0.25;
 /// Overlaps below this part of the smaller radius are not pushed out: they keep the contact alive.
 inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.

@@ -66,7 +66,7 @@ struct World::State {
     std::vector<BodyVelocity> motions;
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
-    std::vector<BodyVelocity> old_velocities;   // before this step's forces: what explicit Euler moves by
+    std::vector<BodyVelocity> old_velocities;   // at the step's start, before its forces: what explicit Euler moves by
     // Momenta before and after this step's forces: what the integrators of higher order begin with, and whether contact
     // has added anything since.
     struct Momenta {
@@ -161,6 +161,16 @@ void World::State::place_kinematic_bodies() {
         const Vec3 target = next.position + next.rotation * body.center_of_mass;
         body.velocity = (target - body.position) / h;
         body.angular_velocity = rotation_vector(next.rotation * now.rotation.conjugate()) / h;
+        // Where the velocity changes evenly, what it begins with; over a bend in the path, the mean.
+        const auto begin = [](const Vec3& from, const Vec3& mean, const Vec3& to) {
+            const Vec3 change = to - from;
+            return (from + to - 2.0 * mean).norm() <= tuning::kinematic_bend * change.norm() ? Vec3(mean - 0.5 * change) : mean;
+        };
+        const auto of_center = [&](const KeyframeTrack::Motion& m) {
+            return Vec3(m.velocity + m.angular_velocity.cross(m.rotation * body.center_of_mass));
+        };
+        old_velocities[i].velocity = begin(of_center(now), body.velocity, of_center(next));
+        old_velocities[i].angular_velocity = begin(now.angular_velocity, body.angular_velocity, next.angular_velocity);
     }
 }
 

@@ -202,3 +202,20 @@ TEST(ContactEnergy, RoughBouncesGainNothing) {
         }
     }
 }
+
+// A needle that falls over lies down: it is not thrown back into the air, spinning.
+TEST(ContactEnergy, NeedlesFallOverAndLie) {
+    for (const double width : {0.002, 0.005, 0.01}) {
+        SceneDescription scene = ground_scene(0.0, 0.5, 1);
+        BodyDescription& needle = add_box(scene, {width, 1.0, width}, {0.0, 0.5, 0.0});
+        needle.friction = 0.5;
+        needle.angular_velocity = {0.0, 0.0, 0.3};
+        World world(scene);
+        const double start = energy(world);
+        for (int k = 0; k < 60 * 8; ++k) {
+            world.step();
+            ASSERT_LT(energy(world), 1.02 * start) << width << ' ' << k;
+        }
+        EXPECT_LT(energy(world), 0.6 * start) << width;
+    }
+}

@@ -17,6 +17,19 @@ KeyframeTrack track(Interpolation interpolation = Interpolation::smooth) {
                          interpolation);
 }
 
+// A table about the origin, its top at y = 0, that turns steadily (rad/s) for so many seconds.
+BodyDescription& add_turntable(SceneDescription& scene, double size, double speed, double seconds) {
+    BodyDescription& table = add_box(scene, {size, 0.2, size}, {0.0, -0.1, 0.0});
+    table.type = BodyType::kinematic;
+    table.interpolation = Interpolation::linear;
+    table.friction = 0.8;
+    for (int i = 0; i * 0.5 <= seconds + 1.0; ++i)
+        table.keyframes.push_back({0.5 * i, table.position, turn(Vec3::UnitY(), 0.5 * speed * i)});
+    return table;
+}
+
+constexpr ContactSolverChoice both_solvers[] = {ContactSolverChoice::soft, ContactSolverChoice::direct};
+
 }  // namespace
 
 TEST(Keyframes, PassThroughTheKeys) {
@@ -80,4 +93,69 @@ TEST(Kinematic, PlatformCarriesABoxByFriction) {
     const Snapshot s = world.snapshot();
     const Vec3 expected = s.bodies[0].origin + s.bodies[0].orientation * Vec3(0.5, 0.3, 0.0);
     EXPECT_LT((s.bodies[1].center_of_mass - expected).norm(), 5e-3);
+}
+
+// What stands on a turntable goes round with it: 2 m/s^2 are a quarter of what friction holds.
+TEST(Kinematic, NothingCreepsOffATurntable) {
+    for (const auto solver : both_solvers) {
+        for (const int steps : {1, 4}) {
+            SceneDescription scene;
+            scene.simulation.contact_solver = solver;
+            scene.simulation.steps_per_frame = steps;
+            const double speed = 2.0, radius = 0.5;
+            add_turntable(scene, 3.0, speed, 10.0);
+            BodyDescription& box = add_box(scene, {0.1, 0.1, 0.1}, {radius, 0.05, 0.0});
+            box.friction = 0.8;
+            box.velocity = {0.0, 0.0, -speed * radius};
+            box.angular_velocity = {0.0, speed, 0.0};
+            World world(scene);
+            run(world, scene, 10.0);
+            const Vec3 x = world.snapshot().bodies[1].center_of_mass;
+            const Vec3 expected = turn(Vec3::UnitY(), 10.0 * speed) * Vec3(radius, 0.05, 0.0);
+            EXPECT_NEAR(std::hypot(x.x(), x.z()), radius, 2e-4) << int(solver) << ' ' << steps;   // three turns; 0.2 m by tangents
+            EXPECT_LT((x - expected).norm(), 0.02 / (steps * steps)) << int(solver) << ' ' << steps;
+        }
+    }
+}
+
+// A ball that rolls on a turntable goes in a circle, two turns to the table's seven, wherever it began.
+TEST(Kinematic, ABallOnATurntableRollsInACircle) {
+    for (const auto solver : both_solvers) {
+        SceneDescription scene;
+        scene.simulation.contact_solver = solver;
+        scene.simulation.steps_per_frame = 1;
+        const double speed = 3.0, circling = speed * 2.0 / 7.0, radius = 0.1, pi = 3.14159265358979323846;
+        add_turntable(scene, 20.0, speed, 2.0 * pi / circling);
+        BodyDescription& ball = add_sphere(scene, radius, {1.0, radius, 0.0});
+        ball.friction = 0.8;
+        ball.velocity = {0.0, 0.0, -1.0};
+        ball.angular_velocity = {(speed * 1.0 - 1.0) / radius, 0.0, 0.0};   // rolls without slipping
+        World world(scene);
+        const Vec3 center(1.0 - 1.0 / circling, radius, 0.0);
+        for (int k = 0; k < int(60.0 * 2.0 * pi / circling); ++k) {
+            world.step();
+            EXPECT_NEAR((world.snapshot().bodies[1].center_of_mass - center).norm(), 1.0 / circling, 5e-4) << int(solver);
+        }
+    }
+}
+
+// A platform that rocks and is shaken, at half of what would throw things off: they stay where they stood.
+TEST(Kinematic, NothingCreepsOnARockingPlatform) {
+    for (const auto solver : both_solvers) {
+        SceneDescription scene;
+        scene.simulation.contact_solver = solver;
+        scene.simulation.steps_per_frame = 1;
+        BodyDescription& platform = add_box(scene, {5.0, 0.2, 2.0}, {0.0, -0.1, 0.0});
+        platform.type = BodyType::kinematic;
+        platform.friction = 0.8;
+        for (int i = 0; i <= 320; ++i) {   // a swing in two seconds, beginning softly
+            const double t = i / 40.0, swing = std::min(1.0, t / 2.0) * std::sin(2.0 * 3.14159265358979323846 * 0.5 * t);
+            platform.keyframes.push_back({t, Vec3(0.05 * swing, -0.1, 0.0), turn(Vec3::UnitZ(), 0.2 * swing)});
+        }
+        for (const double x : {-2.0, -1.0, 0.0, 1.0, 2.0}) add_box(scene, {0.3, 0.3, 0.3}, {x, 0.15, 0.0}).friction = 0.8;
+        World world(scene);
+        run(world, scene, 8.0);
+        for (std::size_t i = 1; i < scene.bodies.size(); ++i)
+            EXPECT_LT((world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm(), 2e-3) << int(solver) << ' ' << i;
+    }
 }

@@ -51,6 +51,11 @@ bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const
     return relative_velocity(p, normal, a, b) < -settings.bounce_threshold;
 }
 
+Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal) {
+    const Vec3 change = carrier.angular_velocity.cross(motion);
+    return change - normal.dot(change) * normal;
+}
+
 ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const PatchSettings& settings) {
     ContactPatch patch;
     patch.size = std::min(a.radius, b.radius);

@@ -42,6 +42,11 @@ bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, c
 /// Returns a patch without points when there is nothing to hold.
 ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const PatchSettings& settings);
 
+/// What a turning kinematic body carries goes round an arc, but the velocity of its point at the step's start points along the
+/// tangent: by that alone riders would creep outward. Friction takes the velocity where the rider, which moves by `motion` (m/s)
+/// against the carrier's centre, will be in the middle of the time; this is how it changes with that, m/s^2, across the normal.
+Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal);
+
 /// Forgets the impulses of the step before.
 void release(Manifold& manifold);
 /// Their sum along the normal, N s.

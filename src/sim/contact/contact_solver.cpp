@@ -1,5 +1,6 @@
 #include "sim/contact/contact_solver.h"
 
+#include "sim/contact/energy_limit.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -122,9 +123,18 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     std::sort(direct_.begin(), direct_.end());
 }
 
+// How many times as many substeps an island needs: high piles of soft contacts would buckle, and small bodies sink in by their
+// own weight, for a spring sags by as much whatever the size.
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
-    return levels > tuning::soft_very_high_pile ? 4 : levels > tuning::soft_high_pile ? 2 : 1;
+    const double h = problem.patches.h, n = substeps_of(h);
+    double sag = 0.0;   // of the least body, in its radii
+    for (const std::uint32_t i : islands.bodies(island)) {
+        const Body& body = problem.bodies[i];
+        sag = std::max(sag, h / (n * n) * (body.velocity - problem.before[i].velocity).norm() / body.radius);
+    }
+    if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
+    return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
 }
 
 // Soft islands into parts of as fine substeps, each no larger than a cache holds, or of one large island.
@@ -177,7 +187,10 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     }
     if (!softly_.empty()) {
         deal(islands, problem);
+        energy_limits_.clear();
+        for (const std::size_t k : softly_) energy_limits_.push_back(energy_limit(problem, islands.bodies(k), islands.manifolds(k)));
         soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
+        for (std::size_t s = 0; s < softly_.size(); ++s) hold_energy(problem, islands.bodies(softly_[s]), energy_limits_[s]);
     }
 }
 

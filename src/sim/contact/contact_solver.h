@@ -54,6 +54,7 @@ private:
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
     std::vector<int> fineness_;           // of softly_
+    std::vector<double> energy_limits_;   // J, of softly_
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

@@ -76,6 +76,12 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         }
         set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
         set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
+        Vec3 turn = Vec3::Zero();
+        const Vec3 motion = problem.before[m.b].velocity - problem.before[m.a].velocity;
+        if (patch.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
+        if (patch.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
+        patch.friction[0].offset -= 0.5 * h * turn.dot(geometry.tangent_1);
+        patch.friction[1].offset -= 0.5 * h * turn.dot(geometry.tangent_2);
         set_twist(patch.twist, geometry.normal, patch, a, b, length_);
         patch.friction[0].estimate = m.friction[0];
         patch.friction[1].estimate = m.friction[1];

@@ -84,12 +84,16 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
     deal_lanes(part);
 }
 
+SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem) {
+    return {body, problem.bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
+}
+
 // Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
 void SoftBatch::find_movers(const ContactProblem& problem, const SoftSolver::Part& part) {
     movers_.clear();
     for (const std::uint32_t m : part.manifolds)
         for (const std::uint32_t i : {problem.manifolds[m].a, problem.manifolds[m].b})
-            if (problem.bodies[i].type == BodyType::kinematic) movers_.push_back(i);
+            if (problem.bodies[i].type == BodyType::kinematic) movers_.push_back(mover(i, m, problem));
     std::sort(movers_.begin(), movers_.end());
     movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
 }
@@ -211,18 +215,33 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     std::fill_n(state(0), soft::body_floats, 0.0f);
     std::fill_n(state(1 + dynamic), movers_.size() * soft::body_floats, 0.0f);
     for (std::size_t k = 0; k < movers_.size(); ++k) {
-        const Body& body = problem.bodies[movers_[k]];
+        const Body& body = problem.bodies[movers_[k].body];
+        const BodyVelocity& start = problem.before[movers_[k].body];
+        // The way of the whole step, evenly faster from substep to substep as the body's velocity grows or turns: all at once it
+        // would ask more of friction than a substep's load allows.
+        const Vec3 faster = 2.0 / substeps_ * (body.velocity - start.velocity);
+        const Vec3 spun_up = 2.0 / substeps_ * (body.angular_velocity - start.angular_velocity);
+        Vec3 turned = Vec3::Zero();
+        if (movers_[k].manifold != none) {
+            const Manifold& m = problem.manifolds[movers_[k].manifold];
+            const std::uint32_t rider = m.a == movers_[k].body ? m.b : m.a;
+            turned = d_ * turn_of_carrier(body, problem.before[rider].velocity - start.velocity, m.normal);
+        }
         float* s = state(1 + dynamic + k);
-        put(s, 1, body.velocity);
-        put(s + 3, 1, body.angular_velocity);
+        float* f = forces_.data() + soft::inertia_floats * (1 + dynamic + k);
+        put(s, 1, start.velocity - 0.5 * (faster + turned));
+        put(s + 3, 1, start.angular_velocity - 0.5 * spun_up);
+        put(f, 1, faster + turned);
+        put(f + 3, 1, spun_up);
     }
 }
 
-SoftBatch::Place SoftBatch::find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const {
+SoftBatch::Place SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                                       const std::vector<std::uint32_t>& slot) const {
     const Body& b = problem.bodies[body];
     if (b.dynamic()) return places_[slot[body]];
     if (b.type != BodyType::kinematic) return place_of(b, 0);
-    const auto place = std::lower_bound(movers_.begin(), movers_.end(), body) - movers_.begin();
+    const auto place = std::lower_bound(movers_.begin(), movers_.end(), mover(body, manifold, problem)) - movers_.begin();
     return place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
@@ -230,7 +249,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
                           const std::vector<std::uint32_t>& slot) {
     Manifold& m = problem.manifolds[manifold];
     temper(m, problem);
-    Place a = find_place(m.a, problem, slot), b = find_place(m.b, problem, slot);
+    Place a = find_place(m.a, manifold, problem, slot), b = find_place(m.b, manifold, problem, slot);
     // Arms go from the body that moves, of two from the smaller: from the other's centre single precision may be too coarse.
     const bool swapped = !a.dynamic || (b.dynamic && b.radius < a.radius);
     if (swapped) std::swap(a, b);
@@ -330,10 +349,15 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     meet();
     for (int step = 0; step < substeps_; ++step) {
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
+        if (!movers_.empty()) {   // which all threads look at
+            meet();
+            if (thread == 0) kernel_.accelerate(1 + blocks_.order().size(), slots_, bodies, false);
+            meet();
+        }
         if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
         each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
-        if (!movers_.empty()) {   // which all threads look at
+        if (!movers_.empty()) {
             meet();
             if (thread == 0) kernel_.move(1 + blocks_.order().size(), slots_, bodies, float(d_));
             meet();

@@ -45,6 +45,12 @@ private:
         std::uint32_t slot = 0;
         bool dynamic = false;
     };
+    // A kinematic body, as all its manifolds see it, or one that turns as one of them does: riders differ in where they are
+    // carried to.
+    struct Mover {
+        std::uint32_t body = 0, manifold = 0;
+        auto operator<=>(const Mover&) const = default;
+    };
     // Which points of a lane's manifold are its points.
     struct Source {
         std::uint8_t count = 0;
@@ -66,7 +72,9 @@ private:
     void deal_lanes(const SoftSolver::Part& part);
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
-    Place find_place(std::uint32_t body, const ContactProblem& problem, const std::vector<std::uint32_t>& slot) const;
+    static Mover mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem);
+    Place find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                     const std::vector<std::uint32_t>& slot) const;
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
     void unpack(const ContactProblem& problem, std::size_t group);
@@ -85,7 +93,7 @@ private:
     std::size_t slots_ = 0;
     std::vector<Place> places_;                       // by slot
     std::vector<std::uint32_t> block_of_;             // by slot
-    std::vector<std::uint32_t> movers_;               // kinematic bodies, by slot from the first after the dynamic ones
+    std::vector<Mover> movers_;                       // ascending, by slot from the first after the dynamic ones
     struct Taken {
         std::uint64_t inside = 0, across = 0;
     };

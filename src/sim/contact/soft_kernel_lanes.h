@@ -2,7 +2,7 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
-constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit);
+constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
 typedef float Four __attribute__((vector_size(16)));
@@ -378,11 +378,14 @@ inline void solve_normals(const Group& g, const Motion& a, const Motion& b, cons
         Lanes next;
         if constexpr (pushing) {
             const Lanes rate = choose(substep.fixed.bias_rate, substep.moving.bias_rate);
-            const Lanes out = larger(rate * smaller(g.at(i, gap) + slop * g[size], Lanes{}), -push_limit * g[size]);
+            const Lanes spring = rate * smaller(g.at(i, gap) + slop * g[size], Lanes{}), most = -push_limit * g[size];
             const auto apart = g.at(i, gap) > 0.0f;
-            const Lanes bias = apart ? closing : out;
+            const Lanes bias = apart ? closing : larger(spring, most);
             const Lanes mass = apart ? all(1.0f) : choose(substep.fixed.mass_scale, substep.moving.mass_scale);
-            const Lanes keep = apart ? Lanes{} : choose(substep.fixed.impulse_scale, substep.moving.impulse_scale);
+            Lanes keep = apart ? Lanes{} : choose(substep.fixed.impulse_scale, substep.moving.impulse_scale);
+            // Deeper than the limit the spring pushes no faster, but between bodies that move carries some more all the same.
+            const Lanes limited = spring < most && !held ? all(1.0f) : Lanes{};
+            if (any(limited)) keep = limited > 0.0f ? keep * larger(most / spring, all(least_give)) : keep;
             next = old - g.at(i, normal_mass) * mass * (speeds.parting[i] + bias) - keep * old;
         } else {
             next = old - g.at(i, normal_mass) * (speeds.parting[i] + larger(closing, Lanes{}));

@@ -24,8 +24,8 @@
 
 namespace tumble {
 
-/// What both contact solvers work on. Bodies come with the velocities after the step's forces; velocities of the step's
-/// start beside them. A solver changes the momenta, derives the velocities, and sets the push velocities so that
+/// What both contact solvers work on. Bodies come with the velocities after the step's forces, kinematic ones with the mean of the
+/// step; velocities of the step's start beside them. A solver changes the momenta, derives the velocities, and sets the push velocities so that
 /// h (velocity + push) is the body's way in the step. Bodies that no impulse has reached are left as they are.
 struct ContactProblem {
     std::vector<Body>& bodies;
