@@ -121,27 +121,6 @@ TEST(Pairs, PushingAlongTheNormalFrees) {
     });
 }
 
-// Whether two shapes touch does not depend on how far around them is looked. Faces as small as a hull's of many points are
-// missed by what comes in beyond their rims.
-TEST(Pairs, WhatTouchesDoesSoWithAnyMargin) {
-    Random random(31);
-    int touching = 0;
-    for (int round = 0; round < trials(4000); ++round) {
-        const Collider box = box_of({random(0.3, 1.2), random(0.3, 1.2), random(0.3, 1.2)});
-        const Collider other = random_hull(random, 100, {0.7, 0.3, 0.6});
-        const Pose at = random.pose(0.3), b = random.pose(0.3);
-        const auto deep = collide_all(box, at, other, b, 0.0);
-        if (deep.empty()) continue;
-        const Pose shallow{b.position - (deepest(deep) + random(0.0, 0.05)) * deep[0].normal, b.rotation};
-        const auto near = collide_all(box, at, other, shallow, 1e-9), wide = collide_all(box, at, other, shallow, 0.3);
-        if (near.empty() || deepest(near) > -1e-3) continue;
-        ++touching;
-        ASSERT_FALSE(wide.empty());
-        EXPECT_LE(deepest(wide), 0.0) << round;
-    }
-    EXPECT_GT(touching, trials(2000));
-}
-
 TEST(Pairs, FarthestApartGiveNothing) {
     Random random(26);
     for_pairs(27, 10, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {

@@ -164,7 +164,7 @@ bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t 
 
 // The incident box in the reference box's frame: centre c, axes the columns of r. `n`: the reference face's outward sign.
 void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pose& pose, const Vec3& c, const Mat3& r,
-              int axis, double sign, bool on_b, Overlap overlap, double margin, CollisionScratch& scratch,
+              int axis, double sign, bool on_b, bool must_touch, double margin, CollisionScratch& scratch,
               std::vector<Manifold>& out) {
     const std::uint32_t face = std::uint32_t(2 * axis + (sign < 0.0));
     const double depth = axis_preference(std::min(reference.radius, incident.radius));
@@ -179,7 +179,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i], std::uint32_t(i)};
     const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
     Corner deepest = polygon->corners[0];
-    for (std::size_t i = 1; i < 4 && overlap != Overlap::none; ++i)
+    for (std::size_t i = 1; i < 4 && must_touch; ++i)
         if (height(polygon->corners[i].p) < height(deepest.p)) deepest = polygon->corners[i];
 
     for (std::uint32_t s = 0; s < 4; ++s) {
@@ -188,17 +188,15 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     }
     const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
     scratch.points.clear();
-    bool touches = false;
     const auto keep = [&](const Corner& corner) {
         const double separation = height(corner.p);
         if (separation > margin) return;
-        touches = touches || separation <= 0.0;
         Vec3 p = corner.p;
         p[axis] -= 0.5 * sign * separation;
         scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
     };
     for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
-    if ((scratch.points.empty() && overlap == Overlap::shallow) || (!touches && overlap == Overlap::deep)) keep(deepest);
+    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
@@ -260,7 +258,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             n = by_face.normal;
         }
     }
-    const Overlap overlap = overlap_of(separation, smaller);
+    const bool overlapping = separation < 0.0;
     if (separation > 0.0) {
         const SeparatingAxis axis{.separation = separation, .normal = n};
         double most = lowest;
@@ -286,9 +284,9 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     } else if (of_b) {
         // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
         add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), face, rel.t_in_b[face] > 0.0 ? -1.0 : 1.0, true,
-                 overlap, margin, scratch, out);
+                 overlapping, margin, scratch, out);
     } else {
-        add_face(a, b, pose_a, rel.t, rel.r, face, rel.t[face] < 0.0 ? -1.0 : 1.0, false, overlap, margin, scratch, out);
+        add_face(a, b, pose_a, rel.t, rel.r, face, rel.t[face] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
     }
 }
 

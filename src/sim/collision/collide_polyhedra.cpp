@@ -16,8 +16,8 @@ void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std:
 void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
                   const SeparatingAxis& axis, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Pose identity;
+    const bool overlapping = axis.separation < 0.0 && !axis.grazed;
     const double level = axis_preference(std::min(a.radius, b.radius));
-    const Overlap overlap = axis.grazed ? Overlap::none : overlap_of(axis.separation, std::min(a.radius, b.radius));
     switch (axis.kind) {
         case SeparatingAxis::Kind::none: return;
         case SeparatingAxis::Kind::face_a: {
@@ -25,7 +25,7 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
             corners(a, axis.feature_a, identity, scratch.reference);
             corners(b, incident, b_in_a, scratch.incident);
             scratch.labels = b.faces[incident].vertices;
-            add_face_manifold(axis.normal, axis.feature_a, false, pose_a, margin, overlap, scratch, out);
+            add_face_manifold(axis.normal, axis.feature_a, false, pose_a, margin, overlapping, scratch, out);
             return;
         }
         case SeparatingAxis::Kind::face_b: {
@@ -33,7 +33,7 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
             corners(b, axis.feature_b, b_in_a, scratch.reference);
             corners(a, incident, identity, scratch.incident);
             scratch.labels = a.faces[incident].vertices;
-            add_face_manifold(-axis.normal, axis.feature_b, true, pose_a, margin, overlap, scratch, out);
+            add_face_manifold(-axis.normal, axis.feature_b, true, pose_a, margin, overlapping, scratch, out);
             return;
         }
         case SeparatingAxis::Kind::edges: {

@@ -95,7 +95,7 @@ void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& 
     if (on_body) scratch.labels.assign({0u, 1u, 2u});
     else scratch.labels = b.faces[face].vertices;
     // The manifold's A is the triangle: its normal, or against the body's face.
-    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, Overlap::none, scratch, out);
+    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch, out);
 }
 
 // Whether some contact point of the triangle lies in the body: proof that they do overlap.

@@ -1,34 +1,24 @@
 #include "sim/collision/feature_contact.h"
 
-#include "sim/collision/separating_axis.h"
-
 #include <algorithm>
 
 namespace tumble {
 
-Overlap overlap_of(double separation, double smaller_radius) {
-    if (separation < -axis_preference(smaller_radius)) return Overlap::deep;
-    return separation < 0.0 ? Overlap::shallow : Overlap::none;
-}
-
 void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
-                       double margin, Overlap overlap, CollisionScratch& scratch, std::vector<Manifold>& out) {
+                       double margin, bool must_touch, CollisionScratch& scratch, std::vector<Manifold>& out) {
     label_polygon(scratch.incident, scratch.labels, scratch.polygon);
     clip_to_prism(scratch.reference, normal, scratch.polygon, scratch.spare);
     const Vec3& origin = scratch.reference[0];
     const std::uint64_t base = (std::uint64_t(reference_on_b) << 63) | (std::uint64_t(reference_label) << 42);
     scratch.points.clear();
-    bool touches = false;
     const auto keep = [&](const Vec3& p, std::uint64_t feature) {
         const double separation = normal.dot(p - origin);
         if (separation > margin) return;
-        touches = touches || separation <= 0.0;
         scratch.points.push_back({frame.to_world(p - 0.5 * separation * normal), separation, base | feature});
     };
     for (const ClipVertex& v : scratch.polygon) keep(v.position, v.feature);
-    if ((scratch.points.empty() && overlap == Overlap::shallow) || (!touches && overlap == Overlap::deep)) {
-        // What is in beyond the reference face's rim has been clipped away, and what is left of the incident face hangs above:
-        // the deepest vertex speaks.
+    if (scratch.points.empty() && must_touch) {
+        // Rounding clipped a sliver away: the deepest vertex speaks.
         std::size_t deepest = 0;
         for (std::size_t i = 1; i < scratch.incident.size(); ++i)
             if (normal.dot(scratch.incident[i]) < normal.dot(scratch.incident[deepest])) deepest = i;

@@ -57,7 +57,7 @@ class Propagation {
 public:
     Propagation(ContactCluster& cluster, double threshold)
         : cluster_(cluster), threshold_(threshold),
-          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts, tuning::pass_sweep_tolerance), changed_(cluster.bodies() + 1, 1) {
+          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts), changed_(cluster.bodies() + 1, 1) {
         // What is not dynamic has the last place, and never changes.
         const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
         for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});

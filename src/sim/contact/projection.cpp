@@ -34,8 +34,8 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
 
 }  // namespace
 
-Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact, double sweep_tolerance)
-    : rows_(rows), exact_(exact), sweep_tolerance_(sweep_tolerance), parent_(bodies), place_(bodies, VelocityRow::none) {}
+Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
+    : rows_(rows), exact_(exact), parent_(bodies), place_(bodies, VelocityRow::none) {}
 
 bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
     bound_ = bound;
@@ -346,7 +346,7 @@ bool Projection::sweeps() {
             most = std::max(most, std::abs(step));
         }
         if (sweep == 0) first = most;
-        if (most <= sweep_tolerance_ * first) return true;
+        if (most <= tuning::projection_sweep_tolerance * first) return true;
     }
     return false;
 }

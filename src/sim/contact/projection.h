@@ -29,10 +29,8 @@ struct VelocityBound {
 
 class Projection {
 public:
-    /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly, larger
-    /// ones until the multipliers change by less than `sweep_tolerance` of their first change.
-    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts,
-               double sweep_tolerance = tuning::projection_sweep_tolerance);
+    /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly.
+    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
 
     struct Demand {
         std::uint32_t row;
@@ -70,7 +68,6 @@ private:
 
     const std::vector<VelocityRow>& rows_;
     std::size_t exact_;
-    double sweep_tolerance_;
     double work_ = 0.0;
     std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find of those that demands connect
     std::vector<std::vector<std::uint32_t>> parts_;   // demands; the first part_count_ of them are in use
