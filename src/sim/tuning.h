@@ -68,7 +68,7 @@ inline constexpr double friction_far_weight = 0.01;
 /// Manifolds from which on several threads share one island: below, meeting twice a sweep costs more.
 inline constexpr std::size_t soft_team_manifolds = 500;
 /// Manifolds of small islands that are solved together, through all substeps, before the next: their rows stay in a core's
-/// second cache (300 bytes each).
+/// second cache (360 bytes each).
 inline constexpr std::size_t soft_part_manifolds = 256;
 /// Bodies of a block that one thread keeps to: their states fill a core's first cache (64 bytes each).
 inline constexpr std::size_t soft_block_bodies = 512;

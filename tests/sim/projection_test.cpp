@@ -162,3 +162,35 @@ TEST(Projection, SweepsComeNear) {
     Projection(p.rows, p.bodies, 99).solve(p.demands, lambda);
     expect_optimal(p, lambda, 1e-6);
 }
+
+// What no body connects is solved apart: the cost is that of the parts, and each gets what it gets alone.
+TEST(Projection, PartsAreSolvedApart) {
+    Random random(7);
+    Problem all;
+    std::vector<Problem> parts;
+    double squares = 0.0;
+    for (int k = 0; k < 60; ++k) {
+        // One body each, so that the part hangs together.
+        Problem part = random_problem(random, 1, 1 + random.below(4));
+        squares += double(part.rows.size() * part.rows.size());
+        for (std::size_t i = 0; i < part.rows.size(); ++i) {
+            VelocityRow row = part.rows[i];
+            for (std::uint32_t* body : {&row.a, &row.b})
+                if (*body != VelocityRow::none) *body += std::uint32_t(all.bodies);
+            all.demands.push_back({std::uint32_t(all.rows.size()), part.demands[i].value, part.demands[i].tolerance});
+            all.rows.push_back(row);
+        }
+        all.bodies += part.bodies;
+        parts.push_back(part);
+    }
+    std::vector<double> lambda, alone;
+    Projection together(all.rows, all.bodies, 8);
+    together.solve(all.demands, lambda);
+    EXPECT_EQ(together.work(), squares);
+    std::size_t next = 0;
+    for (const Problem& part : parts) {
+        Projection(part.rows, part.bodies, 8).solve(part.demands, alone);
+        for (const double expected : alone) EXPECT_EQ(lambda[next++], expected);
+    }
+    expect_optimal(all, lambda, 1e-11);
+}
