@@ -118,10 +118,10 @@ void drop_hidden_casters(const SceneLooks& looks, const std::vector<DrawnItem>& 
     std::vector<Caster> casters;
     for (std::size_t i = 0; i < items.size(); ++i)
         if (casting[i] != 0) casters.push_back({to_map(fit, items[i].center).z(), std::uint32_t(i)});
+    if (casters.size() < fewest) return;
     std::sort(casters.begin(), casters.end(), [](const Caster& a, const Caster& b) {
         return a.depth != b.depth ? a.depth < b.depth : a.item < b.item;
     });
-    if (casters.size() < fewest) return;
     ShadowCover cover(fit);
     for (const Caster& caster : casters) {
         if (cover.hides(items[caster.item])) casting[caster.item] = 0;

@@ -58,6 +58,8 @@ struct Body {
 
     /// Velocity of the body's point at r = p - x (notes section 4).
     Vec3 point_velocity(const Vec3& r) const { return velocity + angular_velocity.cross(r); }
+    /// P.v / 2 + L.omega / 2, J. Only for dynamic bodies.
+    double kinetic_energy() const { return 0.5 * (momentum.dot(velocity) + angular_momentum.dot(angular_velocity)); }
 
     /// Eqs. 2 to 4: velocities and the world inertia from the state. Only for dynamic bodies.
     void derive();

@@ -14,7 +14,7 @@ Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity)
     Measurement m;
     for (const Body& body : bodies) {
         if (!body.dynamic()) continue;
-        m.kinetic += 0.5 * (body.momentum.dot(body.velocity) + body.angular_momentum.dot(body.angular_velocity));
+        m.kinetic += body.kinetic_energy();
         m.potential -= body.mass * gravity.dot(body.position);
         m.momentum += body.momentum;
         m.angular_momentum += body.position.cross(body.momentum) + body.angular_momentum;

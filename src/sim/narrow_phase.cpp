@@ -1,7 +1,6 @@
 #include "sim/narrow_phase.h"
 
 #include "sim/collision/carry_over.h"
-#include "sim/spin_barrier.h"
 #include "sim/touch.h"
 #include "sim/tuning.h"
 
@@ -35,6 +34,13 @@ double NarrowPhase::margin(const View& a, const View& b, double h) const {
     return a.speculative + b.speculative + h * ((b.velocity - a.velocity).norm() + a.spin + b.spin);
 }
 
+// What each thread has to do; all by one where meeting costs more than it saves.
+template <class Work>
+void NarrowPhase::each_share(ThreadPool& pool, Work&& work) {
+    if (pool.size() > 1 && entries_.size() >= tuning::parallel_grain) return pool.together([&](std::size_t thread) { work(found_[thread]); });
+    for (Found& found : found_) work(found);
+}
+
 std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies,
                                          double h, ThreadPool& pool) {
     match(pairs, bodies);
@@ -42,26 +48,12 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     views_.resize(bodies.size());
     seen_.resize(bodies.size(), 0);
     share_out(pool);
-    const auto each_thread = [&](auto&& work) {
-        for (std::size_t thread = 0; thread < found_.size(); ++thread) work(thread);
-    };
-    const auto look_at_bodies = [&](std::size_t thread) {
-        for (const std::uint32_t i : found_[thread].bodies) view(views_[i], bodies[i]);
-    };
-    const auto look_at_pairs = [&](std::size_t thread) {
-        for (const std::uint32_t i : found_[thread].entries) examine(i, h, found_[thread]);
-    };
-    if (shared(pool)) {
-        SpinBarrier barrier(found_.size());
-        pool.together([&](std::size_t thread) {
-            look_at_bodies(thread);
-            barrier.wait();
-            look_at_pairs(thread);
-        });
-    } else {
-        each_thread(look_at_bodies);
-        each_thread(look_at_pairs);
-    }
+    each_share(pool, [&](Found& found) {
+        for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
+    });
+    each_share(pool, [&](Found& found) {
+        for (const std::uint32_t i : found.entries) examine(i, h, found);
+    });
     put_in_order(pool);
     return manifolds_;
 }
@@ -141,9 +133,6 @@ void NarrowPhase::unpark(Entry& entry) {
     moved_ = true;
     parked_.erase(found);
 }
-
-// Below, meeting costs more than it saves.
-bool NarrowPhase::shared(const ThreadPool& pool) const { return pool.size() > 1 && entries_.size() >= tuning::parallel_grain; }
 
 void NarrowPhase::view(View& v, const Body& body) const {
     const Pose pose = body.pose();
@@ -282,8 +271,7 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     }
     spare_manifolds_.resize(all);
     spare_anchors_.resize(all);
-    const auto bring = [&](std::size_t thread) {
-        const Found& found = found_[thread];
+    each_share(pool, [&](const Found& found) {
         auto change = found.changes.begin();
         for (const std::uint32_t i : found.entries) {
             const bool changed = change != found.changes.end() && change->entry == i;
@@ -293,9 +281,7 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
             std::copy(manifolds.begin() + first, manifolds.begin() + end, spare_manifolds_.begin() + new_first_[i]);
             std::copy(anchors.begin() + first, anchors.begin() + end, spare_anchors_.begin() + new_first_[i]);
         }
-    };
-    if (shared(pool)) pool.together(bring);
-    else for (std::size_t thread = 0; thread < found_.size(); ++thread) bring(thread);
+    });
     for (std::uint32_t i = 0; i < count; ++i) {
         entries_[i].first = new_first_[i];
         entries_[i].count = new_count_[i];

@@ -80,7 +80,8 @@ private:
     void match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);
     void unpark(Entry& entry);
-    bool shared(const ThreadPool& pool) const;
+    template <class Work>
+    void each_share(ThreadPool& pool, Work&& work);
     void share_out(const ThreadPool& pool);
     void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;

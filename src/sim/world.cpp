@@ -342,7 +342,7 @@ void World::State::return_work(Body& body, const ForceStep& forces_of_step, doub
     const Vec3 turn = forces_of_step.after.angular_momentum - forces_of_step.before.angular_momentum;
     const double work = (1.0 - share) * (push.dot(body.velocity) + turn.dot(body.angular_velocity));
     if (!(work > 0.0)) return;
-    const double energy = 0.5 * (body.momentum.dot(body.velocity) + body.angular_momentum.dot(body.angular_velocity));
+    const double energy = body.kinetic_energy();
     const double scale = std::sqrt(std::max(0.0, 1.0 - work / energy));
     body.momentum *= scale;
     body.angular_momentum *= scale;

@@ -132,6 +132,18 @@ SceneDescription heap_scene(int count) {
     return scene;
 }
 
+bool passes_through(const BodyDescription& box, const Vec3& start, const Vec3& way, double end) {
+    const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
+    const Vec3 from = box.rotation.conjugate() * (start - box.position), along = box.rotation.conjugate() * way;
+    double enter = 0.0, leave = end;
+    for (int k = 0; k < 3; ++k) {
+        const double a = (-half[k] - from[k]) / along[k], b = (half[k] - from[k]) / along[k];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter < leave;
+}
+
 SceneDescription scaled(SceneDescription scene, double factor) {
     scene.camera.eye *= factor;
     scene.camera.target *= factor;

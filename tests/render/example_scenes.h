@@ -15,6 +15,9 @@ BodyDescription ball_body(const Vec3& position, double radius, Color color, cons
 BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color,
                           const Quat& rotation = Quat::Identity());
 
+/// Whether start + t way is inside of the box for any t from 0 to end: by its slabs.
+bool passes_through(const BodyDescription& box, const Vec3& start, const Vec3& way, double end);
+
 /// A ring in the plane y = 0, around the y axis, of 2 around x across triangles.
 std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius, std::uint32_t around = 64,
                                              std::uint32_t across = 32);

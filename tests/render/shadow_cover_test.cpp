@@ -9,18 +9,8 @@
 namespace tumble {
 namespace {
 
-// Does the way from `point` to the sun pass through the box? (slabs, in the box's frame)
-bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) {
-    const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
-    const Vec3 from = box.rotation.conjugate() * (point - box.position), along = box.rotation.conjugate() * to_sun;
-    double enter = 0.0, leave = 1e9;
-    for (int k = 0; k < 3; ++k) {
-        const double a = (-half[k] - from[k]) / along[k], b = (half[k] - from[k]) / along[k];
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-    }
-    return enter < leave;
-}
+// Does the way from `point` to the sun pass through the box?
+bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) { return passes_through(box, point, to_sun, 1e9); }
 
 /// Boxes in a cloud, wide ones among them, and the sun's view of them.
 struct Cloud {

@@ -9,17 +9,9 @@
 namespace tumble {
 namespace {
 
-// Does the segment from the eye to `point` pass through the box well before its end? (slabs, in the box's frame)
+// Does the segment from the eye to `point` pass through the box well before its end?
 bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
-    const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
-    const Vec3 from = box.rotation.conjugate() * (eye - box.position), along = box.rotation.conjugate() * (point - eye);
-    double enter = 0.0, leave = 1.0 - 1e-6;
-    for (int k = 0; k < 3; ++k) {
-        const double a = (-half[k] - from[k]) / along[k], b = (half[k] - from[k]) / along[k];
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-    }
-    return enter < leave;
+    return passes_through(box, eye, point - eye, 1.0 - 1e-6);
 }
 
 struct Heap {

@@ -141,6 +141,16 @@ Lane ball_lane(double friction, double separation = 0.0) {
     return lane;
 }
 
+/// Between bodies 1 and 2, which both move, any way round.
+Lane lane_of_two(Random& random) {
+    Lane lane;
+    lane.a = 1;
+    lane.b = 2;
+    lane.normal = random.direction();
+    lane.between = random.vector(1.0);
+    return lane;
+}
+
 }  // namespace
 
 TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
@@ -333,11 +343,7 @@ TEST(SoftKernel, PointsSeeEachOther) {
     for (const Kernel* kernel : kernels())
         for (int trial = 0; trial < trials(50); ++trial) {
             Random random{std::uint64_t(1000 + trial)};
-            Lane lane;
-            lane.a = 1;
-            lane.b = 2;
-            lane.normal = random.direction();
-            lane.between = random.vector(1.0);
+            Lane lane = lane_of_two(random);
             for (int i = 0; i < 4; ++i) lane.points.push_back({random.vector(0.7), 0.0, 0.0});
             OneColor color(*kernel, 2, {lane});
             Vec3 velocity[2], spin[2];
@@ -385,11 +391,7 @@ TEST(SoftKernel, FrictionAndNormalImpulsesSeeEachOther) {
     for (const Kernel* kernel : kernels())
         for (int trial = 0; trial < trials(50); ++trial) {
             Random random{std::uint64_t(2000 + trial)};
-            Lane lane;
-            lane.a = 1;
-            lane.b = 2;
-            lane.normal = random.direction();
-            lane.between = random.vector(1.0);
+            Lane lane = lane_of_two(random);
             lane.friction = 100.0;
             lane.points = {{random.vector(0.7), 0.0, 0.5}};
             for (const bool pushing : {false, true}) {

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double kinetic_energy(const Body& body) {
-    return 0.5 * (body.momentum.dot(body.velocity) + body.angular_momentum.dot(body.angular_velocity));
-}
-
 }  // namespace
 
 double energy_limit(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds) {
@@ -37,7 +33,7 @@ double energy_limit(const ContactProblem& problem, std::span<const std::uint32_t
         const BodyVelocity& start = problem.before[i];
         const Vec3 spin = body.rotation.transpose() * start.angular_velocity;
         before += 0.5 * body.mass * start.velocity.squaredNorm() + 0.5 * spin.dot(body.inertia_body * spin);
-        with_forces += kinetic_energy(body);
+        with_forces += body.kinetic_energy();
     }
     return std::max(before, with_forces);
 }
@@ -45,7 +41,7 @@ double energy_limit(const ContactProblem& problem, std::span<const std::uint32_t
 void hold_energy(const ContactProblem& problem, std::span<const std::uint32_t> bodies, double limit) {
     if (limit == infinity) return;
     double energy = 0.0;
-    for (const std::uint32_t i : bodies) energy += kinetic_energy(problem.bodies[i]);
+    for (const std::uint32_t i : bodies) energy += problem.bodies[i].kinetic_energy();
     if (!(energy > limit)) return;
     const double scale = std::sqrt(limit / energy);
     for (const std::uint32_t i : bodies) {

@@ -24,10 +24,10 @@ enum Head : int {
     twist_mass = 28,
     friction_coefficient = 29,
     size = 30,             // m, the smaller body's radius
-    friction_1 = 31,
+    friction_1 = 31,       // these three side by side,
     friction_2 = 32,
     twist = 33,
-    friction_1_sum = 34,   // over the substeps
+    friction_1_sum = 34,   // and their sums over the substeps
     friction_2_sum = 35,
     twist_sum = 36,
     coupling = 37,         // 6: what a normal impulse at one point adds to the speed at another, 1/kg: 01, 02, 12, 03, 13, 23

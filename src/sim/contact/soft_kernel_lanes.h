@@ -185,12 +185,32 @@ struct Group {
 
 constexpr int coupled(int i, int k) { return coupling + k * (k - 1) / 2 + i; }   // of points i < k
 
-// An impulse on B with its moment about A's centre, and their opposites on A.
-inline void apply(const Group& g, const Vector& j, const Vector& moment_a, Motion& a, Motion& b) {
-    a.linear = a.linear - a.inverse_mass * j;
-    b.linear = b.linear + b.inverse_mass * j;
-    a.angular = a.angular - g.tensor(inertia_a) * moment_a;
-    b.angular = b.angular + g.tensor(inertia_b) * (moment_a + cross(g.vector(between), j));
+// An impulse on B, and its moment about A's centre.
+struct Impulse {
+    Vector linear, angular;
+};
+
+// Of a manifold: along the normal at each point, along both tangents and as a twist (`friction`).
+template <class AtPoint>
+inline Impulse total(const Group& g, int points, AtPoint&& along_normal_at, const Vector& friction) {
+    const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
+    const Vector across = friction.x * t1 + friction.y * cross(n, t1);
+    Lanes along_normal{};
+    Vector angular = cross(g.vector(friction_arm), across) + friction.z * n;
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) {
+        along_normal += along_normal_at(i);
+        angular = angular + along_normal_at(i) * g.vector(i, turn);
+    }
+    return {along_normal * n + across, angular};
+}
+
+// And its opposite on A.
+inline void apply(const Group& g, const Impulse& j, Motion& a, Motion& b) {
+    a.linear = a.linear - a.inverse_mass * j.linear;
+    b.linear = b.linear + b.inverse_mass * j.linear;
+    a.angular = a.angular - g.tensor(inertia_a) * j.angular;
+    b.angular = b.angular + g.tensor(inertia_b) * (j.angular + cross(g.vector(between), j.linear));
 }
 
 // What B does seen from A: the velocity of B's part at A's centre and the spin. At an arm r from A's centre the velocity is
@@ -269,15 +289,7 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
-        const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
-        const Vector friction = g[friction_1] * t1 + g[friction_2] * cross(n, t1);
-        Lanes along_normal{};
-        Vector turning = g[twist] * n + cross(g.vector(friction_arm), friction);
-        for (int i = 0; i < g.points; ++i) {
-            along_normal += g.at(i, impulse);
-            turning = turning + g.at(i, impulse) * g.vector(i, turn);
-        }
-        apply(g, along_normal * n + friction, turning, a, b);
+        apply(g, total(g, g.points, [&](int i) { return g.at(i, impulse); }, g.vector(friction_1)), a, b);
         save(bodies, g.a, g.moved_a, a);
         save(bodies, g.b, g.moved_b, b);
     }
@@ -432,16 +444,7 @@ inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) 
         g[friction_2_sum] += g[friction_2];
         g[twist_sum] += g[twist];
     }
-    const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
-    const Vector friction = changes.friction.x * t1 + changes.friction.y * cross(n, t1);
-    Lanes along_normal{};
-    Vector turning = cross(g.vector(friction_arm), friction) + changes.friction.z * n;
-#pragma GCC unroll 4
-    for (int i = 0; i < points; ++i) {
-        along_normal += changes.normal[i];
-        turning = turning + changes.normal[i] * g.vector(i, turn);
-    }
-    apply(g, along_normal * n + friction, turning, a, b);
+    apply(g, total(g, points, [&](int i) { return changes.normal[i]; }, changes.friction), a, b);
     save(bodies, g.a, g.moved_a, a);
     save(bodies, g.b, g.moved_b, b);
 }
@@ -470,15 +473,8 @@ void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodi
 void sum(const Groups& groups, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
-        const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
-        const Vector friction = g[friction_1_sum] * t1 + g[friction_2_sum] * cross(n, t1);
-        Lanes along_normal{};
-        Vector turning = g[twist_sum] * n + cross(g.vector(friction_arm), friction);
-        for (int i = 0; i < g.points; ++i) {
-            along_normal += g.at(i, impulse_sum);
-            turning = turning + g.at(i, impulse_sum) * g.vector(i, turn);
-        }
-        g.set(force, along_normal * n + friction);
-        g.set(moment, turning);
+        const Impulse sums = total(g, g.points, [&](int i) { return g.at(i, impulse_sum); }, g.vector(friction_1_sum));
+        g.set(force, sums.linear);
+        g.set(moment, sums.angular);
     }
 }
