@@ -1,6 +1,7 @@
 #include "sim/narrow_phase.h"
 
 #include "sim/collision/carry_over.h"
+#include "sim/collision/growth.h"
 #include "sim/touch.h"
 #include "sim/tuning.h"
 
@@ -26,6 +27,12 @@ double distance(const Bounds& a, const Bounds& b) {
 
 // The manifold's normal is that of a face of its second shape (feature_contact.cpp).
 bool of_second(const Manifold& m) { return (m.points[0].feature >> 63) != 0; }
+
+bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l.part < r.part : !l.more && r.more; }
+
+std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch& scratch) {
+    return std::span(scratch.left_out).subspan(m.first_left_out, m.left_out);
+}
 
 }  // namespace
 
@@ -176,25 +183,32 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
     const double travel = a.travel + b.travel;
-    if (holds(entry, a, b, reach, last, last.spent + (travel - last.travel))) return;
+    Standing now = standing(entry, a, b, reach, last, last.spent + (travel - last.travel));
+    if (now == Standing::holds) return;
     const bool a_larger = a.radius >= b.radius;
     const View &large = a_larger ? a : b, &small = a_larger ? b : a;
     const Pose pose = seen_from(large.pose, small.pose);
     last.spent += motion(last.pose, pose, small.radius);
     last.pose = pose;
     last.travel = travel;
-    if (holds(entry, a, b, reach, last, last.spent)) return;
+    if (now == Standing::out_of_date) now = standing(entry, a, b, reach, last, last.spent);
+    if (now == Standing::holds) return;
+    last.sank = last.sank || now == Standing::sank;
     last.spent = 0.0;
     search(index, a, b, reach, found);
 }
 
 // Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
 // date.
-bool NarrowPhase::holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved) {
-    if (last.outcome == Search::Outcome::apart) return last.gap - moved > reach;
-    if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * std::min(a.radius, b.radius)) return false;
+NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last,
+                                            double moved) {
+    const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
+    const double radius = std::min(a.radius, b.radius);
+    if (last.outcome == Search::Outcome::apart) return told(last.gap - moved > reach);
+    if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * radius) return Standing::out_of_date;
     const double touch = touch_distance(a.radius, b.radius);
-    bool stands = true;
+    bool stands = true, missed = false;
+    double deepest = 0.0, spare = 0.0;   // of a pair of faces, in one manifold or two
     for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
         Manifold& m = manifolds_[k];
         follow(anchors_[k], a.pose, b.pose, m);
@@ -203,21 +217,30 @@ bool NarrowPhase::holds(const Entry& entry, const View& a, const View& b, double
             stands = stands && m.points[std::size_t(i)].separation <= reach;
             nearest = std::min(nearest, m.points[std::size_t(i)].separation);
         }
+        deepest = m.more ? std::min(deepest, nearest) : nearest;
+        if (!m.more) spare = deepest_spare(anchors_[k], a.pose, b.pose, m);
+        const bool last_of_faces = k + 1 == entry.first + entry.count || !manifolds_[k + 1].more;
+        missed = missed || (last_of_faces && sank(spare, deepest, radius));
         // Whether it touches is told to less than what anchors on edges and balls are off by.
         stands = stands && (nearest <= touch || nearest > moved);
     }
-    return stands;
+    return missed ? Standing::sank : told(stands);
 }
 
 void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, Found& found) {
     const Entry& entry = entries_[index];
     Search& last = searches_[entry.search];
+    const double radius = std::min(a.radius, b.radius);
     const auto begin = std::uint32_t(found.manifolds.size());
     found.scratch.axis = last.axis;
     found.scratch.gap = 0.0;
+    found.scratch.left_out.clear();
+    found.scratch.before = std::span(manifolds_).subspan(entry.first, entry.count);
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = found.scratch.axis;
     last.gap = found.scratch.gap;
+    last.sank = last.sank && entry.count > 0;
+    if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
     last.outcome = count > 0 ? Search::Outcome::near : Search::Outcome::apart;
     if (count == 0) {
@@ -226,23 +249,32 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     }
     // A surface's triangles are found in the order of its tree.
     const auto first = found.manifolds.begin() + begin;
-    if (count > 1)
-        std::stable_sort(first, found.manifolds.end(), [](const Manifold& l, const Manifold& r) { return l.part < r.part; });
+    if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
     const bool swapped = b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
     std::uint32_t old = entry.first;
     const std::uint32_t old_end = entry.first + entry.count;
     for (auto m = first; m != found.manifolds.end(); ++m) {
         m->a = entry.pair.a;
         m->b = entry.pair.b;
-        while (old < old_end && manifolds_[old].part < m->part) ++old;
-        if (old < old_end && manifolds_[old].part == m->part) {
-            // To where its points are now on the larger body.
+        const auto bring = [&] {   // the old points to where they are now on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
                 manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a[i])
                                                                           : b.pose.to_world(anchors_[old].on_b[i]);
-            carry_over(manifolds_[old], tuning::carry_reach * std::min(a.radius, b.radius), *m);
+        };
+        while (old < old_end && earlier(manifolds_[old], *m)) ++old;
+        if (old < old_end && !earlier(*m, manifolds_[old])) {
+            bring();
+            carry_over(manifolds_[old++], tuning::carry_reach * radius, *m);
+            const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;
+            if (old < old_end && manifolds_[old].part == m->part && alone) {
+                bring();
+                hand_over(manifolds_[old], *m);
+            }
         }
-        found.anchors.push_back(make_anchors(*m, a.pose, b.pose, of_second(*m) != swapped));
+        Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, of_second(*m) != swapped));
+        if (m->more) continue;
+        const bool one = m + 1 == found.manifolds.end() || !(m + 1)->more;
+        keep_spares(left_out(*m, found.scratch), std::span(m, one ? 1 : 2), a.pose, b.pose, anchors);
     }
     if (count != entry.count) {
         found.changes.push_back({index, begin, count});
@@ -252,6 +284,20 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     std::copy(found.anchors.begin() + begin, found.anchors.end(), anchors_.begin() + entry.first);
     found.manifolds.resize(begin);
     found.anchors.resize(begin);
+}
+
+// Second manifolds where points that were left out are needed; found after all others.
+void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin, Found& found) {
+    const auto old = std::span(manifolds_).subspan(entry.first, entry.count);
+    const std::size_t end = found.manifolds.size();
+    for (std::size_t k = begin; k < end; ++k) {
+        const auto of_part = [part = found.manifolds[k].part](const Manifold& m) { return m.part == part; };
+        const auto first = std::find_if(old.begin(), old.end(), of_part);
+        const auto last = std::find_if_not(first, old.end(), of_part);
+        if (first == last) continue;
+        const Manifold more = grow(left_out(found.manifolds[k], found.scratch), {first, last}, radius, found.manifolds[k]);
+        if (more.count > 0) found.manifolds.push_back(more);
+    }
 }
 
 // Brings the manifolds into the order of the entries, where any have come or gone.

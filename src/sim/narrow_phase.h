@@ -53,6 +53,7 @@ private:
         double spent = 0.0;                       // m
         double travel = 0.0;                      // m, of both bodies by then
         Pose pose;
+        bool sank = false;                        // by a point that was left out: from now on no point is given up
     };
     struct Entry {
         BroadPhase::Pair pair;
@@ -85,9 +86,11 @@ private:
     void share_out(const ThreadPool& pool);
     void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;
-    bool holds(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
+    enum class Standing { holds, out_of_date, sank };
+    Standing standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
     void examine(std::uint32_t entry, double h, Found& found);
     void search(std::uint32_t entry, const View& a, const View& b, double margin, Found& found);
+    void add_more(const Entry& entry, double radius, std::size_t begin, Found& found);
     void put_in_order(ThreadPool& pool);
 
     Mode mode_;

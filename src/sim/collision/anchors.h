@@ -10,6 +10,7 @@
 #include "sim/collision/manifold.h"
 
 #include <array>
+#include <span>
 
 namespace tumble {
 
@@ -17,10 +18,27 @@ struct Anchors {
     std::array<Vec3, Manifold::capacity> on_a, on_b;   // the points' ends on the surfaces, body frames
     Vec3 normal = Vec3::Zero();                        // in the frame of the body it belongs to
     bool normal_of_b = false;
+    // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal does not belong to,
+    // and how high the face lies there along the normal (m, in the frame of the face's body).
+    struct Spare {
+        Vec3 point;
+        double face;
+    };
+    static constexpr int spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
+    int spares = 0;
+    std::array<Spare, spare_capacity> spare;
 };
 
 /// `normal_of_b`: the normal is that of a face of B.
 Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
+
+/// Adds what was left out and is not kept: of many, those farthest from what is kept and from each other.
+/// `kept`: the manifold, and its second one where there is one.
+void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
+                 Anchors& anchors);
+
+/// Separation of the spare that lies deepest, for `m` brought up to date; infinity where there is none.
+double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
 
 /// Normal, positions and separations of `m` for new poses.
 void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);

@@ -7,6 +7,19 @@ namespace {
 
 constexpr double same_side = 0.9;   // cosine between two steps' normals: of 26 degrees
 
+// The load must not be lost where the points have changed: what is left goes to the nearest ones.
+void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Manifold& m) {
+    if (old.normal.dot(m.normal) < same_side) return;
+    for (int k = 0; k < old.count; ++k) {
+        const ContactPoint& before = old.points[std::size_t(k)];
+        if (taken[k] || before.impulse == 0.0) continue;
+        const auto distance = [&](const ContactPoint& p) { return (p.position - before.position).squaredNorm(); };
+        const auto nearest = std::min_element(m.points.begin(), m.points.begin() + m.count,
+                                              [&](const ContactPoint& l, const ContactPoint& r) { return distance(l) < distance(r); });
+        nearest->impulse += before.impulse;
+    }
+}
+
 }  // namespace
 
 void carry_over(const Manifold& old, double reach, Manifold& m) {
@@ -40,16 +53,9 @@ void carry_over(const Manifold& old, double reach, Manifold& m) {
         point.impulse = old.points[std::size_t(best)].impulse;
         taken[best] = true;
     }
-    // The load must not be lost where the points have changed: what is left goes to the nearest ones.
-    if (old.normal.dot(m.normal) < same_side) return;
-    for (int k = 0; k < old.count; ++k) {
-        const ContactPoint& before = old.points[std::size_t(k)];
-        if (taken[k] || before.impulse == 0.0) continue;
-        const auto distance = [&](const ContactPoint& p) { return (p.position - before.position).squaredNorm(); };
-        const auto nearest = std::min_element(m.points.begin(), m.points.begin() + m.count,
-                                              [&](const ContactPoint& l, const ContactPoint& r) { return distance(l) < distance(r); });
-        nearest->impulse += before.impulse;
-    }
+    hand_over(old, taken, m);
 }
+
+void hand_over(const Manifold& old, Manifold& m) { hand_over(old, {}, m); }
 
 }  // namespace tumble

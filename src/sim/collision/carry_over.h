@@ -11,4 +11,7 @@ namespace tumble {
 /// Friction, its tangent and its twist come along.
 void carry_over(const Manifold& old, double reach, Manifold& m);
 
+/// The normal impulses of a second manifold that is no longer needed, to the nearest points of what is left.
+void hand_over(const Manifold& old, Manifold& m);
+
 }  // namespace tumble

@@ -94,16 +94,23 @@ void collide_parts(const Compound& whole, const Pose& pose, const Collider& othe
     for (const std::uint32_t k : near) {
         const std::size_t first = out.size();
         const Compound::Part& part = whole.parts[k];
+        scratch.part += k * stride;
         if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
         else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
         const auto seam = [&](const Manifold& m) { return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal)); };
         out.erase(std::remove_if(out.begin() + std::ptrdiff_t(first), out.end(), seam), out.end());
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
+        scratch.part -= k * stride;
     }
     scratch.gap = 0.0;   // one part's says nothing of the others
 }
 
 }  // namespace
+
+bool CollisionScratch::was_on_b() const {
+    const auto found = std::find_if(before.begin(), before.end(), [&](const Manifold& m) { return m.part == part; });
+    return found != before.end() && (found->points[0].feature >> 63) != 0;
+}
 
 void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out) {

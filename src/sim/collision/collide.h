@@ -5,6 +5,7 @@
 #include "sim/collision/collider.h"
 #include "sim/collision/manifold.h"
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,13 @@ struct CollisionScratch {
     // (m) the shapes are at least, where nothing was found and that is known.
     std::uint32_t axis = 0;
     double gap = 0.0;
+    // The pair's manifolds of the last step, and which part of it is looked at (Manifold::part): B's face goes on being the
+    // one that the manifold lies on, though A's would do as well.
+    std::span<const Manifold> before;
+    std::uint32_t part = 0;
+    bool was_on_b() const;
     std::vector<ContactPoint> points;
+    std::vector<ContactPoint> left_out;   // of all manifolds found, in order: Manifold::first_left_out
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;
     std::vector<std::uint32_t> labels, vertices, edges_a, edges_b;

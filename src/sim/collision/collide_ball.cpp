@@ -123,7 +123,7 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     if (scratch.points.empty()) return;
     Manifold m;
     m.normal = normal;
-    keep_best_points(scratch.points, m);
+    keep_best_points(scratch.points, m, scratch.left_out);
     out.push_back(m);
 }
 

@@ -200,7 +200,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
-    keep_best_points(scratch.points, m);
+    keep_best_points(scratch.points, m, scratch.left_out);
 }
 
 }  // namespace
@@ -225,7 +225,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
 
     const double smaller = std::min(a.radius, b.radius);
     const double preference = axis_preference(smaller, scratch.choice);
-    bool of_b = face_b.separation > face_a.separation + preference;
+    bool of_b = face_b.separation > face_a.separation + (scratch.was_on_b() ? -preference : preference);
     double separation = of_b ? face_b.separation : face_a.separation;
     double best = separation + preference;
     int edge_i = -1, edge_j = -1;

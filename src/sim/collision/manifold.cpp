@@ -36,7 +36,7 @@ double gain(const Manifold& chosen, const Vec3& p) {
 
 }  // namespace
 
-void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold) {
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out) {
     if (candidates.size() <= Manifold::capacity) {
         manifold.count = int(candidates.size());
         std::copy(candidates.begin(), candidates.end(), manifold.points.begin());
@@ -72,12 +72,15 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
         for (const ContactPoint& lower : candidates) {
             const double nearer = upper.separation - lower.separation;
             if (!(nearer > nothing * size)) continue;
-            const auto same = [&](const ContactPoint& p) { return p.feature == lower.feature; };
-            if (std::any_of(manifold.points.begin(), manifold.points.begin() + manifold.count, same)) continue;
+            if (manifold.has(lower.feature)) continue;
             if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
                 upper = lower;
         }
     }
+    manifold.first_left_out = std::uint32_t(left_out.size());
+    for (const ContactPoint& p : candidates)
+        if (!manifold.has(p.feature)) left_out.push_back(p);
+    manifold.left_out = std::uint32_t(left_out.size()) - manifold.first_left_out;
 }
 
 }  // namespace tumble

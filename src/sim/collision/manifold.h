@@ -18,10 +18,11 @@ struct ContactPoint {
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
-    static constexpr int capacity = 4;   // spans any flat contact area; more points only repeat each other
+    static constexpr int capacity = 4;   // spans most flat contact areas; where more are needed a second manifold has them
 
     std::uint32_t a = 0, b = 0;   // bodies
     std::uint32_t part = 0;       // of the pair: which parts of compounds and which triangle of a surface meet, else 0
+    bool more = false;            // those of the same two faces' points that the first manifold has no room for
     Vec3 normal = Vec3::Zero();
     int count = 0;
     std::array<ContactPoint, capacity> points;
@@ -32,10 +33,18 @@ struct Manifold {
     double friction[2] = {0.0, 0.0};      // N s on B
     double twist = 0.0;                   // N m s on B
     bool solved_directly = false;         // by the direct contact solver, in the last step
+
+    bool has(std::uint64_t feature) const {
+        for (int i = 0; i < count; ++i)
+            if (points[std::size_t(i)].feature == feature) return true;
+        return false;
+    }
+
+    std::uint32_t first_left_out = 0, left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
 };
 
 /// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and three that span a
-/// large area with it: of those that touch before the others.
-void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold);
+/// large area with it: of those that touch before the others. The rest is appended to `left_out`.
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out);
 
 }  // namespace tumble

@@ -191,7 +191,7 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
 
     const double preference = axis_preference(std::min(a.radius, b.radius), scratch.choice);
     SeparatingAxis axis;
-    if (face_b.separation > face_a.separation + preference) {
+    if (face_b.separation > face_a.separation + (scratch.was_on_b() ? -preference : preference)) {
         axis = {SeparatingAxis::Kind::face_b, face_b.separation, 0, face_b.face,
                 -(b_in_a.rotation * b.faces[face_b.face].normal)};
     } else {

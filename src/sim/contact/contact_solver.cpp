@@ -66,7 +66,9 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         all_manifolds += islands.manifolds(k).size();
         all_pairs += pairs(problem, islands.manifolds(k));
     }
-    const bool few = all_pairs <= tuning::direct_few_pairs;
+    // What is solved directly stays so a little beyond where it would begin: from one solver to the other the bodies are
+    // lifted out of their soft contacts and sink back in, and in between the two a heap would rock for ever.
+    few_ = all_pairs <= (few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs);
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
@@ -88,16 +90,19 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             continue;
         }
         if (bodies.size() == 1) {
+            memory.work = 0;
             direct_.push_back(k);
             continue;
         }
         if (bodies.size() <= tuning::direct_most_bodies) {
-            const double ratio = load(problem, islands, k, 0, enough).ratio;
-            if (free || few || ratio >= enough) {
+            const double needed = memory.direct ? tuning::direct_stay * enough : enough;
+            const double ratio = load(problem, islands, k, 0, needed).ratio;
+            if (free || few_ || ratio >= needed) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
-                const std::size_t work = memory.solver->factor_work(problem, bodies, manifolds);
-                if (work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
-                    candidates_.push_back({k, ratio, work * std::size_t(1 + memory.factorisations)});
+                memory.work = memory.solver->factor_work(problem, bodies, manifolds);
+                if (memory.work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
+                    const std::size_t expected = memory.work * std::size_t(1 + memory.factorisations);
+                    candidates_.push_back({k, ratio / (needed / enough), memory.direct ? expected / 2 : expected});
                     continue;
                 }
             }
@@ -174,16 +179,23 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         failed_[k] = !memory.solver->solve(problem, bodies, islands.manifolds(direct_[k]));
         memory.factorisations = memory.solver->factorisations();
     });
+    for (const std::size_t k : softly_) memory_[islands.bodies(k)[0]].direct = false;
     for (std::size_t k = 0; k < direct_.size(); ++k) {
         Memory& memory = memory_[islands.bodies(direct_[k])[0]];
         for (const std::uint32_t m : islands.manifolds(direct_[k])) problem.manifolds[m].solved_directly = true;
-        if (!failed_[k]) {
+        // The first solve of a landing may be hard. What is hard again, or always, is none for this solver.
+        const bool hard = memory.work * std::size_t(1 + memory.factorisations) > 2 * tuning::direct_budget;
+        const bool first = !memory.direct && memory.failures == 0;
+        memory.direct = failed_[k] == 0;
+        if (hard && first) memory.factorisations = 1;
+        if (failed_[k] || (hard && !first)) {
+            memory.wait = tuning::direct_wait << memory.failures;
+            memory.failures = std::min(memory.failures + 1, tuning::direct_most_failures);
+            memory.factorisations = 1;
+        } else if (!hard) {
             memory.failures = 0;
-            continue;
         }
-        memory.wait = tuning::direct_wait << memory.failures;
-        memory.failures = std::min(memory.failures + 1, tuning::direct_most_failures);
-        softly_.push_back(direct_[k]);
+        if (failed_[k]) softly_.push_back(direct_[k]);
     }
     if (!softly_.empty()) {
         deal(islands, problem);

@@ -32,6 +32,8 @@ private:
         std::unique_ptr<DirectSolver> solver;
         int wait = 0, failures = 0;   // steps until the next trial; failures in a row
         int factorisations = 2;       // of the last solve: what the next may take
+        std::size_t work = 0;         // of one of them
+        bool direct = false;          // solved so in the last step
         PileLoad load;                // as of the last look
         int looked = 0;               // steps for which that holds
     };
@@ -51,6 +53,7 @@ private:
     PileLoads loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;
+    bool few_ = false;                    // pairs in all: every island may be solved directly
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
     std::vector<int> fineness_;           // of softly_
