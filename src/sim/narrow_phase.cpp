@@ -235,7 +235,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.axis = last.axis;
     found.scratch.gap = 0.0;
     found.scratch.left_out.clear();
-    found.scratch.before = std::span(manifolds_).subspan(entry.first, entry.count);
+    found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = found.scratch.axis;
     last.gap = found.scratch.gap;
@@ -295,7 +295,7 @@ void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin,
         const auto first = std::find_if(old.begin(), old.end(), of_part);
         const auto last = std::find_if_not(first, old.end(), of_part);
         if (first == last) continue;
-        const Manifold more = grow(left_out(found.manifolds[k], found.scratch), {first, last}, radius, found.manifolds[k]);
+        const Manifold more = grow({first, last}, radius, found.manifolds[k], found.scratch.left_out);
         if (more.count > 0) found.manifolds.push_back(more);
     }
 }

@@ -50,7 +50,8 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
         }
         Manifold m;
         m.normal = Vec3::UnitY();
-        keep_best_points(points, m);
+        std::vector<ContactPoint> left_out;
+        keep_best_points(points, m, left_out);
         ASSERT_EQ(m.count, 4);
         for (int k = 0; k < 64; ++k) {   // in every direction something stands out by more than cos 72 degrees: a corner of a pentagon
             const Vec3 way(std::cos(0.1 * k), 0.0, std::sin(0.1 * k));
@@ -78,8 +79,11 @@ TEST(Manifold, WhatBearsIsKept) {
         for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[std::size_t(random.below(int(i)))]);
         Manifold m;
         m.normal = Vec3::UnitY();
-        keep_best_points(points, m);
+        std::vector<ContactPoint> left_out;
+        keep_best_points(points, m, left_out);
         ASSERT_EQ(m.count, 4);
+        ASSERT_EQ(int(left_out.size()), corners - 4);
+        for (const ContactPoint& p : left_out) EXPECT_FALSE(m.has(p.feature)) << trial;
         int kept = 0;
         for (int i = 0; i < 4; ++i) kept += m.points[std::size_t(i)].separation < 0.0;
         EXPECT_EQ(kept, bearing) << trial;

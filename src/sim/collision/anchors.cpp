@@ -20,28 +20,27 @@ Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, 
 
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
                  Anchors& anchors) {
-    std::vector<const ContactPoint*> left;
-    for (const ContactPoint& p : left_out)
-        if (std::none_of(kept.begin(), kept.end(), [&](const Manifold& m) { return m.has(p.feature); })) left.push_back(&p);
-    std::vector<Vec3> places;
-    for (const Manifold& m : kept)
-        for (int i = 0; i < m.count; ++i) places.push_back(m.points[std::size_t(i)].position);
-    const auto farness = [&](const ContactPoint* p) {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const Vec3& place : places) nearest = std::min(nearest, (p->position - place).squaredNorm());
-        return nearest;
-    };
-    for (; anchors.spares < Anchors::spare_capacity && !left.empty(); ++anchors.spares) {
-        auto next = left.begin();
-        if (left.size() > std::size_t(Anchors::spare_capacity - anchors.spares))
-            next = std::max_element(left.begin(), left.end(), [&](auto* l, auto* r) { return farness(l) < farness(r); });
-        const ContactPoint& p = **next;
+    const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
         const Vec3 half = 0.5 * p.separation * kept[0].normal;
         const Vec3 on_a = pose_a.to_body(p.position - half), on_b = pose_b.to_body(p.position + half);
-        const bool of_b = anchors.normal_of_b;
-        anchors.spare[std::size_t(anchors.spares)] = {of_b ? on_a : on_b, anchors.normal.dot(of_b ? on_b : on_a)};
-        places.push_back(p.position);
-        left.erase(next);
+        anchors.spare[std::size_t(anchors.spares++)] = {of_b ? on_a : on_b, anchors.normal.dot(of_b ? on_b : on_a)};
+    };
+    if (left_out.size() <= Anchors::spare_capacity) {
+        std::for_each(left_out.begin(), left_out.end(), add);
+        return;
+    }
+    std::vector<double> farness;   // squared distance from the nearest that is kept or chosen
+    for (const ContactPoint& p : left_out) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Manifold& m : kept)
+            for (int i = 0; i < m.count; ++i) nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
+        farness.push_back(nearest);
+    }
+    while (anchors.spares < int(Anchors::spare_capacity)) {
+        const auto next = std::size_t(std::max_element(farness.begin(), farness.end()) - farness.begin());
+        add(left_out[next]);
+        for (std::size_t i = 0; i < left_out.size(); ++i)
+            farness[i] = std::min(farness[i], (left_out[i].position - left_out[next].position).squaredNorm());
     }
 }
 

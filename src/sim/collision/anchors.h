@@ -24,7 +24,7 @@ struct Anchors {
         Vec3 point;
         double face;
     };
-    static constexpr int spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
+    static constexpr std::size_t spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
     int spares = 0;
     std::array<Spare, spare_capacity> spare;
 };
@@ -32,7 +32,7 @@ struct Anchors {
 /// `normal_of_b`: the normal is that of a face of B.
 Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
 
-/// Adds what was left out and is not kept: of many, those farthest from what is kept and from each other.
+/// Adds what was left out: of many, those farthest from what is kept and from each other.
 /// `kept`: the manifold, and its second one where there is one.
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
                  Anchors& anchors);

@@ -6,6 +6,7 @@
 #include "sim/collision/manifold.h"
 
 #include <span>
+#include <vector>
 
 namespace tumble {
 
@@ -14,8 +15,8 @@ namespace tumble {
 bool sank(double left_out, double deepest, double radius);
 
 /// Chooses among the points of `found` and those left out of it again: all that the manifolds of `before` (one, or two) had,
-/// those that sank, and others while there is room. Returns the second manifold, without points where one is enough. Where
-/// other faces meet than before, `found` stays as it is.
-Manifold grow(std::span<const ContactPoint> left_out, std::span<const Manifold> before, double radius, Manifold& found);
+/// those that sank, and others while there is room. Returns the second manifold, without points where one is enough; what
+/// is left out now is appended to `left_out`. Where other faces meet than before, `found` stays as it is.
+Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& left_out);
 
 }  // namespace tumble
