@@ -18,8 +18,8 @@ struct Anchors {
     std::array<Vec3, Manifold::capacity> on_a, on_b;   // the points' ends on the surfaces, body frames
     Vec3 normal = Vec3::Zero();                        // in the frame of the body it belongs to
     bool normal_of_b = false;
-    // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal does not belong to,
-    // and how high the face lies there along the normal (m, in the frame of the face's body).
+    // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal
+    // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body).
     struct Spare {
         Vec3 point;
         double face;

@@ -28,7 +28,7 @@ struct CollisionScratch {
     std::uint32_t part = 0;
     bool was_on_b() const;
     std::vector<ContactPoint> points;
-    std::vector<ContactPoint> left_out;   // of all manifolds found, in order: Manifold::first_left_out
+    std::vector<ContactPoint> left_out;   // of all manifolds found, in order: Manifold::first_left_out. Cleared by the caller
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;
     std::vector<std::uint32_t> labels, vertices, edges_a, edges_b;

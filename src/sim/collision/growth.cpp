@@ -41,9 +41,9 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     candidates.insert(candidates.end(), left_out.begin() + found.first_left_out, left_out.begin() + found.first_left_out + found.left_out);
     double deepest = std::numeric_limits<double>::infinity();
     for (const ContactPoint& p : candidates)
-        for (std::size_t k = 0; k < before.size(); ++k) {
-            if (!before[k].has(p.feature)) continue;
+        for (std::size_t k = 0; k < std::min<std::size_t>(before.size(), 2); ++k) {
             Manifold& to = k == 0 ? first : more;
+            if (!before[k].has(p.feature) || to.count == Manifold::capacity) continue;
             to.points[std::size_t(to.count++)] = p;
             deepest = std::min(deepest, p.separation);
         }
@@ -51,7 +51,7 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     for (const ContactPoint& p : candidates)
         if (!kept(p) && sank(p.separation, deepest, radius)) add(p, first, more);
     for (const ContactPoint& p : candidates)   // those of `found` come first
-        if (!kept(p) && first.count < std::min(found.count, Manifold::capacity)) add(p, first, more);
+        if (!kept(p) && first.count < found.count) add(p, first, more);
     if (first.count == 0) {   // all that is left of the first has gone
         std::swap(first.points, more.points);
         std::swap(first.count, more.count);

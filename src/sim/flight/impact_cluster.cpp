@@ -33,6 +33,7 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     const double margin = widening_ * touch_distance(a, b), reach = a.radius + b.radius + margin;
     if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
     const std::size_t first = manifolds_.size();
+    scratch_.left_out.clear();
     tumble::collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_, manifolds_);
     for (std::size_t k = first; k < manifolds_.size(); ++k) {
         manifolds_[k].a = pair.first;

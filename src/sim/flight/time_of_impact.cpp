@@ -293,6 +293,7 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
         if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b))) propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
     } else {
         manifolds_.clear();
+        scratch_.left_out.clear();
         collide(collider_of(pair.a), pose_of(pair.a, a), collider_of(pair.b), pose_of(pair.b, b), 16.0 * near, scratch_, manifolds_);
         for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
     }
