@@ -256,6 +256,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     for (auto m = first; m != found.manifolds.end(); ++m) {
         m->a = entry.pair.a;
         m->b = entry.pair.b;
+        const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;   // without a second manifold
         const auto bring = [&] {   // the old points to where they are now on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
                 manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a[i])
@@ -265,7 +266,6 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
         if (old < old_end && !earlier(*m, manifolds_[old])) {
             bring();
             carry_over(manifolds_[old++], tuning::carry_reach * radius, *m);
-            const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;
             if (old < old_end && manifolds_[old].part == m->part && alone) {
                 bring();
                 hand_over(manifolds_[old], *m);
@@ -273,8 +273,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
         }
         Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, of_second(*m) != swapped));
         if (m->more) continue;
-        const bool one = m + 1 == found.manifolds.end() || !(m + 1)->more;
-        keep_spares(left_out(*m, found.scratch), std::span(m, one ? 1 : 2), a.pose, b.pose, anchors);
+        keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
     }
     if (count != entry.count) {
         found.changes.push_back({index, begin, count});

@@ -1,6 +1,5 @@
 // Manifolds of more than four points: what is taken in, what stays.
 #include "sim/collision/growth.h"
-#include "sim/tuning.h"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +10,20 @@ using namespace tumble;
 
 namespace {
 
-/// The corners of a regular octagon on which a face lies, tilted a little about z.
-std::vector<ContactPoint> octagon(double tilt) {
+/// The corners of a regular polygon on which a face lies, tilted a little about z.
+std::vector<ContactPoint> polygon(int corners, double tilt) {
     std::vector<ContactPoint> points;
-    for (int i = 0; i < 8; ++i) {
-        const double angle = 0.25 * std::numbers::pi * i;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / corners;
         ContactPoint& p = points.emplace_back();
         p.position = Vec3(std::cos(angle), 0.0, std::sin(angle));
         p.separation = -1e-3 - tilt * p.position.x();
-        p.feature = std::uint64_t(7) << 42 | std::uint64_t(i);
+        p.feature = std::uint64_t(i);
     }
     return points;
 }
+
+std::vector<ContactPoint> octagon(double tilt) { return polygon(8, tilt); }
 
 struct Found {
     explicit Found(const std::vector<ContactPoint>& points) {
@@ -92,14 +93,7 @@ TEST(Growth, IsNeverWithoutAFirstManifold) {
 
 // Of sixteen corners eight can be kept: one that sank comes in for the highest.
 TEST(Growth, ForTheHighestWhereThereIsNoRoom) {
-    std::vector<ContactPoint> points;
-    for (int i = 0; i < 16; ++i) {
-        const double angle = 0.125 * std::numbers::pi * i;
-        ContactPoint& p = points.emplace_back();
-        p.position = Vec3(std::cos(angle), 0.0, std::sin(angle));
-        p.separation = -1e-3;
-        p.feature = std::uint64_t(i);
-    }
+    std::vector<ContactPoint> points = polygon(16, 0.0);
     std::vector<Manifold> both(2);
     both[1].more = true;
     for (std::size_t i = 0; i < 8; ++i) {

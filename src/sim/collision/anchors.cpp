@@ -45,9 +45,10 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
 }
 
 double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
+    double deepest = std::numeric_limits<double>::infinity();
+    if (anchors.spares == 0) return deepest;   // the most part
     const double between = m.normal.dot(pose_b.position - pose_a.position);
     const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
-    double deepest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
         const Anchors::Spare& spare = anchors.spare[i];
         const double height = n.dot(spare.point);
