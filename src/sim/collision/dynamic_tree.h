@@ -1,5 +1,8 @@
 // A bounding volume hierarchy whose boxes come, go and move one at a time: insertion where the surface grows least
 // (Goldsmith and Salmon 1987), balance by rotations (Kopta and others 2012), all in logarithmic time.
+//
+// A node holds the boxes of its two children, in single precision and rounded outwards: one cache line tells which way to go.
+// The items' own boxes are kept as they were given, and what is found overlaps those.
 #pragma once
 
 #include "core/vector.h"
@@ -13,47 +16,74 @@ class DynamicTree {
 public:
     static constexpr std::uint32_t none = UINT32_MAX;
 
-    /// Puts in, or moves, the item with this index (indices are small whole numbers).
+    /// Puts in, or moves, the item with this index (indices are small whole numbers, below 2^31).
     void set(std::uint32_t item, const Bounds& box);
     void remove(std::uint32_t item);
-    const Bounds& box(std::uint32_t item) const { return nodes_[leaf_[item]].box; }
-    bool holds(std::uint32_t item) const { return item < leaf_.size() && leaf_[item] != none; }
+    const Bounds& box(std::uint32_t item) const { return items_[item].box; }
+    bool holds(std::uint32_t item) const { return item < items_.size() && items_[item].held; }
 
     /// Calls visit(item) for each item whose box overlaps; in an order that depends on the tree's history.
     template <class Visit>
     void query(const Bounds& box, Visit&& visit) const {
+        const auto look = [&](std::uint32_t child) {
+            if (!leaf(child)) stack_.push_back(child);
+            else if (items_[item_of(child)].box.overlaps(box)) visit(item_of(child));
+        };
         if (root_ == none) return;
-        stack_.assign(1, root_);
+        const Box wide(box);
+        stack_.clear();
+        look(root_);
         while (!stack_.empty()) {
             const Node& node = nodes_[stack_.back()];
             stack_.pop_back();
-            if (!node.box.overlaps(box)) continue;
-            if (node.leaf()) {
-                visit(node.item);
-            } else {
-                stack_.push_back(node.child[1]);
-                stack_.push_back(node.child[0]);
-            }
+            for (int side = 1; side >= 0; --side)
+                if (node.box[side].overlaps(wide)) look(node.child[side]);
         }
     }
 
 private:
-    struct Node {
+    struct Box {
+        float min[3], max[3];
+
+        Box() = default;
+        explicit Box(const Bounds& exact);
+        bool operator==(const Box&) const = default;
+        // Without branches: which way it goes is as good as chance.
+        bool overlaps(const Box& b) const {
+            return (min[0] <= b.max[0]) & (b.min[0] <= max[0]) & (min[1] <= b.max[1]) & (b.min[1] <= max[1]) &
+                   (min[2] <= b.max[2]) & (b.min[2] <= max[2]);
+        }
+        float surface() const;
+    };
+    // A child is another node, or an item with the highest bit set.
+    struct alignas(64) Node {
+        Box box[2];
+        std::uint32_t child[2] = {none, none};
+        std::uint32_t parent = none;
+    };
+    struct Item {
         Bounds box;
         std::uint32_t parent = none;
-        std::uint32_t child[2] = {none, none};
-        std::uint32_t item = none;
-        bool leaf() const { return child[0] == none; }
+        bool held = false;
     };
+    static constexpr std::uint32_t leaf_bit = std::uint32_t(1) << 31;
+    static bool leaf(std::uint32_t child) { return (child & leaf_bit) != 0; }
+    static std::uint32_t item_of(std::uint32_t child) { return child & ~leaf_bit; }
+
+    static Box joined(const Box& a, const Box& b);
+    std::uint32_t& parent(std::uint32_t child) { return leaf(child) ? items_[item_of(child)].parent : nodes_[child].parent; }
+    int side_of(std::uint32_t child) { return nodes_[parent(child)].child[1] == child; }
+    void put(std::uint32_t node, int side, std::uint32_t child, const Box& box);
     std::uint32_t take_node();
-    void insert(std::uint32_t leaf);
-    void take_out(std::uint32_t leaf);
-    void refit(std::uint32_t node);
+    void insert(std::uint32_t item, const Box& box);
+    void take_out(std::uint32_t item);
+    void resize(std::uint32_t child, Box box);
     void rotate(std::uint32_t node);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> free_, leaf_;   // nodes not in use; the leaf of each item
-    std::uint32_t root_ = none;
+    std::vector<std::uint32_t> free_;   // nodes not in use
+    std::vector<Item> items_;
+    std::uint32_t root_ = none;         // a node, or the only item
     mutable std::vector<std::uint32_t> stack_;
 };
 
