@@ -11,6 +11,8 @@
 namespace tumble {
 namespace {
 
+constexpr std::size_t ahead = 6;
+
 bool awake(const Body& body) { return body.moves() && !body.asleep; }
 
 // How far (m) any point within `radius` of the body's centre has moved at most.
@@ -59,7 +61,15 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
         for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
     });
     each_share(pool, [&](Found& found) {
-        for (const std::uint32_t i : found.entries) examine(i, h, found);
+        for (std::size_t k = 0; k < found.entries.size(); ++k) {
+            if (k + ahead < found.entries.size()) {
+                const Entry& next = entries_[found.entries[k + ahead]];
+                __builtin_prefetch(&searches_[next.search]);
+                __builtin_prefetch(&views_[next.pair.b]);
+                __builtin_prefetch(reinterpret_cast<const char*>(&views_[next.pair.b]) + 64);
+            }
+            examine(found.entries[k], h, found);
+        }
     });
     put_in_order(pool);
     return manifolds_;

@@ -46,14 +46,14 @@ private:
     };
     // What is known of a pair: the last search, and the smaller body's pose in the frame of the larger: at the search, or at a later look,
     // when it had moved by `spent` since.
-    struct Search {
-        enum class Outcome { none, apart, near } outcome = Outcome::none;
+    struct alignas(64) Search {
+        enum class Outcome : std::uint8_t { none, apart, near } outcome = Outcome::none;
+        bool sank = false;                        // by a point that was left out: from now on no point is given up
         std::uint32_t axis = 0;                   // hint for boxes
         double gap = 0.0;                         // m, at least
         double spent = 0.0;                       // m
         double travel = 0.0;                      // m, of both bodies by then
         Pose pose;
-        bool sank = false;                        // by a point that was left out: from now on no point is given up
     };
     struct Entry {
         BroadPhase::Pair pair;

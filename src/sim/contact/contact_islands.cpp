@@ -1,70 +1,68 @@
 #include "sim/contact/contact_islands.h"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-bool takes_part(const Body& body) { return body.dynamic() && !body.asleep && !body.flying; }
-bool rests_aside(const Body& body) { return body.dynamic() && (body.asleep || body.flying); }
-
-struct Roles {
-    bool a, b;   // whether they take part
-    Roles(const Manifold& m, const std::vector<Body>& bodies) : a(takes_part(bodies[m.a])), b(takes_part(bodies[m.b])) {
-        // What sleeps or flies is not held by this step's contacts.
-        if (rests_aside(bodies[m.a]) || rests_aside(bodies[m.b])) a = b = false;
-    }
-};
-
 }  // namespace
 
-ContactIslands::ContactIslands(std::size_t bodies) : parent_(bodies), island_(bodies), touched_(bodies, 0) {}
+ContactIslands::ContactIslands(std::size_t bodies) : members_(bodies) {}
+
+ContactIslands::Role ContactIslands::role_of(const Body& body) {
+    if (!body.dynamic()) return Role::still;
+    return body.asleep || body.flying ? Role::aside : Role::takes_part;
+}
+
+ContactIslands::Role ContactIslands::look(std::uint32_t i, const std::vector<Body>& bodies) {
+    Member& member = members_[i];
+    if (member.round != round_) member = {.round = round_, .parent = i, .island = none, .role = role_of(bodies[i])};
+    return member.role;
+}
 
 // Union-find with path halving; the lower index is the root.
 std::uint32_t ContactIslands::root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    while (members_[i].parent != i) i = members_[i].parent = members_[members_[i].parent].parent;
     return i;
-}
-
-void ContactIslands::touch(std::uint32_t i) {
-    if (touched_[i] == round_) return;
-    touched_[i] = round_;
-    parent_[i] = i;
-    island_[i] = none;
 }
 
 void ContactIslands::find(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
                           std::span<const std::uint32_t> awake) {
     ++round_;
-    for (const Manifold& m : manifolds) {
-        const auto [a, b] = Roles(m, bodies);
-        if (a) touch(m.a);
-        if (b) touch(m.b);
-        if (!a || !b) continue;
-        const std::uint32_t i = root(m.a), j = root(m.b);
-        if (i < j) parent_[j] = i;
-        else parent_[i] = j;
+    held_.assign(manifolds.size(), none);
+    for (std::size_t k = 0; k < manifolds.size(); ++k) {
+        const std::uint32_t a = manifolds[k].a, b = manifolds[k].b;
+        const Role role_a = look(a, bodies), role_b = look(b, bodies);
+        if (role_a == Role::aside || role_b == Role::aside) continue;
+        for (const std::uint32_t i : {a, b}) {
+            if (members_[i].role != Role::takes_part) continue;
+            members_[i].touched = true;
+            held_[k] = i;
+        }
+        if (role_a != Role::takes_part || role_b != Role::takes_part) continue;
+        const std::uint32_t i = root(a), j = root(b);
+        members_[std::max(i, j)].parent = std::min(i, j);
     }
     // Number the islands by their lowest body, count, then deal out.
     first_body_.assign(1, 0);
     first_manifold_.assign(1, 0);
+    const auto touched = [&](std::uint32_t i) { return members_[i].round == round_ && members_[i].touched; };
     for (const std::uint32_t i : awake) {
-        if (touched_[i] != round_) continue;
-        std::uint32_t& number = island_[root(i)];
+        if (!touched(i)) continue;
+        std::uint32_t& number = members_[root(i)].island;
         if (number == none) {
             number = std::uint32_t(first_body_.size() - 1);
             first_body_.push_back(0);
             first_manifold_.push_back(0);
         }
-        island_[i] = number;
+        members_[i].island = number;
         ++first_body_[number + 1];
     }
-    const auto island_of = [&](const Manifold& m) {
-        const auto [a, b] = Roles(m, bodies);
-        return a ? island_[m.a] : b ? island_[m.b] : none;
-    };
-    for (const Manifold& m : manifolds)
-        if (const std::uint32_t number = island_of(m); number != none) ++first_manifold_[number + 1];
+    const auto island_of = [&](std::size_t k) { return held_[k] == none ? none : members_[held_[k]].island; };
+    for (std::size_t k = 0; k < manifolds.size(); ++k)
+        if (const std::uint32_t number = island_of(k); number != none) ++first_manifold_[number + 1];
     for (std::size_t k = 1; k < first_body_.size(); ++k) {
         first_body_[k] += first_body_[k - 1];
         first_manifold_[k] += first_manifold_[k - 1];
@@ -73,9 +71,9 @@ void ContactIslands::find(const std::vector<Manifold>& manifolds, const std::vec
     manifolds_.resize(first_manifold_.back());
     std::vector<std::uint32_t> next_body = first_body_, next_manifold = first_manifold_;
     for (const std::uint32_t i : awake)
-        if (touched_[i] == round_) bodies_[next_body[island_[i]]++] = i;
+        if (touched(i)) bodies_[next_body[members_[i].island]++] = i;
     for (std::uint32_t k = 0; k < manifolds.size(); ++k)
-        if (const std::uint32_t number = island_of(manifolds[k]); number != none) manifolds_[next_manifold[number]++] = k;
+        if (const std::uint32_t number = island_of(k); number != none) manifolds_[next_manifold[number]++] = k;
 }
 
 }  // namespace tumble

@@ -30,11 +30,21 @@ public:
     }
 
 private:
+    // still: neither held nor moved by contacts. aside: asleep or in exact flight, not held by this step's contacts.
+    enum class Role : std::uint8_t { still, takes_part, aside };
+    static Role role_of(const Body& body);
+    Role look(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
-    void touch(std::uint32_t i);
 
-    std::vector<std::uint32_t> parent_, island_;   // by body; valid where touched_ says so
-    std::vector<std::uint64_t> touched_;           // by body: the round in which it last was
+    // By body; valid where `round` says so: looked at once a round, for their data lie far apart.
+    struct Member {
+        std::uint64_t round = 0;
+        std::uint32_t parent = 0, island = 0;
+        Role role = Role::still;
+        bool touched = false;
+    };
+    std::vector<Member> members_;
+    std::vector<std::uint32_t> held_;              // by manifold: a body of it that takes part
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
 };

@@ -24,6 +24,13 @@ double way(const Body& a, const Body& b, const BodyVelocity& of_a, const BodyVel
     return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
 }
 
+// How far (m) two bodies of these depths may go against each other unseen; of a surface's triangles, 0. Pushed out of the right
+// side is what is in by less than both inner radii together; but nothing shall be seen to sink in by more than its own.
+double thin(double depth, double other) {
+    const double least = other > 0.0 ? std::min(depth, other) : depth;
+    return std::min(tuning::fast_share * (depth + other), tuning::fast_deepest * least);
+}
+
 }  // namespace
 
 // The first touch in the step, with each body standing still once its share is used up; h if there is none.
@@ -49,7 +56,7 @@ bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std:
         const double turning = ball(bodies[i]) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
         farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning));
     }
-    return 2.0 * farthest <= tuning::fast_share * least_depth_;
+    return 2.0 * farthest <= least_thin_;
 }
 
 bool MotionLimit::looked_along(std::uint32_t body) const {
@@ -82,10 +89,11 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
                                                   const std::vector<BodyVelocity>& motions, double h) {
     if (limits_.empty()) {
         limits_.resize(bodies.size());
-        least_depth_ = std::numeric_limits<double>::infinity();
+        least_thin_ = std::numeric_limits<double>::infinity();
+        const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
         for (const Body& body : bodies) {
             depth_.push_back(std::isinf(body.radius) ? body.radius : depth(body));
-            least_depth_ = std::min(least_depth_, depth_.back());
+            least_thin_ = std::min(least_thin_, thin(depth_.back(), surfaces ? 0.0 : depth_.back()));
         }
     }
     for (const std::uint32_t i : shortened_) limits_[i] = {};
@@ -95,13 +103,9 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
-        // Pushed out of the right side is what is in by less than both inner radii together; but nothing shall be seen to sink
-        // in by more than its own.
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
-        const double thin = std::min(tuning::fast_share * (surface(a) ? depth_b : surface(b) ? depth_a : depth_a + depth_b),
-                                     tuning::fast_deepest * std::min(surface(a) ? depth_b : depth_a, surface(b) ? depth_a : depth_b));
         const double gone = way(a, b, motions[pair.a], motions[pair.b], h);
-        if (gone <= thin) continue;
+        if (gone <= (surface(a) ? thin(depth_b, 0.0) : surface(b) ? thin(depth_a, 0.0) : thin(depth_a, depth_b))) continue;
         const double least = std::min(depth_a, depth_b);
         FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {

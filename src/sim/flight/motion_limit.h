@@ -60,7 +60,7 @@ private:
     std::vector<StepLimit> limits_;
     std::vector<std::uint32_t> shortened_;   // whose limits are not the whole step
     std::vector<double> depth_;              // m, by body
-    double least_depth_ = 0.0;
+    double least_thin_ = 0.0;                // m, that no pair goes past unseen
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
 };
