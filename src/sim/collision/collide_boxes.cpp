@@ -1,5 +1,6 @@
 // Box against box: the answers of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp) with the same
 // choices and the same names of features, from the matrix that turns one box into the other.
+#include "sim/collision/box_axes.h"
 #include "sim/collision/feature_contact.h"
 #include "sim/collision/separating_axis.h"
 
@@ -11,41 +12,7 @@
 namespace tumble {
 namespace {
 
-constexpr double lowest = -std::numeric_limits<double>::infinity();
-constexpr double parallel = 1e-8;   // squared sine: as in separating_axis.cpp
-
-// Box B in A's frame: t and the matrix r, with the absolute values of its elements.
-struct Relative {
-    const Vec3 &a, &b;      // half extents
-    Vec3 t, t_in_b;         // B's centre in A's frame; A's in B's frame, negated
-    Mat3 r, abs;
-
-    double face_a(int k) const {
-        return std::abs(t[k]) - a[k] - (abs(k, 0) * b[0] + abs(k, 1) * b[1] + abs(k, 2) * b[2]);
-    }
-    double face_b(int k) const {
-        return std::abs(t_in_b[k]) - b[k] - (abs(0, k) * a[0] + abs(1, k) * a[1] + abs(2, k) * a[2]);
-    }
-    // Along A's axis i x B's axis j, whose squared length comes with it, and not yet divided by that length; `flip` tells that
-    // the axis points towards A.
-    struct Edges {
-        double separation, square;
-        bool flip;
-    };
-    Edges edge_pair(int i, int j) const {
-        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        const double square = r(i1, j) * r(i1, j) + r(i2, j) * r(i2, j);
-        const double d = t[i2] * r(i1, j) - t[i1] * r(i2, j);
-        const double reach = a[i1] * abs(i2, j) + a[i2] * abs(i1, j) + b[j1] * abs(i, j2) + b[j2] * abs(i, j1);
-        return {std::abs(d) - reach, square, d < 0.0};
-    }
-    // lowest: the two are parallel.
-    static double separation_of(const Edges& e) { return e.square < parallel ? lowest : e.separation / std::sqrt(e.square); }
-    double along(std::uint32_t axis) const {
-        if (axis < 3) return face_a(int(axis));
-        return axis < 6 ? face_b(int(axis) - 3) : separation_of(edge_pair(int(axis - 6) / 3, int(axis - 6) % 3));
-    }
-};
+constexpr double lowest = BoxAxes::lowest;
 
 struct FaceAxis {
     int axis = 0;
@@ -53,16 +20,13 @@ struct FaceAxis {
 };
 
 // The largest; the one whose face the other's centre is highest above wins a tie, as in separating_axis.cpp.
-template <class Separation>
-FaceAxis best_face(const Vec3& center, const Vec3& half, Separation&& separation) {
+FaceAxis best_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& separation) {
     int first = 0;
     for (int k = 1; k < 3; ++k)
         if (std::abs(center[k]) - half[k] > std::abs(center[first]) - half[first]) first = k;
-    FaceAxis best{first, separation(first)};
-    for (int k = 0; k < 3; ++k) {
-        const double s = k == first ? lowest : separation(k);
-        if (s > best.separation) best = {k, s};
-    }
+    FaceAxis best{first, separation[first]};
+    for (int k = 0; k < 3; ++k)
+        if (separation[k] > best.separation) best = {k, separation[k]};
     return best;
 }
 
@@ -207,20 +171,20 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
 
 void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                    CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const Vec3 between = pose_b.position - pose_a.position;
-    Relative rel{a.half_extent, b.half_extent, pose_a.rotation.transpose() * between,
-                 pose_b.rotation.transpose() * between, pose_a.rotation.transpose() * pose_b.rotation, Mat3::Zero()};
-    rel.abs = rel.r.cwiseAbs();
+    const BoxAxes axes(a.half_extent, pose_a, b.half_extent, pose_b);
+    const Vec3 &t = axes.t, &t_in_b = axes.t_in_b;
+    const Mat3& r = axes.r;
     const auto apart = [&](std::uint32_t axis, double separation) {
         if (separation <= margin) return false;
         scratch.axis = axis;
         scratch.gap = separation;
         return true;
     };
-    if (scratch.axis < 15 && apart(scratch.axis, rel.along(scratch.axis))) return;
-    const FaceAxis face_a = best_face(rel.t, a.half_extent, [&](int k) { return rel.face_a(k); });
+    if (scratch.axis < 15 && apart(scratch.axis, axes.along(scratch.axis))) return;
+    const BoxAxes::Lanes faces_a = axes.faces_a(), faces_b = axes.faces_b();
+    const FaceAxis face_a = best_face(t, a.half_extent, faces_a);
     if (apart(std::uint32_t(face_a.axis), face_a.separation)) return;
-    const FaceAxis face_b = best_face(rel.t_in_b, b.half_extent, [&](int k) { return rel.face_b(k); });
+    const FaceAxis face_b = best_face(t_in_b, b.half_extent, faces_b);
     if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
 
     const double smaller = std::min(a.radius, b.radius);
@@ -230,27 +194,30 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     double best = separation + preference;
     int edge_i = -1, edge_j = -1;
     bool flip = false;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i) {
+        const BoxAxes::Edges e = axes.edges(i);
+        // Most are no better than the best: told by the squares, by more than rounding, without root and division.
+        const double needed = std::min(best, margin), square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
+        const BoxAxes::Lanes more = e.separation * e.separation - square * e.square;
         for (int j = 0; j < 3; ++j) {
-            const Relative::Edges e = rel.edge_pair(i, j);
-            // Most are deeper than the best: told by the squares, by more than rounding, without root and division.
-            if (e.separation < 0.0 && best < 0.0 && e.separation * e.separation > 1.000001 * best * best * e.square) continue;
-            const double s = Relative::separation_of(e);
+            if (needed < 0.0 ? e.separation[j] < 0.0 && more[j] > 0.0 : e.separation[j] < 0.0 || more[j] < 0.0) continue;
+            const double s = BoxAxes::separation(e, j);
             if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
             if (s <= best) continue;
             separation = best = s;
             edge_i = i;
             edge_j = j;
-            flip = e.flip;
+            flip = e.across[j] < 0.0;
         }
+    }
     const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
-        return on_b ? Vec3((rel.t_in_b[k] < 0.0 ? -1.0 : 1.0) * rel.r.col(k)) : Vec3((rel.t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
+        return on_b ? Vec3((t_in_b[k] < 0.0 ? -1.0 : 1.0) * r.col(k)) : Vec3((t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
     };
     int face = of_b ? face_b.axis : face_a.axis;
     Vec3 n = normal_of(of_b, face);
     if (edge_i >= 0) {
         const SeparatingAxis by_face{.separation = of_b ? face_b.separation : face_a.separation, .normal = n};
-        n = Vec3::Unit(edge_i).cross(rel.r.col(edge_j)).normalized();
+        n = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
         if (flip) n = -n;
         if (edges_along_face({.separation = separation, .normal = n}, by_face, smaller, scratch.choice)) {
             edge_i = -1;
@@ -264,7 +231,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         double most = lowest;
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
-                const double s = on_b ? rel.face_b(k) : rel.face_a(k);
+                const double s = (on_b ? faces_b : faces_a)[k];
                 if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, smaller, scratch.choice)) continue;
                 most = separation = s;
                 edge_i = -1;
@@ -274,19 +241,19 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     }
     if (edge_i >= 0) {
         static const BoxEdges edges;
-        const Vec3 n_in_b = rel.r.transpose() * n;
+        const Vec3 n_in_b = r.transpose() * n;
         const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
         const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
-        const Pose b_in_a{rel.t, rel.r};
+        const Pose b_in_a{t, r};
         add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head],
                           b_in_a.to_world(b.vertices[b.edges[eb].tail]), b_in_a.to_world(b.vertices[b.edges[eb].head]), n,
                           separation, ea, eb, pose_a, out);
     } else if (of_b) {
         // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
-        add_face(b, a, pose_b, -rel.t_in_b, rel.r.transpose(), face, rel.t_in_b[face] > 0.0 ? -1.0 : 1.0, true,
+        add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true,
                  overlapping, margin, scratch, out);
     } else {
-        add_face(a, b, pose_a, rel.t, rel.r, face, rel.t[face] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
+        add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
     }
 }
 
