@@ -50,13 +50,13 @@ public:
 
     void prepare() { call(kernel_.prepare); }
     void warm_start() { call(kernel_.warm_start); }
-    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, moving, fixed}); }
+    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, alike, unlike}); }
     void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
     void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
     void sum() { kernel_.sum(groups(), 0, groups_); }
-    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), {rate, moving, fixed}); }
+    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), {rate, alike, unlike}); }
 
-    Softness moving{0.0f, 1.0f, 0.0f}, fixed{0.0f, 1.0f, 0.0f};
+    Softness alike{0.0f, 1.0f, 0.0f}, unlike{0.0f, 1.0f, 0.0f};
 
 private:
     Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), moved_.data(), points_.data()}; }
@@ -188,8 +188,8 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                 }
                 random_mass(random, color.state(s)[inverse_mass], color.inertia(s));
             }
-            color.moving = {float(random(10.0, 100.0)), 0.7f, 0.3f};
-            color.fixed = {float(random(10.0, 100.0)), 0.9f, 0.1f};
+            color.alike = {float(random(10.0, 100.0)), 0.7f, 0.3f};
+            color.unlike = {float(random(10.0, 100.0)), 0.9f, 0.1f};
             color.prepare();
             for (int step = 0; step < 4; ++step) {
                 color.accelerate(step > 0);
@@ -283,7 +283,7 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
         Lane lane = ball_lane(0.0, -0.01);
         lane.size = 0.001 / tuning::soft_slop;
         OneColor color = ball(*kernel, lane, Vec3::Zero());
-        color.fixed = {50.0f, 0.8f, 0.2f};
+        color.alike = {50.0f, 0.8f, 0.2f};
         color.push(480.0f);
         EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * 50.0 * 0.009, 1e-5);
         color.push(480.0f);
@@ -293,10 +293,32 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
         lane.size = 0.1 / tuning::push_limit;
         OneColor limited = ball(*kernel, lane, Vec3::Zero());
-        limited.fixed = color.fixed;
+        limited.alike = color.alike;
         limited.push(480.0f);
         EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
     }
+}
+
+// Softer where one body is much heavier, of two that both move.
+TEST(SoftKernel, UnlikeMassesMeetMoreSoftly) {
+    for (const Kernel* kernel : kernels())
+        for (const double other : {0.0, 1.0, 0.6, 0.4, 1.6, 2.4}) {   // inverse mass, 1/kg, beside that of 1 kg
+            Lane lane = ball_lane(0.0, -0.01);
+            lane.size = 0.001 / tuning::soft_slop;
+            lane.between = Vec3::Zero();
+            lane.a = 1;
+            lane.b = 2;
+            OneColor color(*kernel, 2, {lane});
+            color.state(1)[inverse_mass] = 1.0f;
+            color.state(2)[inverse_mass] = float(other);
+            for (const std::size_t slot : {1, 2}) color.inertia(slot)[0] = color.inertia(slot)[3] = color.inertia(slot)[5] = 1.0f;
+            color.alike = {50.0f, 0.8f, 0.2f};
+            color.unlike = {30.0f, 0.6f, 0.4f};
+            color.prepare();
+            color.push(480.0f);
+            const bool unlike = other == 0.4 || other == 2.4;
+            EXPECT_NEAR(color.at(0, 0, impulse), (unlike ? 0.6 * 30.0 : 0.8 * 50.0) * 0.009 / (1.0 + other), 1e-5) << other;
+        }
 }
 
 // Sliding: mu j against the slip, in any direction; the ball is spun up by it. Sticking: the slip ends. With arm r down,

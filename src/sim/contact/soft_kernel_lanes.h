@@ -2,6 +2,7 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
+constexpr float unlike_masses = float(tuning::soft_unlike_masses);
 constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
@@ -383,18 +384,19 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
 template <bool pushing, int points>
 inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds, Changes<points>& changes) {
     const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
-    const auto choose = [&](float fixed, float moving) { return held ? all(fixed) : all(moving); };
+    const auto unlike = larger(a.inverse_mass, b.inverse_mass) > unlike_masses * smaller(a.inverse_mass, b.inverse_mass) && !held;
+    const auto choose = [&](float Softness::*value) { return unlike ? all(substep.unlike.*value) : all(substep.alike.*value); };
 #pragma GCC unroll 4
     for (int i = 0; i < points; ++i) {
         const Lanes closing = g.at(i, gap) * substep.per_second, old = g.at(i, impulse);
         Lanes next;
         if constexpr (pushing) {
-            const Lanes rate = choose(substep.fixed.bias_rate, substep.moving.bias_rate);
+            const Lanes rate = choose(&Softness::bias_rate);
             const Lanes spring = rate * smaller(g.at(i, gap) + slop * g[size], Lanes{}), most = -push_limit * g[size];
             const auto apart = g.at(i, gap) > 0.0f;
             const Lanes bias = apart ? closing : larger(spring, most);
-            const Lanes mass = apart ? all(1.0f) : choose(substep.fixed.mass_scale, substep.moving.mass_scale);
-            Lanes keep = apart ? Lanes{} : choose(substep.fixed.impulse_scale, substep.moving.impulse_scale);
+            const Lanes mass = apart ? all(1.0f) : choose(&Softness::mass_scale);
+            Lanes keep = apart ? Lanes{} : choose(&Softness::impulse_scale);
             // Deeper than the limit the spring pushes no faster, but between bodies that move carries some more all the same.
             const Lanes limited = spring < most && !held ? all(1.0f) : Lanes{};
             if (any(limited)) keep = limited > 0.0f ? keep * larger(most / spring, all(least_give)) : keep;
