@@ -11,6 +11,7 @@
 namespace tumble {
 namespace {
 
+// Entries that are asked for before their turn: looking at so many takes about as long as one comes from far memory.
 constexpr std::size_t ahead = 6;
 
 bool awake(const Body& body) { return body.moves() && !body.asleep; }
@@ -62,12 +63,7 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     });
     each_share(pool, [&](Found& found) {
         for (std::size_t k = 0; k < found.entries.size(); ++k) {
-            if (k + ahead < found.entries.size()) {
-                const Entry& next = entries_[found.entries[k + ahead]];
-                __builtin_prefetch(&searches_[next.search]);
-                __builtin_prefetch(&views_[next.pair.b]);
-                __builtin_prefetch(reinterpret_cast<const char*>(&views_[next.pair.b]) + 64);
-            }
+            if (k + ahead < found.entries.size()) ask_for(found.entries[k + ahead]);
             examine(found.entries[k], h, found);
         }
     });
@@ -170,6 +166,15 @@ void NarrowPhase::view(View& v, const Body& body) const {
     v.kind = std::holds_alternative<Ball>(body.collider)                                ? View::Kind::ball
              : std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) ? View::Kind::polyhedron
                                                                                         : View::Kind::fixed;
+}
+
+// Entries come in the order of their first bodies; what belongs to the second, and the search, lies anywhere.
+void NarrowPhase::ask_for(std::uint32_t index) const {
+    const Entry& entry = entries_[index];
+    const auto* view = reinterpret_cast<const char*>(&views_[entry.pair.b]);
+    __builtin_prefetch(&searches_[entry.search]);
+    __builtin_prefetch(view);
+    __builtin_prefetch(view + 64);
 }
 
 void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
