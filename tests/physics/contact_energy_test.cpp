@@ -120,7 +120,7 @@ TEST(ContactEnergy, HeapsComeToRest) {
 }
 
 // Heaps that once rocked for ever: points that a manifold left out sank and were taken in for others that sank next, heavy boxes
-// whirled on light ones, and a heap went from one solver to the other and back.
+// whirled on light ones and stiffly on the floor, and a heap went from one solver to the other and back.
 TEST(ContactEnergy, NoHeapRocksForEver) {
     struct Case {
         double restitution;
@@ -128,7 +128,7 @@ TEST(ContactEnergy, NoHeapRocksForEver) {
         std::uint64_t seed;
     };
     for (const Case& c : {Case{0.0, 1, 1}, Case{0.0, 1, 27}, Case{0.5, 1, 10}, Case{0.0, 2, 5}, Case{0.0, 2, 8}, Case{0.0, 2, 46}, Case{0.5, 2, 1},
-                          Case{0.5, 2, 18}, Case{0.0, 4, 3}, Case{0.0, 4, 27}, Case{0.5, 4, 37}, Case{0.5, 4, 47}}) {
+                          Case{0.5, 2, 18}, Case{0.0, 4, 3}, Case{0.0, 4, 27}, Case{0.5, 4, 11}, Case{0.5, 4, 47}}) {
         const SceneDescription scene = heap(Kind::boxes, 27, 0.5, c.restitution, c.steps, c.seed);
         World world(scene);
         run(world, scene, 8.0);

@@ -50,13 +50,13 @@ public:
 
     void prepare() { call(kernel_.prepare); }
     void warm_start() { call(kernel_.warm_start); }
-    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, alike, unlike}); }
+    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, alike, unlike, fixed}); }
     void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
     void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
     void sum() { kernel_.sum(groups(), 0, groups_); }
-    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), {rate, alike, unlike}); }
+    void relax(float rate) { kernel_.relax(groups(), 0, groups_, bodies(), {rate, alike, unlike, fixed}); }
 
-    Softness alike{0.0f, 1.0f, 0.0f}, unlike{0.0f, 1.0f, 0.0f};
+    Softness alike{0.0f, 1.0f, 0.0f}, unlike{0.0f, 1.0f, 0.0f}, fixed{0.0f, 1.0f, 0.0f};
 
 private:
     Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), moved_.data(), points_.data()}; }
@@ -189,7 +189,8 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
                 random_mass(random, color.state(s)[inverse_mass], color.inertia(s));
             }
             color.alike = {float(random(10.0, 100.0)), 0.7f, 0.3f};
-            color.unlike = {float(random(10.0, 100.0)), 0.9f, 0.1f};
+            color.unlike = {float(random(10.0, 100.0)), 0.8f, 0.2f};
+            color.fixed = {float(random(10.0, 100.0)), 0.9f, 0.1f};
             color.prepare();
             for (int step = 0; step < 4; ++step) {
                 color.accelerate(step > 0);
@@ -277,34 +278,35 @@ TEST(SoftKernel, AGapIsClosedNotCrossed) {
     }
 }
 
-// Soft constraint: j' = j - M c (v + b) - k j with b = rate (s + slop), at most the push limit.
+// Soft constraint: j' = j - M c (v + b) - k j with b = rate o (1 + o / o2), o = s + slop, at most the push limit.
 TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.0, -0.01);
         lane.size = 0.001 / tuning::soft_slop;
         OneColor color = ball(*kernel, lane, Vec3::Zero());
-        color.alike = {50.0f, 0.8f, 0.2f};
+        color.fixed = {50.0f, 0.8f, 0.2f};
         color.push(480.0f);
-        EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * 50.0 * 0.009, 1e-5);
+        const double bias = 50.0 * 0.009 * (1.0 + 0.009 / (tuning::soft_twice_as_stiff * lane.size));
+        EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * bias, 1e-5);
         color.push(480.0f);
-        const double first = m * 0.8 * 50.0 * 0.009, v = first / m;
-        EXPECT_NEAR(color.at(0, 0, impulse), first - m * 0.8 * (v - 50.0 * 0.009) - 0.2 * first, 1e-5);
+        const double first = m * 0.8 * bias, v = first / m;
+        EXPECT_NEAR(color.at(0, 0, impulse), first - m * 0.8 * (v - bias) - 0.2 * first, 1e-5);
         color.relax(480.0f);
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
         lane.size = 0.1 / tuning::push_limit;
         OneColor limited = ball(*kernel, lane, Vec3::Zero());
-        limited.alike = color.alike;
+        limited.fixed = color.fixed;
         limited.push(480.0f);
         EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
     }
 }
 
-// Softer where one body is much heavier, of two that both move.
+// Each kind of pair has its softness; of unlike masses, both moving, no overlap is pushed out twice as fast.
 TEST(SoftKernel, UnlikeMassesMeetMoreSoftly) {
     for (const Kernel* kernel : kernels())
         for (const double other : {0.0, 1.0, 0.6, 0.4, 1.6, 2.4}) {   // inverse mass, 1/kg, beside that of 1 kg
             Lane lane = ball_lane(0.0, -0.01);
-            lane.size = 0.001 / tuning::soft_slop;
+            lane.size = 0.1;   // the overlap is a tenth of it
             lane.between = Vec3::Zero();
             lane.a = 1;
             lane.b = 2;
@@ -312,12 +314,15 @@ TEST(SoftKernel, UnlikeMassesMeetMoreSoftly) {
             color.state(1)[inverse_mass] = 1.0f;
             color.state(2)[inverse_mass] = float(other);
             for (const std::size_t slot : {1, 2}) color.inertia(slot)[0] = color.inertia(slot)[3] = color.inertia(slot)[5] = 1.0f;
-            color.alike = {50.0f, 0.8f, 0.2f};
-            color.unlike = {30.0f, 0.6f, 0.4f};
+            color.alike = {10.0f, 0.8f, 0.2f};
+            color.unlike = {8.0f, 0.6f, 0.4f};
+            color.fixed = {12.0f, 0.9f, 0.1f};
             color.prepare();
             color.push(480.0f);
             const bool unlike = other == 0.4 || other == 2.4;
-            EXPECT_NEAR(color.at(0, 0, impulse), (unlike ? 0.6 * 30.0 : 0.8 * 50.0) * 0.009 / (1.0 + other), 1e-5) << other;
+            const double overlap = 0.01 - tuning::soft_slop * lane.size;
+            const double expected = (unlike ? 0.6 * 8.0 : 2.0 * (other == 0.0 ? 0.9 * 12.0 : 0.8 * 10.0)) * overlap / (1.0 + other);
+            EXPECT_NEAR(color.at(0, 0, impulse), expected, 1e-5) << other;
         }
 }
 

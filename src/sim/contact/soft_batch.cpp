@@ -61,7 +61,8 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
 void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot) {
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
-    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_)};
+    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
+                softness(tuning::soft_frequency_of_fixed / d_, d_)};
     blocks_.clear();
     std::size_t first = 0;
     for (const std::size_t end : part.island_ends) {

@@ -74,7 +74,7 @@ struct Softness {
 };
 struct Substep {
     float per_second;
-    Softness alike, unlike;   // of most pairs, and of those in which one body is much heavier and both are moved by impulses
+    Softness alike, unlike, fixed;   // of pairs that both move, of like masses or not, and of those with a body that impulses do not move
 };
 
 struct Kernel {

@@ -2,7 +2,7 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
-constexpr float unlike_masses = float(tuning::soft_unlike_masses);
+constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stiff = float(tuning::soft_twice_as_stiff);
 constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
@@ -385,14 +385,18 @@ template <bool pushing, int points>
 inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds, Changes<points>& changes) {
     const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
     const auto unlike = larger(a.inverse_mass, b.inverse_mass) > unlike_masses * smaller(a.inverse_mass, b.inverse_mass) && !held;
-    const auto choose = [&](float Softness::*value) { return unlike ? all(substep.unlike.*value) : all(substep.alike.*value); };
+    const auto choose = [&](float Softness::*value) {
+        return held ? all(substep.fixed.*value) : unlike ? all(substep.unlike.*value) : all(substep.alike.*value);
+    };
 #pragma GCC unroll 4
     for (int i = 0; i < points; ++i) {
         const Lanes closing = g.at(i, gap) * substep.per_second, old = g.at(i, impulse);
         Lanes next;
         if constexpr (pushing) {
             const Lanes rate = choose(&Softness::bias_rate);
-            const Lanes spring = rate * smaller(g.at(i, gap) + slop * g[size], Lanes{}), most = -push_limit * g[size];
+            const Lanes overlap = smaller(g.at(i, gap) + slop * g[size], Lanes{});
+            const Lanes deep = unlike ? Lanes{} : smaller(overlap / (-twice_as_stiff * g[size]), all(1.0f));
+            const Lanes spring = rate * overlap * (1.0f + deep), most = -push_limit * g[size];
             const auto apart = g.at(i, gap) > 0.0f;
             const Lanes bias = apart ? closing : larger(spring, most);
             const Lanes mass = apart ? all(1.0f) : choose(&Softness::mass_scale);
