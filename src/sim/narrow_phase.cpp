@@ -28,9 +28,6 @@ double distance(const Bounds& a, const Bounds& b) {
     return most;
 }
 
-// The manifold's normal is that of a face of its second shape (feature_contact.cpp).
-bool of_second(const Manifold& m) { return (m.points[0].feature >> 63) != 0; }
-
 bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l.part < r.part : !l.more && r.more; }
 
 std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch& scratch) {
@@ -286,7 +283,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
                 hand_over(manifolds_[old], *m);
             }
         }
-        Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, of_second(*m) != swapped));
+        Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
         if (m->more) continue;
         keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
     }

@@ -17,7 +17,6 @@ public:
     public:
         Lanes() = default;
         Lanes(double x, double y, double z) : low_{x, y}, high_{z, 0.0} {}
-        explicit Lanes(double x) : Lanes(x, x, x) {}
         template <class Vector>
         explicit Lanes(const Vector& v) : Lanes(v[0], v[1], v[2]) {}
 
@@ -55,8 +54,7 @@ public:
 
     /// Separations (m) along the face normals.
     Lanes faces_a() const {
-        return Lanes(t).abs() - Lanes(a_) - (Lanes(r.col(0)).abs() * Lanes(b_[0]) + Lanes(r.col(1)).abs() * Lanes(b_[1]) +
-                                             Lanes(r.col(2)).abs() * Lanes(b_[2]));
+        return Lanes(t).abs() - Lanes(a_) - (b_[0] * Lanes(r.col(0)).abs() + b_[1] * Lanes(r.col(1)).abs() + b_[2] * Lanes(r.col(2)).abs());
     }
     Lanes faces_b() const {
         return Lanes(t_in_b).abs() - Lanes(b_) - (a_[0] * size_[0] + a_[1] * size_[1] + a_[2] * size_[2]);

@@ -109,7 +109,7 @@ void collide_parts(const Compound& whole, const Pose& pose, const Collider& othe
 
 bool CollisionScratch::was_on_b() const {
     const auto found = std::find_if(before.begin(), before.end(), [&](const Manifold& m) { return m.part == part; });
-    return found != before.end() && (found->points[0].feature >> 63) != 0;
+    return found != before.end() && found->on_b();
 }
 
 void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,

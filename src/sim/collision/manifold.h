@@ -40,6 +40,9 @@ struct Manifold {
         return false;
     }
 
+    /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).
+    bool on_b() const { return (points[0].feature >> 63) != 0; }
+
     std::uint32_t first_left_out = 0, left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
 };
 

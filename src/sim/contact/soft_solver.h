@@ -5,9 +5,9 @@
 // velocities what only pushed overlaps apart ("Small Steps", Macklin and others 2019; soft constraints and relaxation:
 // Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
 //     b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
-// of a damped spring of angular frequency w and damping ratio z over a substep d; between bodies of like mass b grows with the
-// overlap, up to twice that, for the force chains of high heaps. Not yet touching points (s > 0) may
-// approach by s/d and no more. Friction: a Coulomb disc at one place of the manifold and a twist about its normal.
+// of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses, of
+// b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Not yet touching points (s > 0) may approach by s/d and no
+// more. Friction: a Coulomb disc at one place of the manifold and a twist about its normal.
 //
 // Contacts are coloured so that none of one colour share a moving body; those of a colour are solved side by side, a lane
 // each, in single precision, relative to the poses of the step's start (soft_batch.h). The sums of the impulses then change

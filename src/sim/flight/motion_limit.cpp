@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace tumble {
@@ -24,11 +25,12 @@ double way(const Body& a, const Body& b, const BodyVelocity& of_a, const BodyVel
     return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
 }
 
-// How far (m) two bodies of these depths may go against each other unseen; of a surface's triangles, 0. Pushed out of the right
-// side is what is in by less than both inner radii together; but nothing shall be seen to sink in by more than its own.
-double thin(double depth, double other) {
-    const double least = other > 0.0 ? std::min(depth, other) : depth;
-    return std::min(tuning::fast_share * (depth + other), tuning::fast_deepest * least);
+// How far (m) two bodies of these depths may go against each other unseen. Pushed out of the right side is what is in by less
+// than both inner radii together, against a surface, whose depth is infinite, by less than its own; but nothing shall be seen to
+// sink in by more than that.
+double thin(double depth_a, double depth_b) {
+    const double least = std::min(depth_a, depth_b), most = std::max(depth_a, depth_b);
+    return std::min(tuning::fast_share * (std::isinf(most) ? least : depth_a + depth_b), tuning::fast_deepest * least);
 }
 
 }  // namespace
@@ -92,8 +94,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
         least_thin_ = std::numeric_limits<double>::infinity();
         const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
         for (const Body& body : bodies) {
-            depth_.push_back(std::isinf(body.radius) ? body.radius : depth(body));
-            least_thin_ = std::min(least_thin_, thin(depth_.back(), surfaces ? 0.0 : depth_.back()));
+            const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
+            least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
         }
     }
     for (const std::uint32_t i : shortened_) limits_[i] = {};
@@ -105,7 +107,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
         if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
         const double gone = way(a, b, motions[pair.a], motions[pair.b], h);
-        if (gone <= (surface(a) ? thin(depth_b, 0.0) : surface(b) ? thin(depth_a, 0.0) : thin(depth_a, depth_b))) continue;
+        if (gone <= thin(depth_a, depth_b)) continue;
         const double least = std::min(depth_a, depth_b);
         FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
