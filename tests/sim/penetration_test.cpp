@@ -65,6 +65,8 @@ void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef&
     // The deepest point is as deep as the axis says: the manifold holds the vertex that must be pushed out.
     EXPECT_GE(deepest(found), along - 1e-10 * radius);
     EXPECT_LE(deepest(found), along + 3.0 * slack) << "the deepest point is missing, " << m.count << " points";
+    // Nor does it tell of less than there is: what no point tells of would be stopped by nothing.
+    EXPECT_LE(deepest(found), exact.separation + 2.0 * axis_preference(radius)) << "of " << exact.separation;
     tally.edges += m.points[0].feature >> 62 == 1;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
@@ -134,6 +136,25 @@ TEST(Penetration, ShallowOverlaps) {
         check_pair(a, pose_a, b, pose_b, 0.02, tally);
     }
     EXPECT_GT(tally.overlapping, trials(70) - 1);
+}
+
+// Small faces, as on rounded meshes, meet a box's edge beyond their rims.
+TEST(Penetration, RoundedHullAtABoxesEdge) {
+    Random random(17);
+    Tally tally;
+    for (int trial = 0; trial < trials(200); ++trial) {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 150; ++i) points.push_back(0.3 * random.direction().cwiseProduct(Vec3(1.0, random(0.99, 1.0), 1.0)));
+        const auto round = std::make_shared<const Polyhedron>(make_hull(points, mean(points)));
+        const auto box = box_of({random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)});
+        const Pose pose_a = random.pose(1.0);
+        Pose pose_b = random.pose(1.0);
+        const Exact exact = exact_separation(*round, pose_a, *box, pose_b);
+        pose_b.position += (-random(1e-4, 1e-2) - exact.separation) * exact.normal;
+        check_pair(round, pose_a, box, pose_b, 0.02, tally);
+    }
+    EXPECT_GT(tally.overlapping, trials(100) - 1);
+    EXPECT_GT(tally.edges, trials(20) - 1);
 }
 
 // The reference itself: no sampled direction beats the Minkowski difference's best face.

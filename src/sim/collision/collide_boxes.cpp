@@ -189,8 +189,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const double smaller = std::min(a.radius, b.radius);
     const double preference = axis_preference(smaller, scratch.choice);
     bool of_b = face_b.separation > face_a.separation + (scratch.was_on_b() ? -preference : preference);
-    double separation = of_b ? face_b.separation : face_a.separation;
-    double best = separation + preference;
+    double best = (of_b ? face_b.separation : face_a.separation) + preference;
     int edge_i = -1, edge_j = -1;
     bool flip = false;
     for (int i = 0; i < 3; ++i) {
@@ -203,7 +202,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             const double s = BoxAxes::separation(e, j);
             if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
             if (s <= best) continue;
-            separation = best = s;
+            best = s;
             edge_i = i;
             edge_j = j;
             flip = e.across[j] < 0.0;
@@ -213,47 +212,49 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         return on_b ? Vec3((t_in_b[k] < 0.0 ? -1.0 : 1.0) * r.col(k)) : Vec3((t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
     };
     int face = of_b ? face_b.axis : face_a.axis;
-    Vec3 n = normal_of(of_b, face);
-    if (edge_i >= 0) {
-        const SeparatingAxis by_face{.separation = of_b ? face_b.separation : face_a.separation, .normal = n};
-        n = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
-        if (flip) n = -n;
-        if (edges_along_face({.separation = separation, .normal = n}, by_face, smaller, scratch.choice)) {
-            edge_i = -1;
-            separation = by_face.separation;
-            n = by_face.normal;
-        }
+    const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation, .normal = normal_of(of_b, face)};
+    SeparatingAxis by_edges{.separation = best};
+    bool speak = edge_i >= 0, given_up = false;   // the edges; for a face
+    if (speak) {
+        by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
+        if (flip) by_edges.normal = -by_edges.normal;
+        given_up = edges_along_face(by_edges, best_of_faces, smaller, scratch.choice);
+        speak = !given_up;
     }
-    const bool overlapping = separation < 0.0;
-    if (separation > 0.0) {
-        const SeparatingAxis axis{.separation = separation, .normal = n};
+    const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
+    const bool must_touch = axis.separation < 0.0 && !given_up;
+    if (axis.separation > 0.0) {
         double most = lowest;
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
                 const double s = (on_b ? faces_b : faces_a)[k];
                 if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, smaller, scratch.choice)) continue;
-                most = separation = s;
-                edge_i = -1;
+                most = s;
+                speak = given_up = false;
                 of_b = on_b;
                 face = k;
             }
     }
-    if (edge_i >= 0) {
-        static const BoxEdges edges;
-        const Vec3 n_in_b = r.transpose() * n;
-        const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
-        const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
-        const Pose b_in_a{t, r};
-        add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head],
-                          b_in_a.to_world(b.vertices[b.edges[eb].tail]), b_in_a.to_world(b.vertices[b.edges[eb].head]), n,
-                          separation, ea, eb, pose_a, out);
-    } else if (of_b) {
-        // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
-        add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true,
-                 overlapping, margin, scratch, out);
-    } else {
-        add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, overlapping, margin, scratch, out);
+    if (!speak) {
+        const std::size_t first = out.size();
+        if (of_b) {
+            // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
+            add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch, margin, scratch, out);
+        } else {
+            add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, must_touch, margin, scratch, out);
+        }
+        speak = given_up && misses_edges(std::span(out).subspan(first), by_edges.separation, smaller);
+        if (!speak) return;
+        out.resize(first);
     }
+    static const BoxEdges edges;
+    const Vec3& n = by_edges.normal;
+    const Vec3 n_in_b = r.transpose() * n;
+    const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
+    const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
+    const Pose b_in_a{t, r};
+    add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head], b_in_a.to_world(b.vertices[b.edges[eb].tail]),
+                      b_in_a.to_world(b.vertices[b.edges[eb].head]), n, by_edges.separation, ea, eb, pose_a, out);
 }
 
 }  // namespace tumble

@@ -14,9 +14,8 @@ void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std:
 }
 
 void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
-                  const SeparatingAxis& axis, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+                  const SeparatingAxis& axis, bool overlapping, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Pose identity;
-    const bool overlapping = axis.separation < 0.0 && !axis.grazed;
     const double level = axis_preference(std::min(a.radius, b.radius));
     switch (axis.kind) {
         case SeparatingAxis::Kind::none: return;
@@ -66,14 +65,21 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     if (a.is_box && b.is_box) return collide_boxes(a, pose_a, b, pose_b, margin, scratch, out);
     // In A's frame, which keeps the digits of scenes far from the origin.
     const Pose b_in_a = seen_from(pose_a, pose_b);
-    const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, EdgeSearch::nearby, scratch);
     const std::size_t first = out.size();
-    add_manifold(a, pose_a, b, b_in_a, axis, margin, scratch, out);
-    if (axis.separation >= 0.0 || axis.grazed || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
+    const auto add = [&](EdgeSearch search) {   // whether the shapes seem to overlap
+        SeparatingAxis edges;
+        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, scratch, &edges);
+        const bool preferred = edges.kind == SeparatingAxis::Kind::edges, overlapping = axis.separation < 0.0 && !axis.grazed;
+        add_manifold(a, pose_a, b, b_in_a, axis, overlapping && !preferred, margin, scratch, out);
+        if (!preferred || !misses_edges(std::span(out).subspan(first), edges.separation, std::min(a.radius, b.radius))) return overlapping;
+        out.resize(first);
+        add_manifold(a, pose_a, b, b_in_a, edges, false, margin, scratch, out);
+        return edges.separation < 0.0;
+    };
+    if (!add(EdgeSearch::nearby) || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
     // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
     out.resize(first);
-    add_manifold(a, pose_a, b, b_in_a, find_separating_axis(a, b, b_in_a, margin, EdgeSearch::all, scratch), margin,
-                 scratch, out);
+    add(EdgeSearch::all);
 }
 
 }  // namespace tumble

@@ -167,6 +167,13 @@ bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, d
            edges.separation - face.separation < face_over_edges(smaller_radius);
 }
 
+bool misses_edges(std::span<const Manifold> of_face, double edges_separation, double smaller_radius) {
+    const double seen = edges_separation + axis_preference(smaller_radius);
+    return std::all_of(of_face.begin(), of_face.end(), [&](const Manifold& m) {
+        return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > seen; });
+    });
+}
+
 bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
     return choice == AxisChoice::steady && apart.separation > 0.0 && face.separation < apart.separation &&
            face.separation > -axis_preference(smaller_radius) && std::abs(face.normal.dot(apart.normal)) < across_face;
@@ -178,7 +185,8 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
 }
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, CollisionScratch& scratch) {
+                                    EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up) {
+    if (given_up) *given_up = {};
     const auto apart = [&](double separation) {
         if (separation <= margin) return false;
         scratch.gap = separation;
@@ -202,7 +210,10 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (apart(axis.separation)) return {};
     const double smaller = std::min(a.radius, b.radius);
-    if (edges_along_face(axis, face, smaller, scratch.choice)) axis = face;
+    if (edges_along_face(axis, face, smaller, scratch.choice)) {
+        if (given_up) *given_up = axis;
+        axis = face;
+    }
     return axis.separation > 0.0 ? grazed_face(a, b, b_in_a, axis, smaller, scratch.choice) : axis;
 }
 

@@ -5,6 +5,8 @@
 
 #include "sim/collision/collide.h"
 
+#include <span>
+
 namespace tumble {
 
 struct SeparatingAxis {
@@ -27,9 +29,10 @@ enum class EdgeSearch { nearby, all };
 /// bounds s from below, the margin from above.
 double edge_reach(EdgeSearch search, double margin, double best_separation);
 
-/// `b_in_a` is B's pose in A's frame.
+/// `b_in_a` is B's pose in A's frame. given_up: the edges that a face was preferred to (edges_along_face); of kind none
+/// where there were none.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, CollisionScratch& scratch);
+                                    EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up = nullptr);
 
 /// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's, for shapes of this
 /// size.
@@ -42,6 +45,10 @@ double face_over_edges(double smaller_radius);
 /// manifold has several points, and the next ones to touch are already among them; of the edges' one point a tilted plate
 /// would rattle round. Both as normal and separation; not for AxisChoice::nearest.
 bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
+
+/// Whether that face's manifold, if there is one, has no point where the edges meet: they do so beyond the face's rim. Then
+/// the edges speak after all.
+bool misses_edges(std::span<const Manifold> of_face, double edges_separation, double smaller_radius);
 
 /// Whether shapes that are `apart` along one axis pass each other along another face: they graze its plane, and what
 /// comes nearer would meet nothing but a corner's height of it. Then the face says more: a box that slides from tile to tile
