@@ -214,7 +214,10 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
         if (given_up) *given_up = axis;
         axis = face;
     }
-    return axis.separation > 0.0 ? grazed_face(a, b, b_in_a, axis, smaller, scratch.choice) : axis;
+    if (axis.separation <= 0.0) return axis;
+    const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, smaller, scratch.choice);
+    if (given_up && grazed.grazed) *given_up = {};
+    return grazed;
 }
 
 }  // namespace tumble
