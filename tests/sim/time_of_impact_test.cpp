@@ -185,6 +185,11 @@ TEST(TimeOfImpact, TouchingAtTheBeginning) {
     const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
     const Flying right(free_box({1, 1, 1}, 1.0, {1, 0, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
     EXPECT_EQ(search.find(left.traveller(), right.traveller(), 5.0).kind, TimeOfImpact::Kind::none);
+    // At rest, exactly, and about to fall: as soon as the fall can be told from rounding.
+    const Flying rests(free_box({1, 1, 1}, 1.0, {0, 1, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()));
+    found = search.find(left.traveller(), rests.traveller(), 5.0);
+    ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+    EXPECT_LT(found.time, 1e-5);
 }
 
 // From where they first touch, boxes may go on until they overlap by what is allowed; along the rim of a face, too, where no

@@ -13,7 +13,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double first_root(double f, double r, double q) {
     const double root = std::sqrt(r * r + 2.0 * q * f);
     if (r > 0.0) return q > 0.0 ? (r + root) / q : infinity;
-    return root - r > 0.0 ? 2.0 * f / (root - r) : infinity;
+    if (root - r > 0.0) return 2.0 * f / (root - r);
+    return q > 0.0 ? 0.0 : infinity;   // f = r = 0: it falls at once, if at all
 }
 
 // A point's height along the axis and how fast it changes.
