@@ -215,6 +215,8 @@ inline constexpr int impact_evaluations = 400;
 
 /// Contacts nearer than this part of the smaller body take part in one impact.
 inline constexpr double impact_touch = 1e-9;
+/// What touches without approaching is left alone for as long as it overlaps by no more than this part of the smaller body.
+inline constexpr double impact_harmless = 1e-7;
 /// Hops shorter than this (s) are not followed: the contact holds. A bouncing ball then rests within this over 1 - e of
 /// its closed-form time, and what it still had is below g times this.
 inline constexpr double shortest_hop = 1e-7;

@@ -16,6 +16,7 @@
 #include "sim/integrator/rigid_state.h"
 #include "sim/measurement.h"
 #include "sim/narrow_phase.h"
+#include "sim/spin_limit.h"
 #include "sim/thread_pool.h"
 #include "sim/touch.h"
 #include "sim/tuning.h"
@@ -32,11 +33,6 @@ namespace {
 
 ContactSolver::Effort effort(const SimulationSettings& settings) {
     return settings.impacts == ImpactMode::exact ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced;
-}
-
-// The energy of its spin, from what it was before the body turned.
-bool grew(const Body& body, double before) {
-    return body.angular_momentum.dot(body.angular_velocity) > (1.0 + tuning::spin_growth) * before;
 }
 
 }  // namespace
@@ -113,7 +109,6 @@ struct World::State {
     }
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
-    void limit_spin(Body& body, double before) const;
     void turn_freely(Body& body, const Quat& from, double share) const;
     void return_work(Body& body, const ForceStep& forces_of_step, double share) const;
     void carry(Body& body, const Body& carrier, double span) const;
@@ -320,14 +315,7 @@ const std::vector<StepLimit>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
-// The pose turns by one tangent: of a needle that can leave L along its thin axis, and the energy L.omega many times what it
-// was. No turn adds energy: in contact or near it what this one did is taken out of L,
-void World::State::limit_spin(Body& body, double before) const {
-    body.angular_momentum *= std::sqrt(before / body.angular_momentum.dot(body.angular_velocity));
-    body.derive_velocities();
-}
-
-// and in flight, where L stays, the turn is made again, in closed form. The next impact would make speed of that energy.
+// Where a turn by one tangent has added to the spin (spin_limit.h) in flight, L stays and the turn is made again, in closed form.
 void World::State::turn_freely(Body& body, const Quat& from, double share) const {
     const RigidMass mass = mass_of(body);
     RigidState state = state_of(body);
@@ -377,7 +365,7 @@ void World::State::move() {
             if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
             else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
         } else {
-            const double spin_energy = body.angular_momentum.dot(body.angular_velocity);
+            const double spin_before = spin(body);
             const Quat orientation = body.orientation;
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
@@ -388,9 +376,9 @@ void World::State::move() {
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
             }
             body.derive();
-            if (grew(body, spin_energy)) {
+            if (spin_grew(body, spin_before)) {
                 // What was looked along must be the way that is gone.
-                if (touched || motion_limit.looked_along(i)) limit_spin(body, spin_energy);
+                if (touched || motion_limit.looked_along(i)) limit_spin(body, spin_before);
                 else if (body.integrator == IntegratorKind::symplectic_euler) turn_freely(body, orientation, share);
             }
             if (touched && share < 1.0) return_work(body, force_steps[i], share);

@@ -186,6 +186,31 @@ TEST(Heap, EnergyNeverRises) {
     }
 }
 
+// A needle of 1 : 1000 that falls on its tip comes to lie, whatever the step: it neither goes through the floor nor is thrown
+// back up by what a step's turn makes of its spin.
+TEST(Needle, ComesToLieOnTheFloor) {
+    for (const double rate : {30.0, 120.0, 480.0}) {
+        for (const double angle : {0.8, 0.9, 1.0, 1.1}) {
+            SceneDescription scene = ground_scene(0.0, 0.5, 1);
+            scene.output.fps = rate;
+            scene.bodies[0].shape = BoxShape{{10.0, 1.0, 10.0}};
+            scene.bodies[0].position = {0.0, -0.5, 0.0};
+            BodyDescription& needle = add_box(scene, {1.0, 1e-3, 1e-3}, {0.0, 1.0, 0.0});
+            needle.friction = 0.5;
+            needle.rotation = turn({0.2, 0.0, -1.0}, -angle);
+            make_exact(scene);
+            World world(scene);
+            const Measurement start = world.measure();
+            for (int step = 0; step < int(3.0 * rate); ++step) {
+                world.step();
+                const Measurement now = world.measure();
+                ASSERT_LT(now.kinetic + now.potential, 1.01 * (start.kinetic + start.potential)) << rate << ' ' << angle << ' ' << step;
+                ASSERT_GT(world.snapshot().bodies[1].center_of_mass.y(), 0.0) << rate << ' ' << angle << ' ' << step;
+            }
+        }
+    }
+}
+
 // Exact is the limit of stepped for small steps: first order.
 TEST(Limit, SteppedImpactsApproachExactOnes) {
     const auto end = [](int steps, bool exact) {

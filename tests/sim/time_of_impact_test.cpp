@@ -1,7 +1,9 @@
 // The moment of impact: never missed, never early, to the last digits; grazing and touching starts.
 #include "random_shapes.h"
 #include "sim/collision/separating_axis.h"
+#include "sim/flight/landing.h"
 #include "sim/flight/time_of_impact.h"
+#include "sim/tuning.h"
 #include "support/bodies.h"
 
 #include <gtest/gtest.h>
@@ -215,6 +217,28 @@ TEST(TimeOfImpact, WhatTouchesMayComeDeeper) {
         }
     }
     EXPECT_GT(hits, trials(10000));
+}
+
+// A point that touches and stands still goes no farther in the harmless time than is harmless, whatever the body does.
+TEST(TimeOfImpact, TheHarmlessTimeIsHarmless) {
+    const Ground ground;
+    Random random(9);
+    double farthest = 0.0;
+    for (int trial = 0; trial < 500; ++trial) {
+        const Vec3 size(random(0.001, 1.0), random(0.001, 1.0), random(0.001, 1.0)), spin = random.vector(trial % 2 ? 100.0 : 1.0);
+        Body body = free_box(size, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), spin);
+        const Vec3 corner = 0.5 * size, arm = body.rotation * corner;
+        body.momentum = -body.mass * body.angular_velocity.cross(arm);
+        body.derive();
+        const Flying flying(body);
+        const double t = harmless_time(ground.traveller(), flying.traveller()), most = tuning::impact_harmless * body.radius;
+        for (const double part : {0.3, 1.0}) {
+            const double way = (flying.path.at(part * t).to_world(corner) - arm).norm();
+            EXPECT_LT(way, 1.01 * part * part * most) << trial;
+            farthest = std::max(farthest, way / most);
+        }
+    }
+    EXPECT_GT(farthest, 0.3);
 }
 
 TEST(TimeOfImpact, HugeAndTinySpeeds) {

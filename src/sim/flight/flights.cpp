@@ -4,6 +4,7 @@
 #include "sim/flight/landing.h"
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
+#include "sim/spin_limit.h"
 #include "sim/tuning.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,7 @@ void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const 
     f.start = now;
     f.until = until;
     f.driven = false;
+    f.spin = unknown;
     ++f.version;
     Ballistic& ball = balls_[i];
     ball.valid = ball.radius > 0.0 && path.parabolic() && path.acceleration(0.0) == settings_.gravity && until == never;
@@ -117,6 +119,7 @@ void Flights::show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now
     if (!body.dynamic()) return;
     if (!body.flying) {
         body.derive();
+        if (spin_grew(body, f.spin)) limit_spin(body, f.spin);
         return;
     }
     body.velocity = motion.velocity;
@@ -153,18 +156,21 @@ bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& 
     return any;
 }
 
-// What has to stop on its way goes slower: it ends where it would have stopped.
-Path Flights::held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const {
+// Moves a held body evenly to the end of the step. What has to stop on its way goes slower: it ends where it would have
+// stopped.
+void Flights::hold(std::uint32_t i, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now) {
+    const Body& body = bodies[i];
     Vec3 velocity = limit.share * (body.velocity + body.push_velocity);
     if (limit.carrier != StepLimit::none) {
         const Body& carrier = bodies[limit.carrier];
         velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
     }
-    return Path::uniform(body, velocity, limit.share * (body.angular_velocity + body.push_angular_velocity));
+    start(i, Path::uniform(body, velocity, limit.share * (body.angular_velocity + body.push_angular_velocity)), now, {now.step + 1, 0.0});
+    fliers_[i].spin = spin(body);
 }
 
 void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step) {
-    const Moment now{step, 0.0}, end{step + 1, 0.0};
+    const Moment now{step, 0.0};
     changed_.swap(taken_off_);
     taken_off_.clear();
     for (const std::uint32_t i : movers_) {
@@ -177,7 +183,7 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>
             if (fliers_[i].path.still()) continue;
             start(i, Path::uniform(body, Vec3::Zero(), Vec3::Zero()), now, never);
         } else {
-            start(i, held_path(body, limits[i], bodies), now, end);
+            hold(i, limits[i], bodies, now);
         }
         changed_.push_back(i);
     }
@@ -365,23 +371,23 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
     if (bounce_balls(i, j, bodies, now)) return;
     const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body, {.law = settings_.impact_law, .friction = true, .complete = true});
     if (!changed) {
-        // Touching without approaching, by rounding: looked at again after a while, a longer one each time.
+        // Touching without approaching, by rounding: looked at again after a while, a longer one each time, but before anything
+        // can have come of it.
         Flier& f = fliers_[i];
         f.event = Flier::Event::looks_again;
-        queue_.set(i, later(now, std::min(h_, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60)))));
+        queue_.set(i, later(now, std::min({h_, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60)), harmless_time(traveller(i, bodies, now), traveller(j, bodies, now))})));
         return;
     }
-    const Moment end{now.step + 1, 0.0};
     for (const std::uint32_t k : cluster_.struck()) {
         if (bodies[k].asleep) wake(k, bodies, sleep, now);
+        fliers_[k].spin = unknown;
         changed_.push_back(k);
     }
     release_struck(bodies);
     const std::vector<StepLimit>* limits = land(bodies, forces, now);
     for (const std::uint32_t k : changed_) {
-        const Body& body = bodies[k];
-        if (body.flying) fly(k, bodies, forces, now);
-        else start(k, held_path(body, limits ? (*limits)[k] : StepLimit{}, bodies), now, end);
+        if (bodies[k].flying) fly(k, bodies, forces, now);
+        else hold(k, limits ? (*limits)[k] : StepLimit{}, bodies, now);
     }
     predict_changed(bodies, now);
 }
@@ -445,6 +451,7 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
     sort_unique(touched);
     for (const std::uint32_t k : touched) {
         velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
+        fliers_[k].spin = unknown;
     }
     for (const std::uint32_t k : landed) {
         Body& body = bodies[k];

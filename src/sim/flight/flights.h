@@ -22,6 +22,7 @@
 #include "sim/forces.h"
 #include "sim/tuning.h"
 
+#include <limits>
 #include <vector>
 
 namespace tumble {
@@ -44,6 +45,7 @@ public:
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 
 private:
+    static constexpr double unknown = std::numeric_limits<double>::infinity();
     struct Flier {
         Path path;
         Moment start;                 // of the path
@@ -59,6 +61,7 @@ private:
         Moment last_impact;
         double since_impact = 0.0;    // s, between the last two
         int impacts_in_row = 0;
+        double spin = unknown;        // J, twice the energy: of a held body that nothing has struck since its path began
     };
 
     void start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until);
@@ -72,7 +75,7 @@ private:
     /// How far what has landed may move in the rest of the step; null if nothing landed.
     const std::vector<StepLimit>* land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
     const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const Moment& now);
-    Path held_path(const Body& body, const StepLimit& limit, const std::vector<Body>& bodies) const;
+    void hold(std::uint32_t i, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now);
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
     bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now);

@@ -2,7 +2,9 @@
 
 #include "sim/tuning.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -64,6 +66,16 @@ void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bo
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time) {
     if (acceleration >= 0.0) return false;
     return 2.0 * relative_velocity(c, a, b) < -acceleration * time;
+}
+
+double harmless_time(const Traveller& a, const Traveller& b) {
+    double size = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const Traveller* t : {&a, &b}) {
+        if (!t->body->moves()) continue;
+        size = std::min(size, t->body->radius);
+        most += t->path->acceleration(t->since).norm() + t->path->turning_bound() * t->body->radius;
+    }
+    return std::sqrt(2.0 * tuning::impact_harmless * size / most);
 }
 
 }  // namespace tumble

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim/contact/contact.h"
+#include "sim/flight/time_of_impact.h"
 
 #include <vector>
 
@@ -21,5 +22,9 @@ bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double accel
 /// held too, to be pushed out.
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double release,
                std::vector<bool>& held);
+
+/// Time (s) in which two that touch and do not approach come into each other by no more than tuning::impact_harmless of the
+/// smaller: with Q the most that their points accelerate against each other, they do so by Q t^2 / 2.
+double harmless_time(const Traveller& a, const Traveller& b);
 
 }  // namespace tumble
