@@ -34,7 +34,8 @@ Bounds bounds_of_step(const Body& body, double h) {
 const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h, ThreadPool* pool) {
     if (!built_) build(bodies);
     if (look_for_awake_) find_awake(bodies);
-    if (pool && pool->size() > 1 && awake_.size() >= tuning::parallel_bodies) find_leavers(bodies, h, *pool);
+    searches_.resize(pool ? std::size_t(pool->size()) : 1);
+    if (searches_.size() > 1 && awake_.size() >= tuning::parallel_bodies) find_leavers(bodies, h, *pool);
     else
         for (const std::uint32_t i : awake_)
             if (!stays(i, bodies[i], h)) visit(i, bodies[i], h);
@@ -42,9 +43,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
         std::erase_if(awake_, [&](std::uint32_t i) { return bodies[i].asleep && kind_ == Pairs::awake; });
     if (moved_.empty() && !fell_asleep_) return pairs_;
 
-    added_.clear();
-    for (const std::uint32_t i : moved_) find_pairs_of(i, bodies);
-    std::sort(added_.begin(), added_.end());
+    find_added(bodies, pool);
     spare_.clear();
     std::erase_if(pairs_, [&](const Pair& pair) {
         const State &a = states_[pair.a], &b = states_[pair.b];
@@ -95,14 +94,15 @@ bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) const {
 }
 
 void BroadPhase::find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool) {
-    leavers_.resize(std::size_t(pool.size()));
     pool.together([&](std::size_t thread) {
-        leavers_[thread].clear();
+        auto& leavers = searches_[thread].leavers;
+        leavers.clear();
         for (const std::uint32_t i : awake_)
-            if (pool.thread_of(i) == thread && !stays(i, bodies[i], h)) leavers_[thread].push_back(i);
+            if (pool.thread_of(i) == thread && !stays(i, bodies[i], h)) leavers.push_back(i);
     });
-    std::vector<std::uint32_t>& all = leavers_[0];
-    for (std::size_t thread = 1; thread < leavers_.size(); ++thread) all.insert(all.end(), leavers_[thread].begin(), leavers_[thread].end());
+    std::vector<std::uint32_t>& all = searches_[0].leavers;
+    for (std::size_t thread = 1; thread < searches_.size(); ++thread)
+        all.insert(all.end(), searches_[thread].leavers.begin(), searches_[thread].leavers.end());
     std::sort(all.begin(), all.end());
     for (const std::uint32_t i : all) visit(i, bodies[i], h);
 }
@@ -125,18 +125,39 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     moved_.push_back(i);
 }
 
-void BroadPhase::find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies) {
+// The pairs of all that has moved, ascending. The trees stand still while they are asked, by all threads.
+void BroadPhase::find_added(const std::vector<Body>& bodies, ThreadPool* pool) {
+    for (Search& search : searches_) search.pairs.clear();
+    const auto sort = [](Search& search) { std::sort(search.pairs.begin(), search.pairs.end()); };
+    if (searches_.size() > 1 && moved_.size() >= tuning::parallel_searches) {
+        pool->for_each(moved_.size(), tuning::parallel_searches,
+                       [&](std::size_t k, std::size_t thread) { find_pairs_of(moved_[k], bodies, searches_[thread]); });
+        pool->together([&](std::size_t thread) { sort(searches_[thread]); });
+    } else {
+        for (const std::uint32_t i : moved_) find_pairs_of(i, bodies, searches_[0]);
+        sort(searches_[0]);
+    }
+    added_.swap(searches_[0].pairs);
+    for (std::size_t thread = 1; thread < searches_.size(); ++thread) {
+        const auto& more = searches_[thread].pairs;
+        const auto middle = std::ptrdiff_t(added_.size());
+        added_.insert(added_.end(), more.begin(), more.end());
+        std::inplace_merge(added_.begin(), added_.begin() + middle, added_.end());
+    }
+}
+
+void BroadPhase::find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies, Search& search) const {
     const bool awake = states_[i].active, dynamic = bodies[i].dynamic();
     const Bounds& box = (awake ? active_tree_ : resting_tree_).box(i);
     const auto meet = [&](std::uint32_t other) {
         if (other == i || (states_[other].moved && other < i)) return;
-        if (dynamic || bodies[other].dynamic()) added_.push_back({std::min(i, other), std::max(i, other)});
+        if (dynamic || bodies[other].dynamic()) search.pairs.push_back({std::min(i, other), std::max(i, other)});
     };
-    active_tree_.query(box, meet);
+    active_tree_.query(box, search.stack, meet);
     if (!awake) return;
-    resting_tree_.query(box, meet);
+    resting_tree_.query(box, search.stack, meet);
     if (!dynamic) return;
-    const auto add = [&](std::uint32_t fixed) { added_.push_back({std::min(i, fixed), std::max(i, fixed)}); };
+    const auto add = [&](std::uint32_t fixed) { search.pairs.push_back({std::min(i, fixed), std::max(i, fixed)}); };
     fixed_tree_.query(box, [&](std::uint32_t other) { add(fixed_[other]); });
     for (const std::uint32_t plane : half_spaces_) {
         // The half-space reaches the box if the box's lowest corner is below its plane.

@@ -21,7 +21,9 @@ class BroadPhase {
 public:
     struct Pair {
         std::uint32_t a, b;   // a < b; at least one is dynamic
-        friend auto operator<=>(const Pair&, const Pair&) = default;
+        friend bool operator==(const Pair&, const Pair&) = default;
+        friend auto operator<=>(const Pair& l, const Pair& r) { return l.key() <=> r.key(); }
+        std::uint64_t key() const { return std::uint64_t(a) << 32 | b; }   // compared at once: lists of them are sorted
     };
     /// awake: pairs of which one body is awake, for the step. all: sleepers among themselves as well.
     enum class Pairs { awake, all };
@@ -29,7 +31,7 @@ public:
     explicit BroadPhase(Pairs kind = Pairs::awake) : kind_(kind) {}
 
     /// The pairs for the bodies' present poses and speeds, ascending: all whose bounds_of_step overlap. h: the step, s. The
-    /// bodies must be the same ones in every call. `pool`: looks the bodies over with all its threads.
+    /// bodies must be the same ones in every call. `pool`: looks the bodies over and searches with all its threads.
     const std::vector<Pair>& update(const std::vector<Body>& bodies, double h, ThreadPool* pool = nullptr);
 
     /// To be called when any body's `asleep` has been cleared: the next update looks for all that are awake.
@@ -45,7 +47,14 @@ private:
     void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);
     void visit(std::uint32_t i, const Body& body, double h);
     bool active(const Body& body) const { return (!body.asleep || kind_ == Pairs::all) && !body.flying; }
-    void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies);
+    // What one thread finds.
+    struct Search {
+        std::vector<std::uint32_t> leavers;
+        std::vector<Pair> pairs;
+        DynamicTree::Stack stack;
+    };
+    void find_added(const std::vector<Body>& bodies, ThreadPool* pool);
+    void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies, Search& search) const;
 
     Pairs kind_;
     bool built_ = false, look_for_awake_ = true;
@@ -59,7 +68,7 @@ private:
     };
     std::vector<State> states_;               // of the bodies
     std::vector<std::uint32_t> moved_;
-    std::vector<std::vector<std::uint32_t>> leavers_;   // found by each thread
+    std::vector<Search> searches_;            // by thread
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
 };

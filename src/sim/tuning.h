@@ -275,6 +275,8 @@ inline constexpr double seam_tolerance = 1e-5;
 
 /// Fewer pairs or islands than this are not worth waking the other threads for.
 inline constexpr std::size_t parallel_grain = 64;
+/// Fewer bodies whose pairs are looked for: some microseconds each.
+inline constexpr std::size_t parallel_searches = 16;
 /// The same for bodies whose forces are applied or poses moved.
 inline constexpr std::size_t parallel_bodies = 512;
 

@@ -94,6 +94,27 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
     }
 }
 
+TEST(BroadPhase, ThreadsFindTheSamePairs) {
+    Random random(85);
+    std::vector<Body> bodies;
+    for (int i = 0; i < 800; ++i) {
+        bodies.push_back(body_of(random, i < 4 ? i : 4 + i % 36));
+        bodies.back().position *= 3.0;
+    }
+    ThreadPool pool(3);
+    BroadPhase alone, together;
+    for (int step = 0; step < 20; ++step) {
+        for (Body& body : bodies) {
+            if (!body.moves()) continue;
+            body.velocity = random.vector(step % 4 == 0 ? 60.0 : 5.0);
+            body.position += h * 5.0 * body.velocity;
+        }
+        const std::vector<BroadPhase::Pair> expected = alone.update(bodies, h);
+        ASSERT_GT(expected.size(), 200u);
+        ASSERT_EQ(together.update(bodies, h, &pool), expected) << step;
+    }
+}
+
 // For a measurement every pair counts, whoever sleeps.
 TEST(BroadPhase, SleepersAmongThemselves) {
     Random random(84);

@@ -39,7 +39,8 @@ TEST(DynamicTree, FindsWhatOverlaps) {
         EXPECT_EQ(tree.holds(item), boxes.count(item) == 1);
         const Bounds query = random_box(random).grown(random(0.0, 3.0));
         std::vector<std::uint32_t> found, expected;
-        tree.query(query, [&](std::uint32_t i) { found.push_back(i); });
+        DynamicTree::Stack stack;
+        tree.query(query, stack, [&](std::uint32_t i) { found.push_back(i); });
         std::sort(found.begin(), found.end());
         for (const auto& [i, box] : boxes)
             if (box.overlaps(query)) expected.push_back(i);

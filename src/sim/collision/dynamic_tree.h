@@ -22,20 +22,23 @@ public:
     const Bounds& box(std::uint32_t item) const { return items_[item].box; }
     bool holds(std::uint32_t item) const { return item < items_.size() && items_[item].held; }
 
+    /// Working space of a query, one for each thread that asks; kept so that nothing is allocated.
+    using Stack = std::vector<std::uint32_t>;
+
     /// Calls visit(item) for each item whose box overlaps; in an order that depends on the tree's history.
     template <class Visit>
-    void query(const Bounds& box, Visit&& visit) const {
+    void query(const Bounds& box, Stack& stack, Visit&& visit) const {
         const auto look = [&](std::uint32_t child) {
-            if (!leaf(child)) stack_.push_back(child);
+            if (!leaf(child)) stack.push_back(child);
             else if (items_[item_of(child)].box.overlaps(box)) visit(item_of(child));
         };
         if (root_ == none) return;
         const Box wide(box);
-        stack_.clear();
+        stack.clear();
         look(root_);
-        while (!stack_.empty()) {
-            const Node& node = nodes_[stack_.back()];
-            stack_.pop_back();
+        while (!stack.empty()) {
+            const Node& node = nodes_[stack.back()];
+            stack.pop_back();
             for (int side = 1; side >= 0; --side)
                 if (node.box[side].overlaps(wide)) look(node.child[side]);
         }
@@ -84,7 +87,6 @@ private:
     std::vector<std::uint32_t> free_;   // nodes not in use
     std::vector<Item> items_;
     std::uint32_t root_ = none;         // a node, or the only item
-    mutable std::vector<std::uint32_t> stack_;
 };
 
 }  // namespace tumble

@@ -29,7 +29,7 @@ bool Neighbourhood::encloses(std::uint32_t body, const Bounds& box) const {
 void Neighbourhood::enclose(std::uint32_t body, const Bounds& box) {
     tree_.set(body, box);
     found_.clear();
-    tree_.query(box, [&](std::uint32_t other) {
+    tree_.query(box, stack_, [&](std::uint32_t other) {
         if (other != body) found_.push_back(other);
     });
     std::sort(found_.begin(), found_.end());

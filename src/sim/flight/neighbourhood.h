@@ -30,6 +30,7 @@ private:
     std::vector<std::uint32_t> half_spaces_, fixed_;
     BoundsTree fixed_tree_;
     DynamicTree tree_;
+    DynamicTree::Stack stack_;
     std::size_t movers_ = 0;
     std::vector<std::vector<std::uint32_t>> moving_, standing_;   // by body
     std::vector<std::uint32_t> found_;
