@@ -55,8 +55,10 @@ inline constexpr double soft_sag = 3e-3;
 /// In islands of so many bodies the soft contacts are watched for energy they give: those of needles that spin by radians in a
 /// substep may. In large ones the sum would tell nothing of the one that gains.
 inline constexpr std::size_t soft_energy_bodies = 32;
-/// And where any of them turns by more than this in a substep, rad.
+/// And where any of them turns by more than this in a substep, rad; or has moments of inertia in such a ratio, as a needle of
+/// 1 : 45, and may be spun up within the step.
 inline constexpr double soft_energy_turn = 0.1;
+inline constexpr double soft_energy_slender = 1e3;
 /// Steps for which the load of an island that is solved softly is taken to hold.
 inline constexpr int soft_load_age = 8;
 /// Stiffness of its contacts, cycles in a substep, and their damping ratio: between bodies; between those of which one is

@@ -1,6 +1,5 @@
 #include "sim/contact/contact_solver.h"
 
-#include "sim/contact/energy_limit.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
