@@ -192,6 +192,10 @@ TEST(TimeOfImpact, TouchingAtTheBeginning) {
     found = search.find(left.traveller(), rests.traveller(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_LT(found.time, 1e-5);
+    const Flying ball(free_ball(0.5, 1.0, {0, 0.5, 0}, Vec3::Zero()));
+    found = search.find(ground.traveller(), ball.traveller(), 5.0);
+    ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
+    EXPECT_LT(found.time, 1e-5);
 }
 
 // From where they first touch, boxes may go on until they overlap by what is allowed; along the rim of a face, too, where no

@@ -47,7 +47,8 @@ Scale scale_of(const Traveller& a, const Traveller& b) {
 double fall_time(double h, double v, double a, const Scale& scale) {
     if (h <= scale.touch) {
         if (v < -scale.speed) return 0.0;
-        return a < 0.0 && v > 0.0 ? -2.0 * v / a : infinity;
+        if (a >= 0.0) return infinity;
+        return v > 0.0 ? -2.0 * v / a : (v + scale.speed) / -a;   // up and back; or at once, as soon as it can be told from rounding
     }
     const double square = v * v - 2.0 * a * h;
     if (square < 0.0) return infinity;
