@@ -308,7 +308,7 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
 // find their impacts themselves.
 const std::vector<StepLimit>& World::State::held_limits() {
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
-        pairs = broad_phase.update(bodies, h);
+        pairs = broad_phase.update(bodies, h, &pool);
         std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
         return pairs;
     };

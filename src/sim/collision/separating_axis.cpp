@@ -186,7 +186,6 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up) {
-    if (given_up) *given_up = {};
     const auto apart = [&](double separation) {
         if (separation <= margin) return false;
         scratch.gap = separation;
@@ -210,14 +209,15 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
     if (apart(axis.separation)) return {};
     const double smaller = std::min(a.radius, b.radius);
-    if (edges_along_face(axis, face, smaller, scratch.choice)) {
-        if (given_up) *given_up = axis;
-        axis = face;
+    const SeparatingAxis edges = axis;
+    const bool prefers_face = edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
+    if (prefers_face) axis = face;
+    if (axis.separation > 0.0) {
+        const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, smaller, scratch.choice);
+        if (grazed.grazed) return grazed;
     }
-    if (axis.separation <= 0.0) return axis;
-    const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, smaller, scratch.choice);
-    if (given_up && grazed.grazed) *given_up = {};
-    return grazed;
+    if (prefers_face && given_up) *given_up = edges;
+    return axis;
 }
 
 }  // namespace tumble

@@ -29,8 +29,8 @@ enum class EdgeSearch { nearby, all };
 /// bounds s from below, the margin from above.
 double edge_reach(EdgeSearch search, double margin, double best_separation);
 
-/// `b_in_a` is B's pose in A's frame. given_up: the edges that a face was preferred to (edges_along_face); of kind none
-/// where there were none.
+/// `b_in_a` is B's pose in A's frame. given_up: the edges that a face was preferred to (edges_along_face); left as
+/// it is where there were none.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
                                     EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up = nullptr);
 

@@ -38,7 +38,6 @@ EnergyLimit energy_limit(const ContactProblem& problem, std::span<const std::uin
         }
     if (!leans) return {};
     EnergyLimit limit;
-    limit.asked = true;
     for (const std::uint32_t i : bodies) {
         const Body& body = problem.bodies[i];
         const BodyVelocity& start = problem.before[i];
@@ -50,7 +49,7 @@ EnergyLimit energy_limit(const ContactProblem& problem, std::span<const std::uin
 }
 
 void hold_energy(const ContactProblem& problem, std::span<const std::uint32_t> bodies, const EnergyLimit& limit) {
-    if (!limit.asked) return;
+    if (limit.forces.empty()) return;
     double energy = 0.0, work = 0.0;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         const Body& body = problem.bodies[bodies[k]];

@@ -375,7 +375,8 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         // can have come of it.
         Flier& f = fliers_[i];
         f.event = Flier::Event::looks_again;
-        queue_.set(i, later(now, std::min({h_, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60)), harmless_time(traveller(i, bodies, now), traveller(j, bodies, now))})));
+        const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
+        queue_.set(i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
         return;
     }
     for (const std::uint32_t k : cluster_.struck()) {
