@@ -155,6 +155,9 @@ inline constexpr std::size_t projection_contacts = 512;
 /// In the passes of a propagating impact the sweeps win in run time from fewer on (heaps of 216 bouncing boxes: half the
 /// time of 256), and a pass need not be exact: it keeps the energy whatever the sweeps leave over.
 inline constexpr std::size_t pass_contacts = 64;
+/// Approaches below this part of the restitution threshold, a quarter of what gravity adds in a step, take no part in the
+/// impacts of more contacts than that: a sixth of a heap's approaching contacts is left, in small parts that are exact.
+inline constexpr double impact_slow = 0.125;
 /// A unit row is dependent on others when less than this is left of it: masses of 1 : 1e8 in one contact leave 1e-4.
 inline constexpr double projection_dependent = 1e-8;
 /// Impulses are spread over contacts whose rows depend on each other to this (the rounding of arms of some hundred

@@ -239,8 +239,9 @@ void World::State::resolve_collisions() {
         }
     }
     if (struck.empty()) return;
+    const double threshold = tuning::restitution_threshold * gravity_step();
     const ImpactSettings impacts{
-        .threshold = tuning::restitution_threshold * gravity_step(), .law = settings.impact_law, .friction = true};
+        .threshold = threshold, .slow = tuning::impact_slow * threshold, .law = settings.impact_law, .friction = true};
     pool.for_each(colliding.size(), tuning::parallel_grain,
                   [&](std::size_t i, std::size_t) { resolve_impacts(colliding[i], contacts, bodies, impacts); });
     std::size_t next = 0;

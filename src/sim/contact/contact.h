@@ -3,7 +3,7 @@
 // The notes' convention: the normal n points away from A's surface, so towards B. Their eq. 8,
 // v_rel = n . (p_a' - p_b') with v_rel < 0 for a collision, asks for the opposite normal; with n away from A the relative
 // velocity that is negative for approaching bodies is v_rel = n . (p_b' - p_a'), and the impulse +j n acts on B,
-// -j n on A. That is what is used here; j itself is eq. 20 unchanged.
+// -j n on A. That is what is used here; j itself is eq. 20 unchanged (impact_laws.h, where several contacts act at once).
 #pragma once
 
 #include "sim/body.h"
@@ -14,11 +14,6 @@
 
 namespace tumble {
 
-enum class ContactState { separating, resting, colliding };
-
-/// Told apart by v_rel (m/s): above `tolerance` separating, below -tolerance colliding, else resting.
-ContactState classify(double relative_velocity, double tolerance);
-
 struct Contact {
     std::uint32_t a = 0, b = 0, part = 0;   // bodies, and the triangle of a surface
     std::uint64_t feature = 0;
@@ -27,11 +22,6 @@ struct Contact {
     double separation = 0.0;                // m; negative: overlap
     double touch_distance = 0.0;            // m: nearer than this is touching
     double restitution = 0.0, friction = 0.0;   // of the pair
-
-    // Derived once a step: I^-1 (r x n) and the bracket of eq. 20.
-    Vec3 turn_a, turn_b;
-    double inverse_effective_mass = 0.0;    // 1/kg
-    double inverse_tangent_mass = 0.0;      // 1/kg, of the direction across the normal that gives way most
 
     double impact = 0.0;                    // N s, the impulse of this step's collision
     Vec3 impact_friction = Vec3::Zero();    // N s on B, across the normal: the collision's own friction, if asked for
@@ -43,21 +33,10 @@ struct Contact {
 /// v_rel of the contact's points for the bodies' present velocities; negative: approaching.
 double relative_velocity(const Contact& c, const Body& a, const Body& b);
 
-/// The impulse j of eq. 20 for a collision of these two alone.
-double collision_impulse(const Contact& c, const Body& a, const Body& b);
-
-/// Adds an impulse to the bodies' velocities (eqs. 15 and 16): +J on B, -J on A. Bodies that are not dynamic are not
-/// touched: islands on other threads may read them.
-void apply_to_velocities(const Vec3& impulse, const Contact& c, Body& a, Body& b);
-
-/// The same for an impulse of size j along the normal, with what was derived.
-void apply_normal_to_velocities(double j, const Contact& c, Body& a, Body& b);
-
 /// The impulse's share of the momenta, P and L (eqs. 9 and 10); the velocities are left for derive().
 void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b);
 
-/// Contacts of the manifolds in their order, derived quantities filled in. Those of one manifold only are added to what is
-/// there already.
+/// Contacts of the manifolds in their order. Those of one manifold only are added to what is there already.
 void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
 void add_contacts(const Manifold& manifold, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
 

@@ -55,8 +55,9 @@ void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, 
 
 class Propagation {
 public:
-    Propagation(ContactCluster& cluster, double threshold)
+    Propagation(ContactCluster& cluster, double threshold, double slow)
         : cluster_(cluster), threshold_(threshold),
+          slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts), changed_(cluster.bodies() + 1, 1) {
         // What is not dynamic has the last place, and never changes.
         const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
@@ -92,7 +93,7 @@ private:
         for (std::size_t i = 0; i < cluster_.size(); ++i) {
             // Else it is as it was after the pass before.
             if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
-            if (!cluster_.approaching(i)) continue;
+            if (!(cluster_.speed(i) < -slow_)) continue;
             active_.push_back(demand(cluster_, i, 0.0));
             restitution_.push_back(restitution_now(cluster_, i, threshold_));
             any = any || restitution_.back() > 0.0;
@@ -144,7 +145,7 @@ private:
     }
 
     ContactCluster& cluster_;
-    double threshold_, longest_ = 0.0;
+    double threshold_, slow_, longest_ = 0.0;
     Projection projection_;
     std::vector<Projection::Demand> active_;
     std::vector<double> restitution_, lambda_;
@@ -160,7 +161,9 @@ bool bounces(const ContactCluster& cluster, double threshold) {
     return false;
 }
 
-int propagate(ContactCluster& cluster, double threshold) { return Propagation(cluster, threshold).run(); }
+int propagate(ContactCluster& cluster, double threshold, double slow) {
+    return Propagation(cluster, threshold, slow).run();
+}
 
 bool stop(ContactCluster& cluster) {
     std::vector<Projection::Demand> all;

@@ -17,6 +17,9 @@ namespace tumble {
 
 struct ImpactSettings {
     double threshold = 0.0;   // m/s: slower approaches do not bounce
+    /// m/s: among more than tuning::pass_contacts, contacts that approach slower take no part in a pass of the propagating law
+    /// and are left to the solver of resting contact. A heap at rest trembles in half of its contacts.
+    double slow = 0.0;
     ImpactLaw law = ImpactLaw::propagating;
     bool friction = false;    // Coulomb friction in the impact itself
     /// Nothing is left approaching: what does not bounce is stopped (e = 0). Without it an impact in which nothing bounces
@@ -28,8 +31,8 @@ struct ImpactSettings {
 bool bounces(const ContactCluster& cluster, double threshold);
 
 /// Repeats the law until nothing bounces; returns the passes. Jammed contacts (a ball between two walls) have no end: they
-/// lose their restitution and stop.
-int propagate(ContactCluster& cluster, double threshold);
+/// lose their restitution and stop. Threshold and slow as in ImpactSettings.
+int propagate(ContactCluster& cluster, double threshold, double slow);
 int resolve_together(ContactCluster& cluster, double threshold);
 
 /// The least change that leaves nothing approaching, e = 0. False where there is none (between closing walls).
