@@ -1,6 +1,6 @@
 // Collisions of whole clusters: momentum kept, energy never gained (kept for e = 1), nothing left approaching.
-#include "clusters.h"
-#include "sim/contact/impacts.h"
+#include "impact_scenes.h"
+#include "sim/tuning.h"
 
 #include <gtest/gtest.h>
 
@@ -107,6 +107,31 @@ TEST(Impacts, InelasticAndSlowOnesAreLeftAlone) {
         EXPECT_EQ(totals(c.bodies).kinetic, before.kinetic);
         Cluster slow = random_cluster(random, 6, true, 2.0, 0.5, 1.0);
         EXPECT_EQ(collide_cluster(slow, 1e3), 0);
+    }
+}
+
+// Pairs of balls of which one bounces: the slow approaches of the others are its business among few contacts, and left to
+// the solver of resting contact among many.
+TEST(Impacts, SlowOnesAreLeftOutOfLargeClusters) {
+    for (const std::size_t pairs : {tuning::pass_contacts / 2, 2 * tuning::pass_contacts}) {
+        ImpactScene s;
+        s.restitution = 0.5;
+        for (std::uint32_t i = 0; i < pairs; ++i) {
+            const double speed = i == 3 ? 1.0 : 1e-3;
+            s.add_ball(1.0, Vec3(0, 3.0 * i, 0), Vec3(speed, 0, 0));
+            s.add_ball(2.0, Vec3(1, 3.0 * i, 0), Vec3::Zero());
+            s.touch_balls(2 * i, 2 * i + 1);
+        }
+        make_contacts(s.manifolds, s.bodies, s.contacts);
+        Island all;
+        for (std::uint32_t i = 0; i < s.bodies.size(); ++i) all.bodies.push_back(i);
+        for (std::uint32_t i = 0; i < s.contacts.size(); ++i) all.contacts.push_back(i);
+        EXPECT_EQ(resolve_impacts(all, s.contacts, s.bodies, {.threshold = 0.1, .slow = 0.01}), 1);
+        for (std::uint32_t i = 0; i < pairs; ++i) {
+            const bool few = pairs <= tuning::pass_contacts;
+            const double bracket = 1.0 + 1.0 / 2.0;   // of eq. 20; the slow ones stop
+            EXPECT_NEAR(s.contacts[i].impact, i == 3 ? 1.5 / bracket : few ? 1e-3 / bracket : 0.0, 1e-14) << i;
+        }
     }
 }
 
