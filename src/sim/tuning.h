@@ -52,11 +52,11 @@ inline constexpr int soft_high_pile = 32;
 inline constexpr int soft_very_high_pile = 64;
 /// And where a body would sink in by more than this part of its radius under its own weight: g d^2 in a substep d.
 inline constexpr double soft_sag = 3e-3;
-/// In islands of so many bodies the soft contacts are watched for energy they give: those of needles that spin by radians in a
-/// substep may. In large ones the sum would tell nothing of the one that gains.
+/// Nothing is asked about the energy of islands in which bodies overlap by this part of the smaller radius: they began so.
+inline constexpr double soft_energy_deep = 0.25;
+/// In islands of so many bodies the ways are held to the energy there is, where soft contacts may spin something up: a body that
+/// turns by more than this in a substep, rad; or has moments of inertia in such a ratio, as a needle of 1 : 45.
 inline constexpr std::size_t soft_energy_bodies = 32;
-/// And where any of them turns by more than this in a substep, rad; or has moments of inertia in such a ratio, as a needle of
-/// 1 : 45, and may be spun up within the step.
 inline constexpr double soft_energy_turn = 0.1;
 inline constexpr double soft_energy_slender = 1e3;
 /// Steps for which the load of an island that is solved softly is taken to hold.

@@ -102,13 +102,31 @@ TEST(ContactEnergy, GainsNoMoreThanPushOutAndAStepsFall) {
                     << name(kind) << " " << friction << " " << restitution;
 }
 
+// One step a frame: what lands and bounces in heaps gained up to .4 % of the energy in a step before islands were held to what
+// they have (energy_limit.h). What is left lifts what is at rest out of overlaps.
+TEST(ContactEnergy, HeapsOfOneStepAFrameGainNothing) {
+    for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
+        for (const double friction : {0.0, 0.5})
+            for (const double restitution : {0.0, 0.3}) {
+                World world(heap(kind, 40, friction, restitution, 1, 2));
+                const double start = energy(world);
+                double before = start;
+                for (int k = 0; k < 150; ++k) {
+                    world.step();
+                    const double now = energy(world);
+                    EXPECT_LE(now, before + 3e-6 * start) << name(kind) << " " << friction << " " << restitution << " " << k;
+                    before = now;
+                }
+            }
+}
+
 // From second to second it only falls, and in the end it has come to rest.
 TEST(ContactEnergy, HeapsComeToRest) {
     for (const double restitution : {0.0, 0.5}) {
         const SceneDescription scene = heap(Kind::boxes, 27, 0.5, restitution, 2, 3);
         World world(scene);
         double before = energy(world);
-        for (int second = 0; second < 8; ++second) {
+        for (int second = 0; second < 10; ++second) {
             run(world, scene, 1.0);
             const double now = energy(world);
             EXPECT_LE(now, before * (1.0 + 1e-5)) << restitution << " " << second;

@@ -198,10 +198,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     }
     if (!softly_.empty()) {
         deal(islands, problem);
-        energy_limits_.clear();
-        for (const std::size_t k : softly_) energy_limits_.push_back(energy_limit(problem, islands.bodies(k), islands.manifolds(k)));
         soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
-        for (std::size_t s = 0; s < softly_.size(); ++s) hold_energy(problem, islands.bodies(softly_[s]), energy_limits_[s]);
     }
 }
 

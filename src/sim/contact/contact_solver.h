@@ -8,7 +8,6 @@
 
 #include "sim/contact/contact_islands.h"
 #include "sim/contact/direct_solver.h"
-#include "sim/contact/energy_limit.h"
 #include "sim/contact/pile_load.h"
 #include "sim/contact/soft_solver.h"
 
@@ -58,7 +57,6 @@ private:
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
     std::vector<int> fineness_;           // of softly_
-    std::vector<EnergyLimit> energy_limits_;   // of softly_
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

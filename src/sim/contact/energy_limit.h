@@ -1,9 +1,10 @@
-// Contact takes energy and gives none. The soft contact solver's sweeps, which stop short of the solution, may: those of a needle
-// that spins by radians in a substep have thrown it to the sky. Small islands that lean on what stands are held to what they
-// had.
+// Contact takes energy and gives none. The soft contact solver's sweeps, which stop short of the solution, may: furniture that
+// landed at 60 steps a second gained half a percent of the scene's energy in a step, a needle that spins by radians in a substep
+// was thrown to the sky. So an island is held to no more than the greater of what it had before and after the step's forces, nor
+// than what it began with and the forces' work on the way it is going to go: what is pushed up pays for it.
 #pragma once
 
-#include "sim/contact/soft_solver.h"
+#include "sim/body.h"
 
 #include <cstdint>
 #include <span>
@@ -11,18 +12,32 @@
 
 namespace tumble {
 
-struct EnergyLimit {
-    double start = 0.0, with_forces = 0.0;   // J, kinetic: when the step began, and with its forces alone
-    std::vector<BodyVelocity> forces;        // what the forces change in the step, by the island's bodies; empty: nothing is asked
+/// What the forces of a step have done to a body before its contacts are solved.
+struct ForceAccount {
+    Vec3 impulse, turn;                // N s, N m s
+    double start, with_forces;         // J, kinetic: before and after
+};
+ForceAccount force_account(const Body& body, const BodyVelocity& before);
+
+/// Sums over bodies that contacts have reached, J.
+struct EnergyAccount {
+    double start = 0.0, with_forces = 0.0, now = 0.0;   // kinetic
+    double work = 0.0;                                  // of the forces on the way that the solved body will go
+
+    void add(const ForceAccount& forces, const Body& solved);
+    void add(const EnergyAccount& other);
+    double limit() const;
+    /// What velocities are to be multiplied with.
+    double scale() const;
+    /// The share of its way that an island can pay for.
+    double affordable_way() const;
 };
 
-/// Before the solve: what an island of these bodies is held to. Nothing is asked of large islands, where nothing turns fast or
-/// is slender, where nothing fixed is touched and momentum must stay, and where kinematic bodies may add some.
-EnergyLimit energy_limit(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
+/// Slows a body. Its way in the step becomes `way` of what it was.
+void slow(Body& body, double scale, double way);
 
-/// After it: slows all bodies of the island alike, so that none approaches what stands, to no more than the greater of the two
-/// energies, nor than what it began with and the forces' work on the way it is going to go: what is pushed up pays for it. The
-/// ways in the step stay, unless they cost more than there is.
-void hold_energy(const ContactProblem& problem, std::span<const std::uint32_t> bodies, const EnergyLimit& limit);
+/// Whether soft contacts may spin up something in this island, which is then held to the way that it can pay for. Elsewhere what is
+/// at rest may be pushed out of an overlap for nothing.
+bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies, const std::vector<BodyVelocity>& before, double h);
 
 }  // namespace tumble
