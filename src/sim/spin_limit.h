@@ -1,11 +1,20 @@
-// No turn adds energy to a body in contact. A step turns the pose by one tangent and keeps L: of a needle that can leave L along
-// its thin axis, and the energy L.omega / 2 many times what it was; the next impact would make speed of that. What the turn
-// has added is taken out of L.
+// No turn adds energy to a body. A step turns the pose by one tangent, omega h, and keeps L: the body's axes then lie a little
+// wrong to L, and the energy L.omega / 2 has grown, of a needle to many times what it was; the next impact would make speed of
+// that. With g = omega x L the growth is h^2 g.I^-1 g / (L.omega) of it, to leading order (the second derivative of
+// L.I^-1 L / 2 along the tangent; the first is zero). Where that is too much the step's turn is made by the mean of the angular
+// velocity over the step; where even that is too coarse, what the turn has added is taken out of L.
 #pragma once
 
 #include "sim/body.h"
 
 namespace tumble {
+
+/// The constant angular velocity (rad/s) that takes the body in a step of h seconds to where torque-free rotation takes it, for
+/// advance_pose(): omega itself, where that adds no more than `growth` to its spin, and in turns of more than
+/// tuning::spin_largest_turn. Small turns by Magnus' series, to third order in h (Magnus 1954): with omega' = -I^-1 g,
+///     omega + h omega' / 2 + h^2 omega'' / 6 + h^2 omega' x omega / 12;
+/// larger ones in closed form (free_rotation.h).
+Vec3 turning_velocity(const Body& body, double h, RotationForm form, double growth);
 
 /// Twice the energy of its spin (J).
 inline double spin(const Body& body) { return body.angular_momentum.dot(body.angular_velocity); }

@@ -263,8 +263,14 @@ inline constexpr double extrapolation_no_drag = 1e-14;
 /// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
 inline constexpr int most_substeps = 200000;
 
-/// Growth of a body's spin energy in the turn of one step that is let pass: boxes at 0.1 rad a step stay below.
+/// Growth of a body's spin energy in the turn of one step that is let pass in flight: a thousandth in a second of 960 steps.
+inline constexpr double spin_growth_in_flight = 1e-6;
+/// And in contact, which is solved for velocities that do not change in the step: boxes at 0.1 rad a step stay below.
 inline constexpr double spin_growth = 0.01;
+/// Turns of a step, rad, up to which the mean of omega follows from a series (its error: 1e-5 of the turn), and from which on it is
+/// not looked for: the tangent that gives it gets long.
+inline constexpr double spin_series_turn = 0.1;
+inline constexpr double spin_largest_turn = 0.7;
 
 /// A body is at rest when its surface strayed, in one of these spans (s), by less than if it gathered speed at this rate
 /// (radii/s^2): 3e-6 radii in the shortest, 2e-4 in the longest. What slides off at a thousandth past the angle of friction

@@ -107,6 +107,12 @@ struct World::State {
     bool by_whole_state(const Body& body) const {
         return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
     }
+    // Whether contact has added anything to what the step's forces did.
+    bool touched(std::uint32_t i) const {
+        const Body& body = bodies[i];
+        return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
+               !body.push_angular_velocity.isZero(0.0);
+    }
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
     void turn_freely(Body& body, const Quat& from, double share) const;
@@ -300,7 +306,10 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         // Between exact flights all held bodies move by the velocities they are solved for.
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
-        motions[i].angular_velocity = (before ? old_velocities[i].angular_velocity : body.angular_velocity) + body.push_angular_velocity;
+        motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
+        if (!before && body.dynamic())
+            motions[i].angular_velocity = turning_velocity(body, h, settings.rotation, touched(i) ? tuning::spin_growth : tuning::spin_growth_in_flight);
+        motions[i].angular_velocity += body.push_angular_velocity;
     });
     return motions;
 }
@@ -358,9 +367,8 @@ void World::State::move() {
         Body& body = bodies[i];
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
-        const bool touched = force_steps[i].after != Momenta{body.momentum, body.angular_momentum} ||
-                             !body.push_velocity.isZero(0.0) || !body.push_angular_velocity.isZero(0.0);
-        if (by_whole_state(body) && !touched) {
+        const bool in_contact = touched(i);
+        if (by_whole_state(body) && !in_contact) {
             body.momentum = force_steps[i].before.momentum;
             body.angular_momentum = force_steps[i].before.angular_momentum;
             if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
@@ -371,7 +379,7 @@ void World::State::move() {
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
-            if (!touched && share < 1.0) {   // forces have acted for as long as it moved
+            if (!in_contact && share < 1.0) {   // forces have acted for as long as it moved
                 const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
                 body.momentum = before.momentum + share * (after.momentum - before.momentum);
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
@@ -379,10 +387,10 @@ void World::State::move() {
             body.derive();
             if (spin_grew(body, spin_before)) {
                 // What was looked along must be the way that is gone.
-                if (touched || motion_limit.looked_along(i)) limit_spin(body, spin_before);
+                if (in_contact || motion_limit.looked_along(i)) limit_spin(body, spin_before);
                 else if (body.integrator == IntegratorKind::symplectic_euler) turn_freely(body, orientation, share);
             }
-            if (touched && share < 1.0) return_work(body, force_steps[i], share);
+            if (in_contact && share < 1.0) return_work(body, force_steps[i], share);
         }
         if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], (1.0 - share) * h);
     });
