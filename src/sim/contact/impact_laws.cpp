@@ -58,7 +58,8 @@ public:
     Propagation(ContactCluster& cluster, double threshold, double slow)
         : cluster_(cluster), threshold_(threshold),
           slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
-          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts), changed_(cluster.bodies() + 1, 1) {
+          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
+          change_(Eigen::VectorXd::Zero(cluster.velocity().size())), changed_(cluster.bodies() + 1, 1) {
         // What is not dynamic has the last place, and never changes.
         const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
         for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
@@ -106,15 +107,33 @@ private:
     // keeps the energy whatever d is. Where restitutions differ d + q may gain energy: it then goes as far as it does not.
     bool reflect() {
         projection_.solve(active_, lambda_, bound(cluster_));
-        const double f = 0.5 * Change(cluster_, active_, lambda_).reflection();
+        const double f = 0.5 * reflection();
         // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
         if (!(f > 0.0 && f < 2.0)) return false;
         for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
-        apply(cluster_, active_, lambda_, std::min(f, Change(cluster_, active_, lambda_).reflection()));
+        apply(cluster_, active_, lambda_, std::min(f, reflection()));
         std::fill(changed_.begin(), changed_.end(), 0);
         for (const Projection::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
         changed_.back() = 0;
         return true;
+    }
+
+    // Change::reflection() from the bodies of the active contacts alone: a pass touches few of a heap.
+    double reflection() {
+        double work_before = 0.0, square = 0.0;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            if (lambda_[i] == 0.0) continue;
+            cluster_.rows()[active_[i].row].add_to(change_, lambda_[i]);
+            work_before += lambda_[i] * cluster_.speed(active_[i].row) / cluster_.length(active_[i].row);
+        }
+        for (const Projection::Demand& demand : active_)
+            for (const std::uint32_t body : {cluster_.rows()[demand.row].a, cluster_.rows()[demand.row].b}) {
+                if (body == VelocityRow::none) continue;
+                auto of_body = change_.segment<6>(6 * Eigen::Index(body));
+                square += of_body.squaredNorm();
+                of_body.setZero();   // which counts each body once, and leaves all zero for the next time
+            }
+        return square > 0.0 ? -2.0 * work_before / square : 0.0;
     }
 
     bool elastic() const {
@@ -149,6 +168,7 @@ private:
     Projection projection_;
     std::vector<Projection::Demand> active_;
     std::vector<double> restitution_, lambda_;
+    Eigen::VectorXd change_;                                        // zero between uses
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
     std::vector<char> changed_;                                     // by place: whether the last pass may have
 };
