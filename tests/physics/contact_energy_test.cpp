@@ -120,6 +120,25 @@ TEST(ContactEnergy, HeapsOfOneStepAFrameGainNothing) {
             }
 }
 
+// What a settling heap pays for, its overlaps pushed out, must not be taken from whoever slides on it.
+TEST(ContactEnergy, APuckSlidesOnWhileTheHeapSettles) {
+    for (const int steps : {1, 4}) {
+        SceneDescription scene = ground_scene(0.0, 0.5, steps);
+        scene.simulation.contact_solver = ContactSolverChoice::soft;
+        scene.simulation.sleep = false;
+        for (int i = 0; i < 36; ++i) add_box(scene, {0.8, 0.8, 0.8}, {i % 6 - 2.5, 0.41, i / 6 - 2.5}, 1000.0);
+        add_box(scene, {12.0, 0.5, 6.0}, {0.0, 1.1, 0.0}, 5000.0);
+        for (BodyDescription& body : scene.bodies) body.friction = 0.5;
+        BodyDescription& puck = add_box(scene, {0.2, 0.1, 0.2}, {-3.0, 1.42, 0.0}, 0.001);
+        puck.friction = 0.0;
+        puck.velocity = {1.0, 0.0, 0.0};
+        World world(scene);
+        run(world, scene, 5.0);
+        EXPECT_NEAR(world.snapshot().bodies.back().velocity.x(), 1.0, 1e-3) << steps;
+        EXPECT_NEAR(world.snapshot().bodies.back().center_of_mass.x(), 2.0, 0.01) << steps;
+    }
+}
+
 // From second to second it only falls, and in the end it has come to rest.
 TEST(ContactEnergy, HeapsComeToRest) {
     for (const double restitution : {0.0, 0.5}) {

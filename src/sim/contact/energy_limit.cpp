@@ -7,6 +7,21 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+// The forces' impulse P = F h on the way h (v + push): work P . (v + push); and so for the turn.
+double work_on(const ForceAccount& forces, const Body& solved) {
+    return forces.impulse.dot(solved.velocity + solved.push_velocity) +
+           forces.turn.dot(solved.angular_velocity + solved.push_angular_velocity);
+}
+
+// As far as it can be taken back: what is lifted and does not move has nothing.
+double gain(const ForceAccount& forces, const Body& solved) {
+    const double energy = solved.kinetic_energy();
+    return std::clamp(energy - forces.start - work_on(forces, solved), 0.0, energy);
+}
+
+}  // namespace
 
 ForceAccount force_account(const Body& body, const BodyVelocity& before) {
     const Vec3 spun_up = body.angular_velocity - before.angular_velocity;
@@ -20,13 +35,12 @@ ForceAccount force_account(const Body& body, const BodyVelocity& before) {
     return account;
 }
 
-// The forces' impulse P = F h on the way h (v + push): work P . (v + push); and so for the turn.
 void EnergyAccount::add(const ForceAccount& forces, const Body& solved) {
     start += forces.start;
     with_forces += forces.with_forces;
     now += solved.kinetic_energy();
-    work += forces.impulse.dot(solved.velocity + solved.push_velocity) +
-            forces.turn.dot(solved.angular_velocity + solved.push_angular_velocity);
+    work += work_on(forces, solved);
+    gains += gain(forces, solved);
 }
 
 void EnergyAccount::add(const EnergyAccount& other) {
@@ -34,18 +48,27 @@ void EnergyAccount::add(const EnergyAccount& other) {
     with_forces += other.with_forces;
     now += other.now;
     work += other.work;
+    gains += other.gains;
 }
 
-double EnergyAccount::limit() const { return std::max(0.0, std::min(std::max(start, with_forces), start + work)); }
-double EnergyAccount::scale() const { return now > limit() ? std::sqrt(limit() / now) : 1.0; }
+double EnergyAccount::excess() const {
+    const double most = std::max(0.0, std::min(std::max(start, with_forces), start + work));
+    return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
+}
+
 double EnergyAccount::affordable_way() const { return start + work < 0.0 ? start / -work : 1.0; }
 
-void slow(Body& body, double scale, double way) {
+void take_back(const ForceAccount& forces, double share, double way, Body& body) {
+    const double energy = body.kinetic_energy(), taken = share * gain(forces, body);
+    if (taken == 0.0 && way == 1.0) return;
     const Vec3 velocity = way * (body.velocity + body.push_velocity);
     const Vec3 angular_velocity = way * (body.angular_velocity + body.push_angular_velocity);
-    body.momentum *= scale;
-    body.angular_momentum *= scale;
-    body.derive_velocities();
+    if (taken > 0.0) {
+        const double scale = std::sqrt(1.0 - taken / energy);
+        body.momentum *= scale;
+        body.angular_momentum *= scale;
+        body.derive_velocities();
+    }
     body.push_velocity = velocity - body.velocity;
     body.push_angular_velocity = angular_velocity - body.angular_velocity;
 }

@@ -1,7 +1,8 @@
 // Contact takes energy and gives none. The soft contact solver's sweeps, which stop short of the solution, may: furniture that
 // landed at 60 steps a second gained half a percent of the scene's energy in a step, a needle that spins by radians in a substep
 // was thrown to the sky. So an island is held to no more than the greater of what it had before and after the step's forces, nor
-// than what it began with and the forces' work on the way it is going to go: what is pushed up pays for it.
+// than what it began with and the forces' work on the way it is going to go: what is pushed up pays for it. What is too much is
+// taken from the bodies that gained, in proportion: who slides by on a heap that settles keeps what he has.
 #pragma once
 
 #include "sim/body.h"
@@ -23,18 +24,18 @@ ForceAccount force_account(const Body& body, const BodyVelocity& before);
 struct EnergyAccount {
     double start = 0.0, with_forces = 0.0, now = 0.0;   // kinetic
     double work = 0.0;                                  // of the forces on the way that the solved body will go
+    double gains = 0.0;                                 // of the bodies that have gained, no more than they have
 
     void add(const ForceAccount& forces, const Body& solved);
     void add(const EnergyAccount& other);
-    double limit() const;
-    /// What velocities are to be multiplied with.
-    double scale() const;
+    /// The share of each body's gain that is too much.
+    double excess() const;
     /// The share of its way that an island can pay for.
     double affordable_way() const;
 };
 
-/// Slows a body. Its way in the step becomes `way` of what it was.
-void slow(Body& body, double scale, double way);
+/// Takes a share of its gain from a body that has gained. Its way in the step becomes `way` of what it was.
+void take_back(const ForceAccount& forces, double share, double way, Body& body);
 
 /// Whether soft contacts may spin up something in this island, which is then held to the way that it can pay for. Elsewhere what is
 /// at rest may be pushed out of an overlap for nothing.

@@ -459,7 +459,6 @@ void SoftBatch::hand_back(const ContactProblem& problem, Share accounts) {
     }
 }
 
-// All bodies of an island alike, so that none approaches what stands.
 void SoftBatch::hold_energy(const ContactProblem& problem, Share accounts) {
     for (std::size_t n = accounts.begin; n < accounts.end; ++n) {
         const Island& island = islands_[accounts_[n].island];
@@ -467,13 +466,13 @@ void SoftBatch::hold_energy(const ContactProblem& problem, Share accounts) {
         EnergyAccount sum;
         std::size_t end = island.first_account;
         for (; end < accounts_.size() && accounts_[end].island == accounts_[n].island; ++end) sum.add(accounts_[end].energy);
-        const double scale = sum.scale();
-        if (scale == 1.0) continue;
+        const double excess = sum.excess();
+        if (excess == 0.0) continue;
         const std::size_t first = accounts_[island.first_account].first;
         const auto bodies = std::span(blocks_.order()).subspan(first, accounts_[end - 1].end - first);
         const double way = may_spin_up(bodies, problem.bodies, problem.before, problem.patches.h) ? sum.affordable_way() : 1.0;
         for (std::size_t k = accounts_[n].first; k < accounts_[n].end; ++k)
-            if (reached_[k + 1]) slow(problem.bodies[blocks_.order()[k]], scale, way);
+            if (reached_[k + 1]) take_back(force_accounts_[k + 1], excess, way, problem.bodies[blocks_.order()[k]]);
     }
 }
 
