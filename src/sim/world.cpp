@@ -307,7 +307,7 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
-        if (!before && body.dynamic())
+        if (!before && !flights && body.dynamic())
             motions[i].angular_velocity = turning_velocity(body, h, settings.rotation, touched(i) ? tuning::spin_growth : tuning::spin_growth_in_flight);
         motions[i].angular_velocity += body.push_angular_velocity;
     });
