@@ -8,11 +8,14 @@
 namespace tumble {
 namespace {
 
-Vec3 by_series(const Body& body, const Vec3& change, double h) {
+Vec3 by_series(const Body& body, const Vec3& change, double h, RotationForm form) {
     const Vec3 &omega = body.angular_velocity, &l = body.angular_momentum;
     // I^-1 turns with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
     const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) + body.inverse_inertia * l.cross(change);
-    return omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
+    const Vec3 mean = omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
+    // tan(x) / x, with half the angle for quaternions: advance_pose() turns by the angle's tangent.
+    const double angle_square = h * h * mean.squaredNorm(), x = form == RotationForm::quaternion ? 0.25 * angle_square : angle_square;
+    return (1.0 + x / 3.0 + x * x * 2.0 / 15.0) * mean;
 }
 
 Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
@@ -34,7 +37,7 @@ Vec3 turning_velocity(const Body& body, double h, RotationForm form, double grow
     if (!(gain > growth * spin(body))) return body.angular_velocity;
     const double turn = h * body.angular_velocity.norm();
     if (turn > tuning::spin_largest_turn) return body.angular_velocity;
-    return turn < tuning::spin_series_turn ? by_series(body, change, h) : in_closed_form(body, h, form);
+    return turn < tuning::spin_series_turn ? by_series(body, change, h, form) : in_closed_form(body, h, form);
 }
 
 bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tuning::spin_growth) * before; }

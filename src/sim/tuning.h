@@ -10,6 +10,9 @@ namespace tumble::tuning {
 /// Two surfaces touch when nearer than this part of the smaller body's radius: far above rounding, far below sight.
 inline constexpr double touch = 1e-6;
 
+/// Edges closer to parallel than this (squared sine) give no separating axis of their own: a face normal covers the case.
+inline constexpr double parallel_edges = 1e-8;
+
 /// Contact points are kept up to this part of the smaller body's radius apart (and as far as the bodies can come in a
 /// step), so that a rocking box already knows the corners it will land on.
 inline constexpr double speculative = 0.02;
@@ -263,9 +266,8 @@ inline constexpr double extrapolation_no_drag = 1e-14;
 /// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
 inline constexpr int most_substeps = 200000;
 
-/// Growth of a body's spin energy in the turn of one step that is let pass in flight: a thousandth in a second of 960 steps.
-inline constexpr double spin_growth_in_flight = 1e-6;
-/// And in contact, which is solved for velocities that do not change in the step: boxes at 0.1 rad a step stay below.
+/// Growth of a body's spin energy in the turn of one step that is let pass in contact, which is solved for velocities that do not
+/// change in the step: boxes at 0.1 rad a step stay below.
 inline constexpr double spin_growth = 0.01;
 /// Turns of a step, rad, up to which the mean of omega follows from a series (its error: 1e-5 of the turn), and from which on it is
 /// not looked for: the tangent that gives it gets long.

@@ -308,7 +308,7 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
         if (!before && !flights && body.dynamic())
-            motions[i].angular_velocity = turning_velocity(body, h, settings.rotation, touched(i) ? tuning::spin_growth : tuning::spin_growth_in_flight);
+            motions[i].angular_velocity = turning_velocity(body, h, settings.rotation, touched(i) ? tuning::spin_growth : 0.0);
         motions[i].angular_velocity += body.push_angular_velocity;
     });
     return motions;
@@ -325,7 +325,7 @@ const std::vector<StepLimit>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
-// Where a turn by one tangent has added to the spin (spin_limit.h) in flight, L stays and the turn is made again, in closed form.
+// Where a turn in flight is too large for one tangent (spin_limit.h), or has added to the spin, it is made again in closed form.
 void World::State::turn_freely(Body& body, const Quat& from, double share) const {
     const RigidMass mass = mass_of(body);
     RigidState state = state_of(body);
@@ -376,6 +376,9 @@ void World::State::move() {
         } else {
             const double spin_before = spin(body);
             const Quat orientation = body.orientation;
+            // What was looked along must be the way that is gone.
+            const bool free_to_turn = !in_contact && !motion_limit.looked_along(i) && body.integrator == IntegratorKind::symplectic_euler;
+            const bool coarse = free_to_turn && h * body.angular_velocity.norm() > tuning::spin_largest_turn;
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
@@ -385,10 +388,9 @@ void World::State::move() {
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
             }
             body.derive();
-            if (spin_grew(body, spin_before)) {
-                // What was looked along must be the way that is gone.
-                if (in_contact || motion_limit.looked_along(i)) limit_spin(body, spin_before);
-                else if (body.integrator == IntegratorKind::symplectic_euler) turn_freely(body, orientation, share);
+            if (coarse || spin_grew(body, spin_before)) {
+                if (free_to_turn) turn_freely(body, orientation, share);
+                else if (in_contact || motion_limit.looked_along(i)) limit_spin(body, spin_before);
             }
             if (in_contact && share < 1.0) return_work(body, force_steps[i], share);
         }

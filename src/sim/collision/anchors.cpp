@@ -6,14 +6,28 @@
 
 namespace tumble {
 
+namespace {
+
+// A point's ends on the surfaces of A and B, body frames.
+struct Ends {
+    Vec3 on_a, on_b;
+};
+
+Ends ends_of(const ContactPoint& p, const Vec3& normal, const Pose& pose_a, const Pose& pose_b) {
+    const Vec3 half = 0.5 * p.separation * normal;
+    return {pose_a.to_body(p.position - half), pose_b.to_body(p.position + half)};
+}
+
+}  // namespace
+
 Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b) {
     Anchors anchors;
     anchors.normal_of_b = normal_of_b;
     anchors.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
-        const Vec3 half = 0.5 * m.points[i].separation * m.normal;
-        anchors.on_a[i] = pose_a.to_body(m.points[i].position - half);
-        anchors.on_b[i] = pose_b.to_body(m.points[i].position + half);
+        const Ends ends = ends_of(m.points[i], m.normal, pose_a, pose_b);
+        anchors.on_a[i] = ends.on_a;
+        anchors.on_b[i] = ends.on_b;
     }
     return anchors;
 }
@@ -21,8 +35,7 @@ Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, 
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
                  Anchors& anchors) {
     const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
-        const Vec3 half = 0.5 * p.separation * kept[0].normal;
-        const Vec3 on_a = pose_a.to_body(p.position - half), on_b = pose_b.to_body(p.position + half);
+        const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
         anchors.spare[std::size_t(anchors.spares++)] = {of_b ? on_a : on_b, anchors.normal.dot(of_b ? on_b : on_a)};
     };
     if (left_out.size() <= Anchors::spare_capacity) {

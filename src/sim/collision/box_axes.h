@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim/collision/collider.h"
+#include "sim/tuning.h"
 
 #include <cmath>
 #include <limits>
@@ -74,8 +75,7 @@ public:
 
     /// Of A's edge and B's; lowest: the two are parallel.
     static double separation(const Edges& e, int j) {
-        constexpr double parallel = 1e-8;   // squared sine: as in separating_axis.cpp
-        return e.square[j] < parallel ? lowest : e.separation[j] / std::sqrt(e.square[j]);
+        return e.square[j] < tuning::parallel_edges ? lowest : e.separation[j] / std::sqrt(e.square[j]);
     }
     /// Axes are counted: the faces of A, those of B, the edges i, j as 6 + 3 i + j.
     double along(std::uint32_t axis) const {

@@ -149,7 +149,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         const BoxFaces::Side& side = reference_face.side[s];
         if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare)) std::swap(polygon, spare);
     }
-    const std::uint64_t base = (std::uint64_t(on_b) << 63) | (std::uint64_t(face) << 42);
+    const std::uint64_t base = face_feature(on_b, face);
     scratch.points.clear();
     const auto keep = [&](const Corner& corner) {
         const double separation = height(corner.p);

@@ -9,7 +9,7 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
     label_polygon(scratch.incident, scratch.labels, scratch.polygon);
     clip_to_prism(scratch.reference, normal, scratch.polygon, scratch.spare);
     const Vec3& origin = scratch.reference[0];
-    const std::uint64_t base = (std::uint64_t(reference_on_b) << 63) | (std::uint64_t(reference_label) << 42);
+    const std::uint64_t base = face_feature(reference_on_b, reference_label);
     scratch.points.clear();
     const auto keep = [&](const Vec3& p, std::uint64_t feature) {
         const double separation = normal.dot(p - origin);

@@ -6,6 +6,11 @@
 
 namespace tumble {
 
+/// What the ids of a face manifold's features begin with; Manifold::on_b() reads it.
+inline std::uint64_t face_feature(bool reference_on_b, std::uint32_t reference_label) {
+    return (std::uint64_t(reference_on_b) << 63) | (std::uint64_t(reference_label) << 42);
+}
+
 /// Clips scratch.incident (with scratch.labels for its vertices) to the prism of scratch.reference and keeps what lies
 /// nearer than margin to the reference plane. `normal` is the reference face's, outward. `reference_on_b` turns the
 /// manifold's normal so that it points away from A. `reference_label` tells faces apart in the feature ids.

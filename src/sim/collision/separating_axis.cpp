@@ -11,8 +11,6 @@ namespace {
 constexpr double along_face = 0.98;   // cosine of 11 degrees
 constexpr double across_face = 0.5;   // cosine of 60 degrees
 constexpr double lowest = -std::numeric_limits<double>::infinity();
-// Edges closer to parallel than this (squared sine) give no axis of their own: a face normal covers the case.
-constexpr double parallel = 1e-8;
 
 struct FaceAxis {
     double separation = lowest;
@@ -114,7 +112,7 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
             const Vec3 along_a = a.vertices[ea.head] - a.vertices[ea.tail];
             Vec3 n = along_a.cross(along_b);
             const double square = n.squaredNorm();
-            if (square < parallel * along_a.squaredNorm() * along_b.squaredNorm()) continue;
+            if (square < tuning::parallel_edges * along_a.squaredNorm() * along_b.squaredNorm()) continue;
             n /= std::sqrt(square);
             if (n.dot(left + right) < 0.0) n = -n;
             const double separation = n.dot(tail_b - a.vertices[ea.tail]);

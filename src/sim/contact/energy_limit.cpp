@@ -15,12 +15,6 @@ double work_on(const ForceAccount& forces, const Body& solved) {
            forces.turn.dot(solved.angular_velocity + solved.push_angular_velocity);
 }
 
-// As far as it can be taken back: what is lifted and does not move has nothing.
-double gain(const ForceAccount& forces, const Body& solved) {
-    const double energy = solved.kinetic_energy();
-    return std::clamp(energy - forces.start - work_on(forces, solved), 0.0, energy);
-}
-
 }  // namespace
 
 ForceAccount force_account(const Body& body, const BodyVelocity& before) {
@@ -35,12 +29,14 @@ ForceAccount force_account(const Body& body, const BodyVelocity& before) {
     return account;
 }
 
-void EnergyAccount::add(const ForceAccount& forces, const Body& solved) {
+void EnergyAccount::add(ForceAccount& forces, const Body& solved) {
+    const double energy = solved.kinetic_energy(), forces_work = work_on(forces, solved);
+    forces.gain = std::clamp(energy - forces.start - forces_work, 0.0, energy);   // what is lifted and does not move has none
     start += forces.start;
     with_forces += forces.with_forces;
-    now += solved.kinetic_energy();
-    work += work_on(forces, solved);
-    gains += gain(forces, solved);
+    now += energy;
+    work += forces_work;
+    gains += forces.gain;
 }
 
 void EnergyAccount::add(const EnergyAccount& other) {
@@ -59,12 +55,12 @@ double EnergyAccount::excess() const {
 double EnergyAccount::affordable_way() const { return start + work < 0.0 ? start / -work : 1.0; }
 
 void take_back(const ForceAccount& forces, double share, double way, Body& body) {
-    const double energy = body.kinetic_energy(), taken = share * gain(forces, body);
+    const double taken = share * forces.gain;
     if (taken == 0.0 && way == 1.0) return;
     const Vec3 velocity = way * (body.velocity + body.push_velocity);
     const Vec3 angular_velocity = way * (body.angular_velocity + body.push_angular_velocity);
     if (taken > 0.0) {
-        const double scale = std::sqrt(1.0 - taken / energy);
+        const double scale = std::sqrt(1.0 - taken / body.kinetic_energy());
         body.momentum *= scale;
         body.angular_momentum *= scale;
         body.derive_velocities();

@@ -17,6 +17,7 @@ namespace tumble {
 struct ForceAccount {
     Vec3 impulse, turn;                // N s, N m s
     double start, with_forces;         // J, kinetic: before and after
+    double gain = 0.0;                 // J, what the contacts have added since; no more than the body has
 };
 ForceAccount force_account(const Body& body, const BodyVelocity& before);
 
@@ -24,9 +25,10 @@ ForceAccount force_account(const Body& body, const BodyVelocity& before);
 struct EnergyAccount {
     double start = 0.0, with_forces = 0.0, now = 0.0;   // kinetic
     double work = 0.0;                                  // of the forces on the way that the solved body will go
-    double gains = 0.0;                                 // of the bodies that have gained, no more than they have
+    double gains = 0.0;                                 // of the bodies that have gained
 
-    void add(const ForceAccount& forces, const Body& solved);
+    /// Sets the body's own gain too.
+    void add(ForceAccount& forces, const Body& solved);
     void add(const EnergyAccount& other);
     /// The share of each body's gain that is too much.
     double excess() const;
