@@ -1,8 +1,8 @@
-// No turn adds energy to a body. A step turns the pose by one tangent, omega h, and keeps L: the body's axes then lie a little
-// wrong to L, and the energy L.omega / 2 has grown, of a needle to many times what it was; the next impact would make speed of
-// that. With g = omega x L the growth is h^2 g.I^-1 g / (L.omega) of it, to leading order (the second derivative of
-// L.I^-1 L / 2 along the tangent; the first is zero). Where that is too much the step's turn is made by the mean of the angular
-// velocity over the step; where even that is too coarse, what the turn has added is taken out of L.
+// No turn adds energy to a body. Turned by one tangent, omega h, with L kept, the body's axes would lie a little wrong to L, and
+// the energy L.omega / 2 would grow, of a needle to many times what it was; the next impact would make speed of that. With
+// g = omega x L the growth is h^2 g.I^-1 g / (L.omega) of it, to leading order (the second derivative of L.I^-1 L / 2 along the
+// tangent; the first is zero). So a step turns by the mean of the angular velocity over it: always in flight, where the tangent
+// would add too much in contact. Where even that is too coarse in contact, what the turn has added is taken out of L.
 #pragma once
 
 #include "sim/body.h"
