@@ -22,6 +22,11 @@ namespace {
 constexpr std::uint32_t compression_level = 0;
 constexpr std::size_t sample_bytes = 32 << 10, sample_distance = 256 << 10;
 
+// ISA-L's interface is not const; the input is only read.
+std::uint8_t* input(std::span<const std::byte> bytes) {
+    return reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(bytes.data()));
+}
+
 }  // namespace
 
 struct Deflater::Stream {
@@ -39,9 +44,8 @@ void Deflater::make_code(std::initializer_list<std::span<const std::byte>> parts
     stream_->histogram = {};
     for (const std::span<const std::byte> part : parts)
         for (std::size_t at = 0; at < part.size(); at += sample_distance) {
-            // The interface is not const; the input is only read.
-            auto* sample = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(part.data() + at));
-            isal_update_histogram(sample, static_cast<int>(std::min(sample_bytes, part.size() - at)), &stream_->histogram);
+            const auto sample = part.subspan(at, std::min(sample_bytes, part.size() - at));
+            isal_update_histogram(input(sample), static_cast<int>(sample.size()), &stream_->histogram);
         }
     const int result = isal_create_hufftables(&stream_->code, &stream_->histogram);
     TUMBLE_CHECK_EQ(result, 0);
@@ -61,7 +65,7 @@ std::size_t Deflater::compress(std::initializer_list<std::span<const std::byte>>
         const bool last = --left == 0;
         stream.flush = last && end == End::whole_byte ? FULL_FLUSH : NO_FLUSH;
         stream.end_of_stream = last && end == End::last ? 1 : 0;
-        stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(part.data()));
+        stream.next_in = input(part);
         stream.avail_in = static_cast<std::uint32_t>(part.size());
         const int result = isal_deflate(&stream);
         TUMBLE_CHECK_EQ(result, COMP_OK);

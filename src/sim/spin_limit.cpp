@@ -31,13 +31,13 @@ Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
 
 }  // namespace
 
+bool turns_too_far(const Body& body, double h) { return h * body.angular_velocity.norm() > tuning::spin_largest_turn; }
+
 Vec3 turning_velocity(const Body& body, double h, RotationForm form, double growth) {
     const Vec3 change = body.inverse_inertia * body.angular_momentum.cross(body.angular_velocity);   // omega'
     const double gain = h * h * change.dot(body.angular_momentum.cross(body.angular_velocity));
-    if (!(gain > growth * spin(body))) return body.angular_velocity;
-    const double turn = h * body.angular_velocity.norm();
-    if (turn > tuning::spin_largest_turn) return body.angular_velocity;
-    return turn < tuning::spin_series_turn ? by_series(body, change, h, form) : in_closed_form(body, h, form);
+    if (!(gain > growth * spin(body)) || turns_too_far(body, h)) return body.angular_velocity;
+    return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, change, h, form) : in_closed_form(body, h, form);
 }
 
 bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tuning::spin_growth) * before; }

@@ -9,9 +9,12 @@
 
 namespace tumble {
 
+/// Whether the body turns farther in a step of h seconds than one tangent can stand for: by more than tuning::spin_largest_turn.
+bool turns_too_far(const Body& body, double h);
+
 /// The constant angular velocity (rad/s) that takes the body in a step of h seconds to where torque-free rotation takes it, for
-/// advance_pose(): omega itself, where that adds no more than `growth` to its spin, and in turns of more than
-/// tuning::spin_largest_turn. Small turns by Magnus' series, to third order in h (Magnus 1954): with omega' = -I^-1 g,
+/// advance_pose(): omega itself, where that adds no more than `growth` to its spin, and where it turns too far.
+/// Small turns by Magnus' series, to third order in h (Magnus 1954): with omega' = -I^-1 g,
 ///     omega + h omega' / 2 + h^2 omega'' / 6 + h^2 omega' x omega / 12,
 /// longer by what advance_pose() turns too little; larger ones in closed form (free_rotation.h).
 Vec3 turning_velocity(const Body& body, double h, RotationForm form, double growth);

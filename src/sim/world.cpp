@@ -378,7 +378,7 @@ void World::State::move() {
             const Quat orientation = body.orientation;
             // What was looked along must be the way that is gone.
             const bool free_to_turn = !in_contact && !motion_limit.looked_along(i) && body.integrator == IntegratorKind::symplectic_euler;
-            const bool coarse = free_to_turn && h * body.angular_velocity.norm() > tuning::spin_largest_turn;
+            const bool coarse = free_to_turn && turns_too_far(body, h);
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();

@@ -5,7 +5,6 @@
 #include <vector>
 
 namespace tumble {
-
 namespace {
 
 // A point's ends on the surfaces of A and B, body frames.

@@ -26,6 +26,21 @@ VelocityBound bound(const ContactCluster& cluster) {
     return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
 }
 
+// Adds the change of y that multipliers make to d; returns lambda . s.
+double add_change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+                  Eigen::VectorXd& d) {
+    double work_before = 0.0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (lambda[i] == 0.0) continue;
+        cluster.rows()[set[i].row].add_to(d, lambda[i]);
+        work_before += lambda[i] * cluster.speed(set[i].row) / cluster.length(set[i].row);
+    }
+    return work_before;
+}
+
+// The factor at which a change neither gains nor loses energy: -2 d.y / d.d of a Householder reflection.
+double reflection_factor(double work_before, double square) { return square > 0.0 ? -2.0 * work_before / square : 0.0; }
+
 // The change of y that multipliers make, and their work: the kinetic energy (as seen from the walls, where they move)
 // grows by lambda . s + |d|^2 / 2, with s = w . y + offset before.
 struct Change {
@@ -34,16 +49,11 @@ struct Change {
 
     Change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda)
         : d(Eigen::VectorXd::Zero(cluster.velocity().size())) {
-        for (std::size_t i = 0; i < set.size(); ++i) {
-            if (lambda[i] == 0.0) continue;
-            cluster.rows()[set[i].row].add_to(d, lambda[i]);
-            work_before += lambda[i] * cluster.speed(set[i].row) / cluster.length(set[i].row);
-        }
+        work_before = add_change(cluster, set, lambda, d);
         square = d.squaredNorm();
     }
     double gain() const { return work_before + 0.5 * square; }
-    /// The factor at which the change neither gains nor loses energy: -2 d.y / d.d of a Householder reflection.
-    double reflection() const { return square > 0.0 ? -2.0 * work_before / square : 0.0; }
+    double reflection() const { return reflection_factor(work_before, square); }
 };
 
 void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
@@ -120,12 +130,8 @@ private:
 
     // Change::reflection() from the bodies of the active contacts alone: a pass touches few of a heap.
     double reflection() {
-        double work_before = 0.0, square = 0.0;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            if (lambda_[i] == 0.0) continue;
-            cluster_.rows()[active_[i].row].add_to(change_, lambda_[i]);
-            work_before += lambda_[i] * cluster_.speed(active_[i].row) / cluster_.length(active_[i].row);
-        }
+        const double work_before = add_change(cluster_, active_, lambda_, change_);
+        double square = 0.0;
         for (const Projection::Demand& demand : active_)
             for (const std::uint32_t body : {cluster_.rows()[demand.row].a, cluster_.rows()[demand.row].b}) {
                 if (body == VelocityRow::none) continue;
@@ -133,7 +139,7 @@ private:
                 square += of_body.squaredNorm();
                 of_body.setZero();   // which counts each body once, and leaves all zero for the next time
             }
-        return square > 0.0 ? -2.0 * work_before / square : 0.0;
+        return reflection_factor(work_before, square);
     }
 
     bool elastic() const {

@@ -61,10 +61,6 @@ bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std:
     return 2.0 * farthest <= least_thin_;
 }
 
-bool MotionLimit::looked_along(std::uint32_t body) const {
-    return std::any_of(fast_.begin(), fast_.end(), [&](const FastPair& pair) { return pair.a == body || pair.b == body; });
-}
-
 StepLimit& MotionLimit::shorten(std::uint32_t body) {
     shortened_.push_back(body);
     return limits_[body];
@@ -91,6 +87,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
                                                   const std::vector<BodyVelocity>& motions, double h) {
     if (limits_.empty()) {
         limits_.resize(bodies.size());
+        looked_along_.resize(bodies.size());
         least_thin_ = std::numeric_limits<double>::infinity();
         const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
         for (const Body& body : bodies) {
@@ -100,6 +97,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     }
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
+    for (const FastPair& pair : fast_) looked_along_[pair.a] = looked_along_[pair.b] = 0;
     fast_.clear();
     if (all_slow(bodies, moving, motions, h)) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
@@ -116,6 +114,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
             fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
+        looked_along_[pair.a] = looked_along_[pair.b] = 1;
     }
     if (fast_.empty()) return limits_;
 

@@ -39,7 +39,7 @@ public:
                                          const std::vector<BodyVelocity>& motions, double h);
 
     /// Whether the body's way in the last step was looked along: on any other it might meet something.
-    bool looked_along(std::uint32_t body) const;
+    bool looked_along(std::uint32_t body) const { return looked_along_[body] != 0; }
 
 private:
     struct FastPair {
@@ -63,6 +63,7 @@ private:
     double least_thin_ = 0.0;                // m, that no pair goes past unseen
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
+    std::vector<char> looked_along_;    // by body
 };
 
 }  // namespace tumble
