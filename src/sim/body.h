@@ -24,6 +24,7 @@ struct Body {
     Collider collider;
     double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
+    bool spherical_top = false;              // equal moments, as a ball or a cube: the tensor is the same in every frame
     Vec3 principal_inertia = Vec3::Zero();   // kg m^2
     Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
     Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
@@ -69,7 +70,8 @@ struct Body {
 
 /// v = P / M, I^-1(t) = R I^-1 R^T, omega = I^-1(t) L.
 inline void Body::derive() {
-    inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
+    if (spherical_top) inverse_inertia = inverse_inertia_body;
+    else inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
     derive_velocities();
 }
 

@@ -112,6 +112,7 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
         body.inverse_mass = 1.0 / mass.mass;
         body.inertia_body = mass.inertia;
         body.inverse_inertia_body = mass.inertia.inverse();
+        body.spherical_top = mass.inertia == Mat3(mass.inertia(0, 0) * Mat3::Identity());
         const PrincipalInertia principal = principal_inertia(mass.inertia);
         body.principal_inertia = principal.moments;
         body.principal_axes = principal.axes;

@@ -271,8 +271,8 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
         const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;   // without a second manifold
         const auto bring = [&] {   // the old points to where they are now on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
-                manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a[i])
-                                                                          : b.pose.to_world(anchors_[old].on_b[i]);
+                manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a()[i])
+                                                                          : b.pose.to_world(anchors_[old].on_b()[i]);
         };
         while (old < old_end && earlier(manifolds_[old], *m)) ++old;
         if (old < old_end && !earlier(*m, manifolds_[old])) {

@@ -1,5 +1,6 @@
 #include "sim/spin_limit.h"
 
+#include "core/elementary.h"
 #include "sim/free_rotation.h"
 #include "sim/tuning.h"
 
@@ -8,14 +9,22 @@
 namespace tumble {
 namespace {
 
-Vec3 by_series(const Body& body, const Vec3& change, double h, RotationForm form) {
+// Longer by tan(x) / x, with half the angle for quaternions: advance_pose() turns by the angle's tangent.
+Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
+    const double length = form == RotationForm::quaternion ? 0.5 * h : h, square = length * length * omega.squaredNorm();
+    if (square < tuning::spin_series_turn * tuning::spin_series_turn)
+        return (1.0 + square / 3.0 + square * square * (2.0 / 15.0) + square * square * square * (17.0 / 315.0)) * omega;
+    const double x = std::sqrt(square);
+    const auto [sine, cosine] = sincos(x);
+    return sine / (cosine * x) * omega;
+}
+
+Vec3 by_series(const Body& body, double h, RotationForm form) {
     const Vec3 &omega = body.angular_velocity, &l = body.angular_momentum;
+    const Vec3 change = body.inverse_inertia * l.cross(omega);   // omega'
     // I^-1 turns with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
     const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) + body.inverse_inertia * l.cross(change);
-    const Vec3 mean = omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
-    // tan(x) / x, with half the angle for quaternions: advance_pose() turns by the angle's tangent.
-    const double angle_square = h * h * mean.squaredNorm(), x = form == RotationForm::quaternion ? 0.25 * angle_square : angle_square;
-    return (1.0 + x / 3.0 + x * x * 2.0 / 15.0) * mean;
+    return lengthened(omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega), h, form);
 }
 
 Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
@@ -33,11 +42,17 @@ Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
 
 bool turns_too_far(const Body& body, double h) { return h * body.angular_velocity.norm() > tuning::spin_largest_turn; }
 
-Vec3 turning_velocity(const Body& body, double h, RotationForm form, double growth) {
-    const Vec3 change = body.inverse_inertia * body.angular_momentum.cross(body.angular_velocity);   // omega'
-    const double gain = h * h * change.dot(body.angular_momentum.cross(body.angular_velocity));
-    if (!(gain > growth * spin(body)) || turns_too_far(body, h)) return body.angular_velocity;
-    return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, change, h, form) : in_closed_form(body, h, form);
+Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form) {
+    if (turns_too_far(body, h)) return body.angular_velocity;
+    return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, h, form) : in_closed_form(body, h, form);
+}
+
+Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form) {
+    if (!body.spherical_top) {
+        const Vec3 g = body.angular_velocity.cross(body.angular_momentum);
+        if (h * h * g.dot(body.inverse_inertia * g) > tuning::spin_growth * spin(body)) return mean_angular_velocity(body, h, form);
+    }
+    return turns_too_far(body, h) ? body.angular_velocity : lengthened(body.angular_velocity, h, form);
 }
 
 bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tuning::spin_growth) * before; }

@@ -13,11 +13,15 @@ namespace tumble {
 bool turns_too_far(const Body& body, double h);
 
 /// The constant angular velocity (rad/s) that takes the body in a step of h seconds to where torque-free rotation takes it, for
-/// advance_pose(): omega itself, where that adds no more than `growth` to its spin, and where it turns too far.
+/// advance_pose(); omega itself where it turns too far.
 /// Small turns by Magnus' series, to third order in h (Magnus 1954): with omega' = -I^-1 g,
 ///     omega + h omega' / 2 + h^2 omega'' / 6 + h^2 omega' x omega / 12,
 /// longer by what advance_pose() turns too little; larger ones in closed form (free_rotation.h).
-Vec3 turning_velocity(const Body& body, double h, RotationForm form, double growth);
+Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form);
+
+/// The same in contact, but where omega adds no more than tuning::spin_growth to the spin, as if it stayed: a step turns by h omega,
+/// and what rolls has turned by its way over its radius.
+Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form);
 
 /// Twice the energy of its spin (J).
 inline double spin(const Body& body) { return body.angular_momentum.dot(body.angular_velocity); }

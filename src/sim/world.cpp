@@ -266,7 +266,7 @@ void World::State::apply_forces() {
         Body& body = bodies[i];
         if (body.flying) return;
         if (flights) body.derive();   // brought here from a flight, perhaps
-        else body.derive_velocities();   // collisions may have changed the momenta
+        else if (!struck.empty()) body.derive_velocities();   // collisions have changed momenta
         old_velocities[i] = {body.velocity, body.angular_velocity};
         const Wrench wrench = forces.at(i, body, now);
         force_steps[i].before = {body.momentum, body.angular_momentum};
@@ -308,7 +308,8 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
         if (!before && !flights && body.dynamic())
-            motions[i].angular_velocity = turning_velocity(body, h, settings.rotation, touched(i) ? tuning::spin_growth : 0.0);
+            motions[i].angular_velocity = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
+                                                     : mean_angular_velocity(body, h, settings.rotation);
         motions[i].angular_velocity += body.push_angular_velocity;
     });
     return motions;

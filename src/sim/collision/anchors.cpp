@@ -25,8 +25,8 @@ Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, 
     anchors.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
         const Ends ends = ends_of(m.points[i], m.normal, pose_a, pose_b);
-        anchors.on_a[i] = ends.on_a;
-        anchors.on_b[i] = ends.on_b;
+        anchors.feet.set(i, normal_of_b ? ends.on_b : ends.on_a);
+        anchors.corners.set(i, normal_of_b ? ends.on_a : ends.on_b);
     }
     return anchors;
 }
@@ -69,16 +69,29 @@ double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pos
     return deepest;
 }
 
+// All points side by side, those that are not there too: the loops have no ends of their own and become vector code.
 void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
-    m.normal = (anchors.normal_of_b ? pose_b : pose_a).rotation * anchors.normal;
-    const Vec3 between = pose_b.position - pose_a.position;   // the difference first: digits far from the origin
+    const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
+    const Vec3 between = other.position - of_face.position;   // the difference first: digits far from the origin
+    const Vec3 n = of_face.rotation * anchors.normal;
+    const auto &foot = anchors.feet.coordinate, &corner = anchors.corners.coordinate;
+    constexpr int points = Manifold::capacity;
+    double arm[3][points], height[points];   // of the corners, from the centre of the face's body and over the feet
+    for (int k = 0; k < 3; ++k) {
+        const double r0 = other.rotation(k, 0), r1 = other.rotation(k, 1), r2 = other.rotation(k, 2);
+        for (int i = 0; i < points; ++i) arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);
+    }
+    for (int i = 0; i < points; ++i)
+        height[i] = (n[0] * arm[0][i] + n[1] * arm[1][i] + n[2] * arm[2][i]) -
+                    (anchors.normal[0] * foot[0][i] + anchors.normal[1] * foot[1][i] + anchors.normal[2] * foot[2][i]);
+    // The corner slides over the face, and lever arms follow it.
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < points; ++i) arm[k][i] = of_face.position[k] + (arm[k][i] - 0.5 * height[i] * n[k]);
+    m.normal = n;
+    const double sign = anchors.normal_of_b ? -1.0 : 1.0;   // the normal points from A to B
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
-        const Vec3 arm_a = pose_a.rotation * anchors.on_a[i], arm_b = between + pose_b.rotation * anchors.on_b[i];
-        const double separation = m.normal.dot(arm_b - arm_a);
-        m.points[i].separation = separation;
-        // The corner is the other body's: it slides over the face, and lever arms follow it.
-        m.points[i].position = pose_a.position + (anchors.normal_of_b ? Vec3(arm_a + 0.5 * separation * m.normal)
-                                                                      : Vec3(arm_b - 0.5 * separation * m.normal));
+        m.points[i].separation = sign * height[i];
+        m.points[i].position = {arm[0][i], arm[1][i], arm[2][i]};
     }
 }
 

@@ -1,9 +1,9 @@
 // A manifold tied to its two bodies: while they hardly move against each other, points, separations and normal follow
 // from the poses and need no new search.
 //
-// The normal goes with the body whose face it belongs to, each point's two ends with their own bodies. The separation is
-// then exact for faces, and right to second order in the motion for edges: only where on the surfaces the points lie goes
-// out of date.
+// The normal goes with the body whose face it belongs to, each point's two ends with their own bodies: the foot with the face,
+// the corner above it with the other body. The separation, the corner's height over the face, is then exact for faces, and right to
+// second order in the motion for edges: only where on the surfaces the points lie goes out of date.
 #pragma once
 
 #include "sim/collision/collider.h"
@@ -15,9 +15,20 @@
 namespace tumble {
 
 struct Anchors {
-    std::array<Vec3, Manifold::capacity> on_a, on_b;   // the points' ends on the surfaces, body frames
-    Vec3 normal = Vec3::Zero();                        // in the frame of the body it belongs to
+    // One end of each point, in the frame of its body: coordinate after coordinate, for all points side by side.
+    struct Ends {
+        double coordinate[3][Manifold::capacity] = {};
+        Vec3 operator[](std::size_t i) const { return {coordinate[0][i], coordinate[1][i], coordinate[2][i]}; }
+        void set(std::size_t i, const Vec3& p) {
+            for (int k = 0; k < 3; ++k) coordinate[k][i] = p[k];
+        }
+    };
+    Ends feet, corners;                                // feet: of the body that the normal belongs to
+    Vec3 normal = Vec3::Zero();                        // in the frame of that body
     bool normal_of_b = false;
+    const Ends& on_a() const { return normal_of_b ? corners : feet; }
+    const Ends& on_b() const { return normal_of_b ? feet : corners; }
+
     // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal
     // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body).
     struct Spare {

@@ -262,24 +262,27 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     }
 }
 
-SoftBatch::Place SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
-                                       const std::vector<std::uint32_t>& slot) const {
+// `made`: room for a place that is not kept.
+const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                                              const std::vector<std::uint32_t>& slot, Place& made) const {
     const Body& b = problem.bodies[body];
     if (b.dynamic()) return places_[slot[body]];
-    if (b.type != BodyType::kinematic) return place_of(b, 0);
+    if (b.type != BodyType::kinematic) return made = place_of(b, 0);
     const auto place = std::lower_bound(movers_.begin(), movers_.end(), mover(body, manifold, problem)) - movers_.begin();
-    return place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
+    return made = place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
-void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane,
+// Lane l of group g.
+void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t g, std::size_t l,
                           const std::vector<std::uint32_t>& slot) {
     Manifold& m = problem.manifolds[manifold];
     temper(m, problem);
-    Place a = find_place(m.a, manifold, problem, slot), b = find_place(m.b, manifold, problem, slot);
+    Place made_a, made_b;
+    const Place &first = find_place(m.a, manifold, problem, slot, made_a), &second = find_place(m.b, manifold, problem, slot, made_b);
     // Arms go from the body that moves, of two from the smaller: from the other's centre single precision may be too coarse.
-    const bool swapped = !a.dynamic || (b.dynamic && b.radius < a.radius);
-    if (swapped) std::swap(a, b);
-    const std::size_t lanes = std::size_t(kernel_.lanes), g = lane / lanes, l = lane % lanes;
+    const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
+    const Place &a = swapped ? second : first, &b = swapped ? first : second;
+    const std::size_t lanes = std::size_t(kernel_.lanes);
     const int stride = kernel_.lanes;
     lane_bodies_[2 * lanes * g + l] = std::uint32_t(soft::body_floats) * a.slot;
     lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
@@ -288,7 +291,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     const double share = 1.0 / substeps_;
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
-    Source& source = sources_[lane];
+    Source& source = sources_[lanes * g + l];
     int count = 0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
@@ -329,9 +332,9 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     lane_points_[group] = 0;
-    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane) {
-        sources_[lane] = {};
-        if (lane_manifolds_[lane] != none) pack_lane(problem, lane_manifolds_[lane], lane, slot);
+    for (std::size_t l = 0; l < lanes; ++l) {
+        sources_[lanes * group + l] = {};
+        if (const std::uint32_t m = lane_manifolds_[lanes * group + l]; m != none) pack_lane(problem, m, group, l, slot);
     }
 }
 

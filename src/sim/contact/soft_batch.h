@@ -88,9 +88,10 @@ private:
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
     static Mover mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem);
-    Place find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
-                     const std::vector<std::uint32_t>& slot) const;
-    void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t lane, const std::vector<std::uint32_t>& slot);
+    const Place& find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                            const std::vector<std::uint32_t>& slot, Place& made) const;
+    void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t group, std::size_t l,
+                   const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
     void unpack(const ContactProblem& problem, std::size_t group);
     void hand_back(const ContactProblem& problem, Share accounts);
