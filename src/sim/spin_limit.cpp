@@ -40,7 +40,9 @@ Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
 
 }  // namespace
 
-bool turns_too_far(const Body& body, double h) { return h * body.angular_velocity.norm() > tuning::spin_largest_turn; }
+bool turns_too_far(const Body& body, double h) {
+    return h * h * body.angular_velocity.squaredNorm() > tuning::spin_largest_turn * tuning::spin_largest_turn;
+}
 
 Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form) {
     if (turns_too_far(body, h)) return body.angular_velocity;

@@ -61,13 +61,12 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     softly_.clear();
     candidates_.clear();
     std::size_t all_manifolds = 0, all_pairs = 0;
-    for (std::size_t k = 0; k < islands.size(); ++k) {
-        all_manifolds += islands.manifolds(k).size();
-        all_pairs += pairs(problem, islands.manifolds(k));
-    }
+    for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
     // What is solved directly stays so a little beyond where it would begin: from one solver to the other the bodies are
     // lifted out of their soft contacts and sink back in, and in between the two a heap would rock for ever.
-    few_ = all_pairs <= (few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs);
+    const std::size_t few = few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs;
+    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += pairs(problem, islands.manifolds(k));
+    few_ = all_pairs <= few;
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);

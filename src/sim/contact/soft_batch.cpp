@@ -75,15 +75,12 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
         open_accounts(first, end, blocks);
         first = end;
     }
-    find_movers(problem, part);
-    slots_ = 1 + part.bodies.size() + movers_.size();
-    state_.resize(slots_ * soft::body_floats);
-    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
-    places_.resize(slots_);
-    block_of_.resize(slots_);
-    island_of_.resize(slots_);
-    force_accounts_.resize(slots_);
-    reached_.assign(slots_, 0);
+    const std::size_t dynamic = 1 + part.bodies.size();   // slots
+    places_.resize(dynamic);
+    block_of_.resize(dynamic);
+    island_of_.resize(dynamic);
+    force_accounts_.resize(dynamic);
+    reached_.assign(dynamic, 0);
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         for (std::size_t k = blocks_.first(b); k < blocks_.first(b + 1); ++k) {
             slot[blocks_.order()[k]] = std::uint32_t(k + 1);
@@ -93,6 +90,9 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
         std::fill_n(island_of_.begin() + std::ptrdiff_t(account.first + 1), account.end - account.first, account.island);
     color(problem, part, slot);
     deal_lanes(part);
+    slots_ = dynamic + movers_.size();
+    state_.resize(slots_ * soft::body_floats);
+    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
 }
 
 // Of the island last added, which has these places in the blocks' order: a large one has blocks of its own.
@@ -108,21 +108,12 @@ SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, co
     return {body, problem.bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
 }
 
-// Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
-void SoftBatch::find_movers(const ContactProblem& problem, const SoftSolver::Part& part) {
-    movers_.clear();
-    for (const std::uint32_t m : part.manifolds)
-        for (const std::uint32_t i : {problem.manifolds[m].a, problem.manifolds[m].b})
-            if (problem.bodies[i].type == BodyType::kinematic) movers_.push_back(mover(i, m, problem));
-    std::sort(movers_.begin(), movers_.end());
-    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
-}
-
 // Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
-// gets depends on its island alone.
+// gets depends on its island alone. Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
 void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot) {
     const std::size_t across = blocks_.size(), homes = across + 1;
-    taken_.assign(slots_, {});
+    taken_.assign(1 + part.bodies.size(), {});
+    movers_.clear();
     class_size_.assign(homes * colors * costs, 0);
     class_.clear();
     for (const std::uint32_t k : part.manifolds) {
@@ -131,8 +122,10 @@ void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& par
         const std::uint32_t a = moves_a ? slot[m.a] : 0, b = moves_b ? slot[m.b] : 0;
         if (!moves_a || !moves_b) {
             Island& island = islands_[island_of_[moves_a ? a : b]];
-            if (problem.bodies[moves_a ? m.b : m.a].moves()) island.free = 1;
+            const std::uint32_t other = moves_a ? m.b : m.a;
+            if (problem.bodies[other].moves()) island.free = 1;
             else island.leans = true;
+            if (problem.bodies[other].type == BodyType::kinematic) movers_.push_back(mover(other, k, problem));
         }
         const bool inside = !moves_a || !moves_b || block_of_[a] == block_of_[b];
         const std::size_t home = inside ? block_of_[moves_a ? a : b] : across;
@@ -150,6 +143,8 @@ void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& par
         class_.push_back(std::uint32_t((home * colors + c) * costs + cost_class(m)));
         ++class_size_[class_.back()];
     }
+    std::sort(movers_.begin(), movers_.end());
+    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
 }
 
 void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
@@ -292,25 +287,26 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
     Source& source = sources_[lanes * g + l];
+    float* const head = row(g, 0) + l;
+    float* point = head + soft::head_rows * stride;
     int count = 0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
-        source.point[count] = std::uint8_t(i);
+        source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size)   // perhaps by several threads
             std::atomic_ref(islands_[island_of_[a.slot]].free).store(1, std::memory_order_relaxed);
-        float* row = point_row(g, count++, 0) + l;
-        put(row + soft::turn * stride, stride, p.position - a.position);
-        row[soft::normal_mass * stride] = 1.0f;
-        row[soft::separation * stride] = float(p.separation);
-        row[soft::impulse * stride] = float(share * p.impulse);
+        put(point + soft::turn * stride, stride, p.position - a.position);
+        point[soft::normal_mass * stride] = 1.0f;
+        point[soft::separation * stride] = float(p.separation);
+        point[soft::impulse * stride] = float(share * p.impulse);
+        point += soft::point_rows * stride;
     }
     if (count == 0) return release(m);   // left to bounce
     source.count = std::uint8_t(count);
     source.swapped = swapped;
     lane_points_[g] = std::max(lane_points_[g], source.count);
 
-    float* head = row(g, 0) + l;
     const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
     put(head + soft::normal * stride, stride, swapped ? Vec3(-m.normal) : m.normal);
     put(head + soft::tangent_1 * stride, stride, m.tangent);
@@ -415,8 +411,9 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         const float* head = row(g, 0) + l;
         const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
         release(m);
-        for (int i = 0; i < source.count; ++i)
-            m.points[source.point[i]].impulse = substeps_ * double(point_row(g, i, soft::impulse)[l]);
+        const float* impulse = head + soft::head_rows * lanes + soft::impulse * lanes;
+        for (int i = 0; i < source.count; ++i, impulse += soft::point_rows * lanes)
+            m.points[source.point[i]].impulse = substeps_ * double(*impulse);
         m.friction[0] = (source.swapped ? -substeps_ : substeps_) * double(head[soft::friction_1 * lanes]);
         m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
         m.twist = substeps_ * double(head[soft::twist * lanes]);

@@ -82,7 +82,6 @@ private:
     Share blocks_of(std::size_t thread, std::size_t team) const;
     Share accounts_of(std::size_t first_body, std::size_t end_body) const;
     void open_accounts(std::size_t first, std::size_t end, std::size_t first_block);
-    void find_movers(const ContactProblem& problem, const SoftSolver::Part& part);
     void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot);
     void deal_lanes(const SoftSolver::Part& part);
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
@@ -99,7 +98,6 @@ private:
 
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
-    float* point_row(std::size_t group, int point, int r) { return row(group, soft::head_rows + point * soft::point_rows + r); }
 
     const soft::Kernel& kernel_;
     double d_ = 0.0;                                  // s, a substep

@@ -6,7 +6,7 @@ constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stif
 constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
-typedef float Four __attribute__((vector_size(16)));
+typedef float Eight __attribute__((vector_size(32)));   // a body's velocities, or its displacements
 
 struct Vector {
     Lanes x, y, z;
@@ -298,22 +298,18 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
 
 void accelerate(std::size_t first, std::size_t last, const Bodies& bodies, bool again) {
     for (std::size_t s = first; s < last; ++s) {
-        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
-        const Four* force = reinterpret_cast<const Four*>(bodies.forces + 8 * s);
-        Four* start = reinterpret_cast<Four*>(bodies.start + 8 * s);
-        for (int k = 0; k < 2; ++k) {
-            const Four contact = again ? v[k] - start[k] : Four{};
-            start[k] = v[k] + force[k];
-            v[k] = start[k] + contact;
-        }
+        Eight& v = *reinterpret_cast<Eight*>(bodies.state + body_floats * s);
+        Eight& start = *reinterpret_cast<Eight*>(bodies.start + 8 * s);
+        const Eight contact = again ? v - start : Eight{};
+        start = v + *reinterpret_cast<const Eight*>(bodies.forces + 8 * s);
+        v = start + contact;
     }
 }
 
 void move(std::size_t first, std::size_t last, const Bodies& bodies, float substep) {
     for (std::size_t s = first; s < last; ++s) {
-        Four* v = reinterpret_cast<Four*>(bodies.state + body_floats * s);
-        v[2] += substep * v[0];
-        v[3] += substep * v[1];
+        Eight* v = reinterpret_cast<Eight*>(bodies.state + body_floats * s);
+        v[1] += substep * v[0];
     }
 }
 
