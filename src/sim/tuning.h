@@ -55,7 +55,7 @@ inline constexpr int soft_high_pile = 32;
 inline constexpr int soft_very_high_pile = 64;
 /// And where a body would sink in by more than this part of its radius under its own weight: g d^2 in a substep d.
 inline constexpr double soft_sag = 3e-3;
-/// Nothing is asked about the energy of islands in which bodies overlap by this part of the smaller radius: they began so.
+/// Islands in which bodies overlap by this part of the smaller radius began so, or landed fast: they are lifted apart for nothing.
 inline constexpr double soft_energy_deep = 0.25;
 /// In islands of so many bodies the ways are held to the energy there is, where soft contacts may spin something up: a body that
 /// turns by more than this in a substep, rad; or has moments of inertia in such a ratio, as a needle of 1 : 45.

@@ -47,8 +47,8 @@ void EnergyAccount::add(const EnergyAccount& other) {
     gains += other.gains;
 }
 
-double EnergyAccount::excess() const {
-    const double most = std::max(0.0, std::min(std::max(start, with_forces), start + work));
+double EnergyAccount::excess(bool lifted_free) const {
+    const double fastest = std::max(start, with_forces), most = lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
     return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
 }
 

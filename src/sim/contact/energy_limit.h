@@ -2,7 +2,8 @@
 // landed at 60 steps a second gained half a percent of the scene's energy in a step, a needle that spins by radians in a substep
 // was thrown to the sky. So an island is held to no more than the greater of what it had before and after the step's forces, nor
 // than what it began with and the forces' work on the way it is going to go: what is pushed up pays for it. What is too much is
-// taken from the bodies that gained, in proportion: who slides by on a heap that settles keeps what he has.
+// taken from the bodies that gained, in proportion: who slides by on a heap that settles keeps what he has. Only where bodies lie
+// deep in each other the way up is free: heaps that begin so would be slowed by being pushed apart.
 #pragma once
 
 #include "sim/body.h"
@@ -30,8 +31,8 @@ struct EnergyAccount {
     /// Sets the body's own gain too.
     void add(ForceAccount& forces, const Body& solved);
     void add(const EnergyAccount& other);
-    /// The share of each body's gain that is too much.
-    double excess() const;
+    /// The share of each body's gain that is too much. `lifted_free`: for the way up nobody pays.
+    double excess(bool lifted_free) const;
     /// The share of its way that an island can pay for.
     double affordable_way() const;
 };

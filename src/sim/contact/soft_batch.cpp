@@ -123,7 +123,7 @@ void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& par
         if (!moves_a || !moves_b) {
             Island& island = islands_[island_of_[moves_a ? a : b]];
             const std::uint32_t other = moves_a ? m.b : m.a;
-            if (problem.bodies[other].moves()) island.free = 1;
+            if (problem.bodies[other].moves()) island.driven = true;
             else island.leans = true;
             if (problem.bodies[other].type == BodyType::kinematic) movers_.push_back(mover(other, k, problem));
         }
@@ -295,7 +295,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size)   // perhaps by several threads
-            std::atomic_ref(islands_[island_of_[a.slot]].free).store(1, std::memory_order_relaxed);
+            std::atomic_ref(islands_[island_of_[a.slot]].deep).store(1, std::memory_order_relaxed);
         put(point + soft::turn * stride, stride, p.position - a.position);
         point[soft::normal_mass * stride] = 1.0f;
         point[soft::separation * stride] = float(p.separation);
@@ -462,15 +462,15 @@ void SoftBatch::hand_back(const ContactProblem& problem, Share accounts) {
 void SoftBatch::hold_energy(const ContactProblem& problem, Share accounts) {
     for (std::size_t n = accounts.begin; n < accounts.end; ++n) {
         const Island& island = islands_[accounts_[n].island];
-        if (!island.leans || island.free) continue;
+        if (!island.leans || island.driven) continue;
         EnergyAccount sum;
         std::size_t end = island.first_account;
         for (; end < accounts_.size() && accounts_[end].island == accounts_[n].island; ++end) sum.add(accounts_[end].energy);
-        const double excess = sum.excess();
+        const double excess = sum.excess(island.deep);
         if (excess == 0.0) continue;
         const std::size_t first = accounts_[island.first_account].first;
         const auto bodies = std::span(blocks_.order()).subspan(first, accounts_[end - 1].end - first);
-        const double way = may_spin_up(bodies, problem.bodies, problem.before, problem.patches.h) ? sum.affordable_way() : 1.0;
+        const double way = !island.deep && may_spin_up(bodies, problem.bodies, problem.before, problem.patches.h) ? sum.affordable_way() : 1.0;
         for (std::size_t k = accounts_[n].first; k < accounts_[n].end; ++k)
             if (reached_[k + 1]) take_back(force_accounts_[k + 1], excess, way, problem.bodies[blocks_.order()[k]]);
     }

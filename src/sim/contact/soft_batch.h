@@ -71,8 +71,8 @@ private:
     struct Island {
         std::size_t first_account;
         bool leans = false;       // on what stands: else its momentum must stay
-        std::uint8_t free = 0;    // to gain energy: kinematic bodies may give it some; its own may lie deep in each other, as at
-                                  // the start of a scene, and would slow whole heaps by being pushed apart
+        bool driven = false;      // by kinematic bodies, which may give it energy
+        std::uint8_t deep = 0;    // in each other some of its bodies lie
     };
 
     static soft::Softness softness(double frequency, double d);
