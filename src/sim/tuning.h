@@ -57,6 +57,8 @@ inline constexpr int soft_very_high_pile = 64;
 inline constexpr double soft_sag = 3e-3;
 /// Islands in which bodies overlap by this part of the smaller radius began so, or landed fast: they are lifted apart for nothing.
 inline constexpr double soft_energy_deep = 0.25;
+/// Energy of what floats that is too much by less than this part of it is rounding.
+inline constexpr double soft_energy_rounding = 1e-9;
 /// In islands of so many bodies the ways are held to the energy there is, where soft contacts may spin something up: a body that
 /// turns by more than this in a substep, rad; or has moments of inertia in such a ratio, as a needle of 1 : 45.
 inline constexpr std::size_t soft_energy_bodies = 32;

@@ -3,7 +3,6 @@
 #include "sim/tuning.h"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -65,43 +64,29 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
     substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_)};
     blocks_.clear();
-    islands_.clear();
-    accounts_.clear();
+    energies_.clear();
     std::size_t first = 0;
     for (const std::size_t end : part.island_ends) {
         const std::size_t blocks = blocks_.size();
         const auto island = std::span(part.bodies).subspan(first, end - first);
         blocks_.add(island, problem.bodies);
-        open_accounts(first, end, blocks);
+        energies_.open(blocks_, first, end, blocks, problem.bodies);
         first = end;
     }
     const std::size_t dynamic = 1 + part.bodies.size();   // slots
     places_.resize(dynamic);
     block_of_.resize(dynamic);
-    island_of_.resize(dynamic);
-    force_accounts_.resize(dynamic);
     reached_.assign(dynamic, 0);
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         for (std::size_t k = blocks_.first(b); k < blocks_.first(b + 1); ++k) {
             slot[blocks_.order()[k]] = std::uint32_t(k + 1);
             block_of_[k + 1] = std::uint32_t(b);
         }
-    for (const Account& account : accounts_)
-        std::fill_n(island_of_.begin() + std::ptrdiff_t(account.first + 1), account.end - account.first, account.island);
     color(problem, part, slot);
     deal_lanes(part);
     slots_ = dynamic + movers_.size();
     state_.resize(slots_ * soft::body_floats);
     for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
-}
-
-// Of the island last added, which has these places in the blocks' order: a large one has blocks of its own.
-void SoftBatch::open_accounts(std::size_t first, std::size_t end, std::size_t first_block) {
-    const auto island = std::uint32_t(islands_.size());
-    islands_.push_back({.first_account = accounts_.size()});
-    if (blocks_.size() <= first_block + 1) return accounts_.push_back({first, end, island, {}});
-    for (std::size_t b = first_block; b < blocks_.size(); ++b)
-        accounts_.push_back({blocks_.first(b), blocks_.first(b + 1), island, {}});
 }
 
 SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem) {
@@ -121,10 +106,9 @@ void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& par
         const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
         const std::uint32_t a = moves_a ? slot[m.a] : 0, b = moves_b ? slot[m.b] : 0;
         if (!moves_a || !moves_b) {
-            Island& island = islands_[island_of_[moves_a ? a : b]];
-            const std::uint32_t other = moves_a ? m.b : m.a;
-            if (problem.bodies[other].moves()) island.driven = true;
-            else island.leans = true;
+            const std::uint32_t place = (moves_a ? a : b) - 1, other = moves_a ? m.b : m.a;
+            if (problem.bodies[other].moves()) energies_.is_driven(place);
+            else energies_.leans(place);
             if (problem.bodies[other].type == BodyType::kinematic) movers_.push_back(mover(other, k, problem));
         }
         const bool inside = !moves_a || !moves_b || block_of_[a] == block_of_[b];
@@ -207,7 +191,7 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
         const std::uint32_t i = blocks_.order()[k];
         const Body& body = problem.bodies[i];
         places_[k + 1] = place_of(body, std::uint32_t(k + 1));
-        force_accounts_[k + 1] = force_account(body, problem.before[i]);
+        energies_.begin(k, body, problem.before[i]);
         float* s = state(k + 1);
         put(s, 1, problem.before[i].velocity);
         put(s + 3, 1, problem.before[i].angular_velocity);
@@ -294,8 +278,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         const ContactPoint& p = m.points[std::size_t(i)];
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
-        if (p.separation < -tuning::soft_energy_deep * size)   // perhaps by several threads
-            std::atomic_ref(islands_[island_of_[a.slot]].deep).store(1, std::memory_order_relaxed);
+        if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
         put(point + soft::turn * stride, stride, p.position - a.position);
         point[soft::normal_mass * stride] = 1.0f;
         point[soft::separation * stride] = float(p.separation);
@@ -395,10 +378,9 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
         kernel_.sum(groups, f, l);
         for (std::size_t g = f; g < l; ++g) unpack(problem, g);
     });
-    const Share accounts = accounts_of(first_body, end_body);
-    hand_back(problem, accounts);
+    hand_back(problem, first_body, end_body);
     meet();
-    hold_energy(problem, accounts);
+    energies_.hold(blocks_, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
 }
 
 // Impulses to the manifolds, and to the momenta of their bodies.
@@ -436,43 +418,16 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
     }
 }
 
-SoftBatch::Share SoftBatch::accounts_of(std::size_t first_body, std::size_t end_body) const {
-    const auto from = [&](std::size_t body) {
-        return std::size_t(std::partition_point(accounts_.begin(), accounts_.end(), [&](const Account& a) { return a.first < body; }) - accounts_.begin());
-    };
-    return {from(first_body), from(end_body)};
-}
-
-void SoftBatch::hand_back(const ContactProblem& problem, Share accounts) {
+void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std::size_t last) {
     const double rate = 1.0 / problem.patches.h;
-    for (std::size_t n = accounts.begin; n < accounts.end; ++n) {
-        Account& account = accounts_[n];
-        for (std::size_t k = account.first; k < account.end; ++k) {
-            if (!reached_[k + 1]) continue;
-            Body& body = problem.bodies[blocks_.order()[k]];
-            body.derive_velocities();
-            const float* moved = state(k + 1) + 8;
-            body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
-            body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
-            account.energy.add(force_accounts_[k + 1], body);
-        }
-    }
-}
-
-void SoftBatch::hold_energy(const ContactProblem& problem, Share accounts) {
-    for (std::size_t n = accounts.begin; n < accounts.end; ++n) {
-        const Island& island = islands_[accounts_[n].island];
-        if (!island.leans || island.driven) continue;
-        EnergyAccount sum;
-        std::size_t end = island.first_account;
-        for (; end < accounts_.size() && accounts_[end].island == accounts_[n].island; ++end) sum.add(accounts_[end].energy);
-        const double excess = sum.excess(island.deep);
-        if (excess == 0.0) continue;
-        const std::size_t first = accounts_[island.first_account].first;
-        const auto bodies = std::span(blocks_.order()).subspan(first, accounts_[end - 1].end - first);
-        const double way = !island.deep && may_spin_up(bodies, problem.bodies, problem.before, problem.patches.h) ? sum.affordable_way() : 1.0;
-        for (std::size_t k = accounts_[n].first; k < accounts_[n].end; ++k)
-            if (reached_[k + 1]) take_back(force_accounts_[k + 1], excess, way, problem.bodies[blocks_.order()[k]]);
+    for (std::size_t k = first; k < last; ++k) {
+        if (!reached_[k + 1]) continue;
+        Body& body = problem.bodies[blocks_.order()[k]];
+        body.derive_velocities();
+        const float* moved = state(k + 1) + 8;
+        body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
+        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
+        energies_.end(k, body);
     }
 }
 

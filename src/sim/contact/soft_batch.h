@@ -7,7 +7,7 @@
 #pragma once
 
 #include "sim/contact/body_blocks.h"
-#include "sim/contact/energy_limit.h"
+#include "sim/contact/island_energies.h"
 #include "sim/contact/soft_kernel.h"
 #include "sim/contact/soft_solver.h"
 #include "sim/spin_barrier.h"
@@ -62,26 +62,11 @@ private:
     struct Share {
         std::size_t begin, end;
     };
-    // The energy of an island, or of a block of it: where sums begin and end must not depend on the threads.
-    struct Account {
-        std::size_t first, end;   // in the blocks' order
-        std::uint32_t island;
-        EnergyAccount energy;
-    };
-    struct Island {
-        std::size_t first_account;
-        bool leans = false;       // on what stands: else its momentum must stay
-        bool driven = false;      // by kinematic bodies, which may give it energy
-        std::uint8_t deep = 0;    // in each other some of its bodies lie
-    };
-
     static soft::Softness softness(double frequency, double d);
     static Place place_of(const Body& body, std::uint32_t slot) {
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
     Share blocks_of(std::size_t thread, std::size_t team) const;
-    Share accounts_of(std::size_t first_body, std::size_t end_body) const;
-    void open_accounts(std::size_t first, std::size_t end, std::size_t first_block);
     void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot);
     void deal_lanes(const SoftSolver::Part& part);
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
@@ -93,8 +78,7 @@ private:
                    const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
     void unpack(const ContactProblem& problem, std::size_t group);
-    void hand_back(const ContactProblem& problem, Share accounts);
-    void hold_energy(const ContactProblem& problem, Share accounts);
+    void hand_back(const ContactProblem& problem, std::size_t first, std::size_t last);
 
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
@@ -108,10 +92,7 @@ private:
     std::size_t slots_ = 0;
     std::vector<Place> places_;                       // by slot
     std::vector<std::uint32_t> block_of_;             // by slot
-    std::vector<Island> islands_;
-    std::vector<std::uint32_t> island_of_;            // by slot
-    std::vector<Account> accounts_;                   // in the blocks' order
-    std::vector<ForceAccount> force_accounts_;        // by slot
+    IslandEnergies energies_;
     std::vector<Mover> movers_;                       // ascending, by slot from the first after the dynamic ones
     struct Taken {
         std::uint64_t inside = 0, across = 0;
