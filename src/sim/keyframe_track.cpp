@@ -2,6 +2,7 @@
 
 #include "core/elementary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -36,6 +37,19 @@ Vec3 rate_from_spin(const Vec3& phi, const Vec3& spin) {
     return spin + 0.5 * once + c * phi.cross(once);
 }
 
+// The velocity at a key between two segments with these mean velocities and spans (s): that of the parabola through the three keys
+// (Catmull-Rom), unless a cubic with it would overshoot. It goes back along neither segment, and no faster than three times the
+// slower (Fritsch and Carlson 1980, "Monotone piecewise cubic interpolation", section 3, along one line).
+Vec3 tangent(const Vec3& before, const Vec3& after, double span_before, double span_after) {
+    Vec3 v = (span_after * before + span_before * after) / (span_before + span_after);
+    const double slower = std::min(before.norm(), after.norm());
+    for (const Vec3& segment : {before, after})
+        if (v.dot(segment) < 0.0) v -= v.dot(segment) / segment.squaredNorm() * segment;
+    if (v.dot(before) < 0.0) return Vec3::Zero();
+    const double speed = v.norm();
+    return speed > 3.0 * slower ? Vec3(3.0 * slower / speed * v) : v;
+}
+
 }  // namespace
 
 Vec3 rotation_vector(const Quat& q) {
@@ -63,14 +77,12 @@ KeyframeTrack::KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpola
     spin_.assign(n, Vec3::Zero());
     for (std::size_t i = 0; i + 1 < n; ++i)
         turn_.push_back(rotation_vector(keys_[i].rotation.conjugate() * keys_[i + 1].rotation));
-    // Tangents: the parabola through three keys. At both ends the body is at rest, as it is before and after.
+    // At both ends the body is at rest, as it is before and after.
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const double before = keys_[i].time - keys_[i - 1].time, after = keys_[i + 1].time - keys_[i].time;
-        const double wb = after / (before + after), wa = before / (before + after);
-        velocity_[i] = wb * (keys_[i].position - keys_[i - 1].position) / before +
-                       wa * (keys_[i + 1].position - keys_[i].position) / after;
+        velocity_[i] = tangent((keys_[i].position - keys_[i - 1].position) / before, (keys_[i + 1].position - keys_[i].position) / after, before, after);
         // Turning back along the last segment is -turn seen from its end: the same axis in both frames.
-        spin_[i] = wb * turn_[i - 1] / before + wa * turn_[i] / after;
+        spin_[i] = tangent(turn_[i - 1] / before, turn_[i] / after, before, after);
     }
 }
 

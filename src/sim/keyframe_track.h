@@ -1,7 +1,8 @@
 // The path of a kinematic body: smooth through its keyframes, still before the first and after the last.
-// Position: cubic Hermite spline with Catmull-Rom tangents for uneven times. Rotation: the same in rotation vectors of
-// each segment, q(u) = q_i exp(phi(u)), so that the angular velocity is continuous and evenly spaced keys of a steady
-// turn give a steady turn. Linear: constant velocity and constant turn between keys.
+// Position: cubic Hermite spline with Catmull-Rom tangents for uneven times, limited so that nothing overshoots: between two equal
+// keys the body stands still. Rotation: the same in rotation vectors of each segment, q(u) = q_i exp(phi(u)), so that the angular
+// velocity is continuous and evenly spaced keys of a steady turn give a steady turn. Linear: constant velocity and constant turn
+// between keys.
 #pragma once
 
 #include "core/vector.h"

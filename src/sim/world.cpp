@@ -113,11 +113,16 @@ struct World::State {
         return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
                !body.push_angular_velocity.isZero(0.0);
     }
+    // Whether the body turns farther in flight than one tangent can stand for, by an integrator that knows better.
+    bool turns_freely(std::uint32_t i) const {
+        const Body& body = bodies[i];
+        return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && turns_too_far(body, h) && !touched(i);
+    }
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
     void turn_freely(Body& body, const Quat& from, double share) const;
     void return_work(Body& body, const ForceStep& forces_of_step, double share) const;
-    void carry(Body& body, const Body& carrier, double span) const;
+    void carry(Body& body, const Body& carrier, double share) const;
     void solve_resting_contacts();
     void forget_blows();
     void move();
@@ -326,7 +331,7 @@ const std::vector<StepLimit>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
 }
 
-// Where a turn in flight is too large for one tangent (spin_limit.h), or has added to the spin, it is made again in closed form.
+// Where a turn in flight is too large for one tangent (spin_limit.h), it is made again in closed form.
 void World::State::turn_freely(Body& body, const Quat& from, double share) const {
     const RigidMass mass = mass_of(body);
     RigidState state = state_of(body);
@@ -348,10 +353,16 @@ void World::State::return_work(Body& body, const ForceStep& forces_of_step, doub
     body.derive_velocities();
 }
 
-// What a kinematic body has run into goes along with it for the rest of the step.
-void World::State::carry(Body& body, const Body& carrier, double span) const {
-    const Vec3 arm = body.position - carrier.position;
-    body.position += span * carrier.point_velocity(arm);
+// What a kinematic body has run into goes along with it for the rest of the step, from `share` of it on, as if it were fixed to it:
+// where it was touched it is touched still when the next step resolves the collision.
+void World::State::carry(Body& body, const Body& carrier, double share) const {
+    const Quat turn = from_rotation_vector((1.0 - share) * h * carrier.angular_velocity);
+    const Vec3 center = carrier.position + share * h * carrier.velocity;
+    body.position = carrier.position + h * carrier.velocity + turn * (body.position - center);
+    if (carrier.angular_velocity.isZero(0.0)) return;
+    body.orientation = (turn * body.orientation).normalized();
+    body.rotation = body.orientation.toRotationMatrix();
+    body.derive();
 }
 
 void World::State::move() {
@@ -363,7 +374,8 @@ void World::State::move() {
         return;
     }
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h, &pool); };
-    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
+    const auto in_free_rotation = [&](std::uint32_t i) { return turns_freely(i); };
+    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h, in_free_rotation);
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         const double share = limits[i].share;
@@ -377,9 +389,7 @@ void World::State::move() {
         } else {
             const double spin_before = spin(body);
             const Quat orientation = body.orientation;
-            // What was looked along must be the way that is gone.
-            const bool free_to_turn = !in_contact && !motion_limit.looked_along(i) && body.integrator == IntegratorKind::symplectic_euler;
-            const bool coarse = free_to_turn && turns_too_far(body, h);
+            const bool freely = turns_freely(i);
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
@@ -389,13 +399,11 @@ void World::State::move() {
                 body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
             }
             body.derive();
-            if (coarse || spin_grew(body, spin_before)) {
-                if (free_to_turn) turn_freely(body, orientation, share);
-                else if (in_contact || motion_limit.looked_along(i)) limit_spin(body, spin_before);
-            }
+            if (freely) turn_freely(body, orientation, share);
+            else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
             if (in_contact && share < 1.0) return_work(body, force_steps[i], share);
         }
-        if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], (1.0 - share) * h);
+        if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], share);
     });
     ++steps;
     place_kinematic_bodies();

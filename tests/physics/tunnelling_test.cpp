@@ -219,3 +219,46 @@ TEST(ThinWall, LandingBodiesAreStopped) {
                     }
                 }
 }
+
+// A floor is a floor: thin bodies that come down fast do not end a step under a plane, and bounce as they do from a box.
+TEST(ThinWall, APlaneStopsThinBodiesAsABoxDoes) {
+    for (const double rate : {60.0, 240.0, 960.0})
+        for (const Vec3& size : {Vec3(0.2, 0.06, 0.1), Vec3(0.09, 0.0005, 0.06)}) {
+            BodyState end[2];
+            for (const bool plane : {true, false}) {
+                SceneDescription scene = plane ? ground_scene(0.5, 0.0, 1) : empty_scene(1);
+                if (!plane) add_fixed_box(scene, {40.0, 2.0, 40.0}, {0.0, -1.0, 0.0}, 0.5);
+                scene.simulation.gravity = Vec3::Zero();
+                set_step(scene, rate);
+                BodyDescription& body = add_box(scene, size, {0.0, 0.5, 0.0});
+                body.restitution = 0.5;
+                body.velocity = {0.0, -12.0, 0.0};
+                body.rotation = turn(Vec3::UnitX(), 0.07);
+                World world(scene);
+                for (int k = 0; k < int(0.06 * rate) + 6; ++k) {
+                    world.step();
+                    EXPECT_GT(world.snapshot().bodies[1].center_of_mass.y(), 0.0) << rate << ' ' << size.y() << ' ' << plane;
+                }
+                end[plane ? 0 : 1] = world.snapshot().bodies[1];
+            }
+            EXPECT_LT((end[0].velocity - end[1].velocity).norm(), 1e-6 * 12.0) << rate << ' ' << size.y();
+            EXPECT_LT((end[0].angular_velocity - end[1].angular_velocity).norm(), 1e-6 * end[1].angular_velocity.norm() + 1e-9) << rate << ' ' << size.y();
+        }
+}
+
+// A rod that turns by a radian a step beside a block which it never reaches: its way is looked along, and is that of a free body.
+TEST(ThinWall, SpinningBesideAWallChangesNothing) {
+    for (const IntegratorKind integrator : {IntegratorKind::symplectic_euler, IntegratorKind::exact}) {
+        SceneDescription scene = empty_scene(1);
+        BodyDescription& rod = add_box(scene, {0.05, 1.0, 0.05}, Vec3::Zero());
+        rod.angular_velocity = {45.0, 12.0, 36.0};
+        rod.integrator = integrator;
+        add_fixed_box(scene, {0.5, 0.5, 0.5}, {0.0, -0.7613, 0.0}, 0.5);
+        World world(scene);
+        const Measurement start = world.measure();
+        for (int k = 0; k < 240; ++k) world.step();
+        const Measurement now = world.measure();
+        EXPECT_EQ(now.angular_momentum, start.angular_momentum);
+        EXPECT_NEAR(now.kinetic / start.kinetic, 1.0, 1e-12);
+    }
+}

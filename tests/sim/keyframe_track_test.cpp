@@ -116,6 +116,25 @@ TEST(KeyframeTrack, SteadyTurnStaysSteady) {
     }
 }
 
+// A lift that waits, goes up at once and waits again: it neither swings out while it waits nor goes farther than it is told to.
+TEST(KeyframeTrack, NothingOvershoots) {
+    const Vec3 up = Vec3(0.0, 0.6, 0.8);
+    std::vector<Keyframe> keys;
+    for (const auto& [time, height] : {std::pair{0.0, 0.0}, {3.0, 0.0}, {3.2, 5.0}, {7.0, 5.0}, {7.5, 4.0}, {11.0, 4.5}})
+        keys.push_back({time, height * up, about(up, 0.3 * height)});
+    const KeyframeTrack track(keys, Interpolation::smooth);
+    for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+        const double low = std::min(up.dot(keys[i].position), up.dot(keys[i + 1].position));
+        const double high = std::max(up.dot(keys[i].position), up.dot(keys[i + 1].position));
+        for (double t = keys[i].time; t < keys[i + 1].time; t += 0.01) {
+            const KeyframeTrack::Motion m = track.at(t);
+            EXPECT_GE(up.dot(m.position), low - 1e-12) << t;
+            EXPECT_LE(up.dot(m.position), high + 1e-12) << t;
+            EXPECT_LT(angle_between(m.rotation, about(up, 0.3 * up.dot(m.position))), 1e-12) << t;
+        }
+    }
+}
+
 TEST(KeyframeTrack, OneKeyStandsStill) {
     const Keyframe key{0.7, Vec3(1, 2, 3), about({1, 1, 0}, 0.4)};
     for (const Interpolation kind : both)

@@ -20,7 +20,7 @@ bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<c
 // How far the bodies' points can move against each other in the step; of a ball only the centre counts.
 double way(const Body& a, const Body& b, const BodyVelocity& of_a, const BodyVelocity& of_b, double h) {
     const auto turning = [](const Body& body, const BodyVelocity& motion) {
-        return ball(body) ? 0.0 : motion.angular_velocity.norm() * body.radius;
+        return ball(body) || motion.angular_velocity.isZero(0.0) ? 0.0 : motion.angular_velocity.norm() * body.radius;
     };
     return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
 }
@@ -55,7 +55,7 @@ bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std:
                            const std::vector<BodyVelocity>& motions, double h) {
     double farthest = 0.0;
     for (const std::uint32_t i : moving) {
-        const double turning = ball(bodies[i]) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
+        const double turning = ball(bodies[i]) || motions[i].angular_velocity.isZero(0.0) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
         farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning));
     }
     return 2.0 * farthest <= least_thin_;
@@ -84,10 +84,9 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 
 const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                                   const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                                  const std::vector<BodyVelocity>& motions, double h) {
+                                                  const std::vector<BodyVelocity>& motions, double h, const TurnsFreely& turns_freely) {
     if (limits_.empty()) {
         limits_.resize(bodies.size());
-        looked_along_.resize(bodies.size());
         least_thin_ = std::numeric_limits<double>::infinity();
         const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
         for (const Body& body : bodies) {
@@ -97,16 +96,16 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     }
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
-    for (const FastPair& pair : fast_) looked_along_[pair.a] = looked_along_[pair.b] = 0;
     fast_.clear();
     if (all_slow(bodies, moving, motions, h)) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
-        if (std::isinf(a.radius) || std::isinf(b.radius)) continue;   // a half-space has no other side
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
         const double gone = way(a, b, motions[pair.a], motions[pair.b], h);
-        if (gone <= thin(depth_a, depth_b)) continue;
         const double least = std::min(depth_a, depth_b);
+        // A half-space has no other side: only nothing shall be seen to sink in.
+        const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);
+        if (gone <= (half_space ? tuning::fast_deepest * least : thin(depth_a, depth_b))) continue;
         FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
             // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
@@ -114,7 +113,6 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
             fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
-        looked_along_[pair.a] = looked_along_[pair.b] = 1;
     }
     if (fast_.empty()) return limits_;
 
@@ -122,7 +120,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     still_.resize(bodies.size());
     for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
-            paths_[k] = Path::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
+            paths_[k] = turns_freely && turns_freely(k) ? Path::drift(bodies[k], motions[k].velocity)
+                                        : Path::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
             still_[k] = paths_[k];
         }
     }

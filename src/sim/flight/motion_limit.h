@@ -30,16 +30,16 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 /// The pairs that may meet in the step: looked for only where something is fast.
 using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 
+/// Whether a body turns in free rotation, not by its motion's angular velocity; none: no body does.
+using TurnsFreely = std::function<bool(std::uint32_t body)>;
+
 class MotionLimit {
 public:
     /// By body; `motions` too, bodies that do not move have zero. `moving`: those that may. What touches already is the
     /// contact solver's, and may come a little deeper into each other: no more.
     const std::vector<StepLimit>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                          const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                         const std::vector<BodyVelocity>& motions, double h);
-
-    /// Whether the body's way in the last step was looked along: on any other it might meet something.
-    bool looked_along(std::uint32_t body) const { return looked_along_[body] != 0; }
+                                         const std::vector<BodyVelocity>& motions, double h, const TurnsFreely& turns_freely = nullptr);
 
 private:
     struct FastPair {
@@ -63,7 +63,6 @@ private:
     double least_thin_ = 0.0;                // m, that no pair goes past unseen
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
-    std::vector<char> looked_along_;    // by body
 };
 
 }  // namespace tumble

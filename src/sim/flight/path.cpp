@@ -46,6 +46,14 @@ Path Path::flight(const Body& body, const Vec3& acceleration) {
     return path;
 }
 
+Path Path::drift(const Body& body, const Vec3& velocity) {
+    Path path;
+    path.start_ = body.position;
+    path.velocity_ = velocity;
+    path.turn_freely(body);
+    return path;
+}
+
 void Path::turn_freely(const Body& body) {
     if (body.angular_momentum.isZero(0.0)) {
         turn_uniformly(body.orientation, Vec3::Zero());

@@ -31,6 +31,8 @@ public:
     /// Free flight from the body's present state under a constant acceleration (m/s^2): a parabola and torque-free
     /// rotation, both in closed form.
     static Path flight(const Body& body, const Vec3& acceleration);
+    /// The same with this velocity of the centre (m/s), held.
+    static Path drift(const Body& body, const Vec3& velocity);
     /// From the body's present pose with these velocities (m/s, rad/s), held.
     static Path uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
     /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), error O(span^4)
