@@ -1,5 +1,7 @@
 #include "core/number_track.h"
 
+#include "core/smooth_slope.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -8,10 +10,9 @@ namespace tumble {
 NumberTrack::NumberTrack(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth)
     : times_(std::move(times)), values_(std::move(values)), smooth_(smooth) {
     for (const Eigen::VectorXd& value : values_) slopes_.push_back(Eigen::VectorXd::Zero(value.size()));
-    for (std::size_t i = 1; i + 1 < times_.size(); ++i) {   // of the parabola through three keys
+    for (std::size_t i = 1; i + 1 < times_.size(); ++i) {
         const double before = times_[i] - times_[i - 1], after = times_[i + 1] - times_[i];
-        slopes_[i] = (after / before * (values_[i] - values_[i - 1]) + before / after * (values_[i + 1] - values_[i])) /
-                     (before + after);
+        slopes_[i] = smooth_slope<Eigen::VectorXd>((values_[i] - values_[i - 1]) / before, (values_[i + 1] - values_[i]) / after, before, after);
     }
 }
 

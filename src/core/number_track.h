@@ -1,5 +1,5 @@
-// Numbers that change with time along keyframes: still before the first and after the last. Smooth: a cubic Hermite
-// spline with Catmull-Rom tangents for uneven times, at rest at both ends. Linear: an even speed from key to key.
+// Numbers of one kind that change with time along keyframes: still before the first and after the last. Smooth: a cubic Hermite
+// spline that overshoots nothing (smooth_slope.h), at rest at both ends. Linear: an even speed from key to key.
 #pragma once
 
 #include <Eigen/Core>

@@ -7,18 +7,6 @@
 namespace tumble {
 namespace {
 
-std::optional<NumberTrack> track_of(const CameraDescription& camera) {
-    if (camera.keyframes.empty()) return std::nullopt;
-    std::vector<double> times;
-    std::vector<Eigen::VectorXd> values;
-    for (const CameraKeyframe& key : camera.keyframes) {
-        times.push_back(key.time);
-        values.emplace_back(7);
-        values.back() << key.eye, key.target, key.vertical_fov;
-    }
-    return NumberTrack(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
-}
-
 // Rodrigues' formula.
 Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
     const SinCos turn = sincos(degrees * pi / 180.0);
@@ -28,7 +16,23 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
 
 }  // namespace
 
-CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), keys_(track_of(camera)) {}
+std::optional<CameraPath::Tracks> CameraPath::tracks_of(const CameraDescription& camera) {
+    if (camera.keyframes.empty()) return std::nullopt;
+    const auto track = [&](const auto& value_of) {
+        std::vector<double> times;
+        std::vector<Eigen::VectorXd> values;
+        for (const CameraKeyframe& key : camera.keyframes) {
+            times.push_back(key.time);
+            values.push_back(value_of(key));
+        }
+        return NumberTrack(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
+    };
+    return Tracks{track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.eye; }),
+                  track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.target; }),
+                  track([](const CameraKeyframe& key) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, key.vertical_fov); })};
+}
+
+CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
 
 Vec3 CameraPath::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
@@ -44,11 +48,10 @@ CameraDescription CameraPath::at(const Snapshot& snapshot) const {
     now.target = camera_.target;
     now.up = camera_.up;
     now.vertical_fov = camera_.vertical_fov;
-    if (keys_) {
-        const Eigen::VectorXd key = keys_->at(snapshot.time);
-        now.eye = key.head<3>();
-        now.target = key.segment<3>(3);
-        now.vertical_fov = key[6];
+    if (tracks_) {
+        now.eye = tracks_->eye.at(snapshot.time);
+        now.target = tracks_->target.at(snapshot.time);
+        now.vertical_fov = tracks_->vertical_fov.at(snapshot.time)[0];
     }
     // Whole turns go first, in degrees, where they are exact.
     const double angle = std::remainder(camera_.orbit * snapshot.time, 360.0);

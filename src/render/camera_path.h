@@ -24,7 +24,11 @@ public:
 
 private:
     CameraDescription camera_;
-    std::optional<NumberTrack> keys_;   // eye, target, field of view
+    struct Tracks {
+        NumberTrack eye, target, vertical_fov;
+    };
+    static std::optional<Tracks> tracks_of(const CameraDescription& camera);
+    std::optional<Tracks> tracks_;
 };
 
 /// Do both show the same picture?

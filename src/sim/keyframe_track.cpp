@@ -1,8 +1,8 @@
 #include "sim/keyframe_track.h"
 
 #include "core/elementary.h"
+#include "core/smooth_slope.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -37,19 +37,6 @@ Vec3 rate_from_spin(const Vec3& phi, const Vec3& spin) {
     return spin + 0.5 * once + c * phi.cross(once);
 }
 
-// The velocity at a key between two segments with these mean velocities and spans (s): that of the parabola through the three keys
-// (Catmull-Rom), unless a cubic with it would overshoot. It goes back along neither segment, and no faster than three times the
-// slower (Fritsch and Carlson 1980, "Monotone piecewise cubic interpolation", section 3, along one line).
-Vec3 tangent(const Vec3& before, const Vec3& after, double span_before, double span_after) {
-    Vec3 v = (span_after * before + span_before * after) / (span_before + span_after);
-    const double slower = std::min(before.norm(), after.norm());
-    for (const Vec3& segment : {before, after})
-        if (v.dot(segment) < 0.0) v -= v.dot(segment) / segment.squaredNorm() * segment;
-    if (v.dot(before) < 0.0) return Vec3::Zero();
-    const double speed = v.norm();
-    return speed > 3.0 * slower ? Vec3(3.0 * slower / speed * v) : v;
-}
-
 }  // namespace
 
 Vec3 rotation_vector(const Quat& q) {
@@ -80,9 +67,9 @@ KeyframeTrack::KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpola
     // At both ends the body is at rest, as it is before and after.
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const double before = keys_[i].time - keys_[i - 1].time, after = keys_[i + 1].time - keys_[i].time;
-        velocity_[i] = tangent((keys_[i].position - keys_[i - 1].position) / before, (keys_[i + 1].position - keys_[i].position) / after, before, after);
+        velocity_[i] = smooth_slope<Vec3>((keys_[i].position - keys_[i - 1].position) / before, (keys_[i + 1].position - keys_[i].position) / after, before, after);
         // Turning back along the last segment is -turn seen from its end: the same axis in both frames.
-        spin_[i] = tangent(turn_[i - 1] / before, turn_[i] / after, before, after);
+        spin_[i] = smooth_slope<Vec3>(turn_[i - 1] / before, turn_[i] / after, before, after);
     }
 }
 

@@ -76,6 +76,18 @@ TEST(CameraPath, GoesThroughItsKeyframes) {
     }
 }
 
+// A camera that waits stands still, however quickly it leaves; its eye may wait while its target moves.
+TEST(CameraPath, AWaitingCameraStandsStill) {
+    SceneDescription scene = empty_scene();
+    scene.camera.keyframes = {{0.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {3.0, {0, 0, 8}, {2, 0, 0}, 40.0}, {3.2, {5, 0, 8}, {2, 1, 0}, 20.0}};
+    const CameraPath path(scene.camera);
+    for (double t = 0.0; t <= 3.0; t += 0.1) {
+        const CameraDescription now = path.at(at_time(scene, t));
+        EXPECT_EQ(now.eye, Vec3(0, 0, 8)) << t;
+        EXPECT_EQ(now.vertical_fov, 40.0) << t;
+    }
+}
+
 TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane(), ball_body(Vec3(1.0, 1.0, 0.0), 0.5, {200, 60, 50})};
