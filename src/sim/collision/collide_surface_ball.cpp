@@ -1,35 +1,13 @@
 // Spheres against a triangle surface. Seams between triangles must not catch what slides over them: a point on an edge or
 // a corner counts only if the surface comes no nearer next to it.
 #include "sim/collision/collide.h"
+#include "sim/collision/nearest_on_triangle.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
-
-struct Nearest {
-    Vec3 point;
-    int feature;   // 0 face, 1 to 3 edge, 4 to 6 vertex
-};
-
-// Nearest point of a triangle with the feature it lies on (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
-Nearest nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
-    if (d1 <= 0.0 && d2 <= 0.0) return {a, 4};
-    if (d3 >= 0.0 && d4 <= d3) return {b, 5};
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {a + d1 / (d1 - d3) * ab, 1};
-    if (d6 >= 0.0 && d5 <= d6) return {c, 6};
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + d2 / (d2 - d6) * ac, 3};
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-        return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 2};
-    const double scale = 1.0 / (va + vb + vc);
-    return {a + vb * scale * ab + vc * scale * ac, 0};
-}
 
 template <class T>
 bool contains(const std::vector<T>& list, T value) { return std::find(list.begin(), list.end(), value) != list.end(); }
@@ -43,7 +21,7 @@ void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ba
     auto& hits = scratch.hits;
     hits.clear();
     a.tree.query(Bounds{center, center}.grown(reach), [&](std::uint32_t t) {
-        const Nearest near = nearest_on_triangle(center, a.corner(t, 0), a.corner(t, 1), a.corner(t, 2));
+        const NearestOnTriangle near = nearest_on_triangle(center, a.corner(t, 0), a.corner(t, 1), a.corner(t, 2));
         const double distance = (center - near.point).norm();
         if (distance > reach) return;
         const bool behind = a.triangles[t].normal.dot(center - near.point) < 0.0;
