@@ -1,6 +1,7 @@
 // No body ever ends on the other side of a wall: any speed, thickness and step, in either mode of impacts.
 #include "exact_scenes.h"
 #include "sim/random_shapes.h"
+#include "support/compounds.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -261,4 +262,40 @@ TEST(ThinWall, SpinningBesideAWallChangesNothing) {
         EXPECT_EQ(now.angular_momentum, start.angular_momentum);
         EXPECT_NEAR(now.kinetic / start.kinetic, 1.0, 1e-12);
     }
+}
+
+// Plates, rods and stools dropped on hills and hollows of one sheet of triangles: nobody sinks into it, nobody falls for ever.
+TEST(WavyGround, NobodySinksThrough) {
+    Random random(11);
+    const auto ground = asset_of(wavy_mesh(24, 6.0));
+    const Vec3 leg(0.04, 0.5, 0.04);
+    const Shape stool = compound_of({part(BoxShape{Vec3(0.8, 0.04, 0.6)}, Vec3::Zero()), part(BoxShape{leg}, {0.35, -0.25, 0.25}),
+                                     part(BoxShape{leg}, {-0.35, -0.25, 0.25}), part(BoxShape{leg}, {0.0, -0.25, -0.25})});
+    for (const bool exact : {true, false})
+        for (const int steps : {1, 4})
+            for (int i = 0; i < trials(18); ++i) {
+                SceneDescription scene;
+                scene.simulation.steps_per_frame = steps;
+                if (exact) make_exact(scene);
+                BodyDescription& floor = add_body(scene, MeshShape{ground}, Vec3::Zero());
+                floor.type = BodyType::fixed;
+                floor.friction = 0.6;
+                floor.restitution = 0.5;
+                const double thin = random(0.02, 0.06), length = random(0.4, 1.2), width = random(0.3, 1.2);
+                const Shape shape = i % 3 == 0   ? Shape(BoxShape{Vec3(thin, length, width)})
+                                    : i % 3 == 1 ? Shape(BoxShape{Vec3(thin, thin, length)})
+                                                 : stool;
+                BodyDescription& body = add_body(scene, shape, {random(-2.0, 2.0), random(1.6, 3.0), random(-2.0, 2.0)});
+                body.rotation = random.turn();
+                body.angular_velocity = random.vector(5.0);
+                body.friction = 0.6;
+                body.restitution = 0.5;
+                World world(scene);
+                for (int frame = 0; frame < 120; ++frame) {
+                    world.advance_frame();
+                    const Vec3 at = world.snapshot().bodies[1].center_of_mass;
+                    ASSERT_GT(at.y(), wavy_height(at.x(), at.z()) - 0.1) << exact << ", " << steps << " steps, body " << i;
+                    ASSERT_LT(world.measure().max_penetration, 0.03) << exact << ", " << steps << " steps, body " << i;
+                }
+            }
 }

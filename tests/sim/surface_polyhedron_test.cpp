@@ -2,6 +2,7 @@
 // valleys and sides.
 #include "random_shapes.h"
 #include "sim/collision/separating_axis.h"
+#include "sim/flight/closest_axis.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,30 @@ double lowest(const Polyhedron& b, const Pose& pose) {
     double y = 1e300;
     for (const Vec3& v : b.vertices) y = std::min(y, pose.to_world(v).y());
     return y;
+}
+
+Cloud cloud_of(std::vector<Vec3> points) {
+    Cloud cloud;
+    cloud.center = mean(points);
+    for (Vec3& p : points) {
+        p -= cloud.center;
+        cloud.reach = std::max(cloud.reach, p.norm());
+    }
+    cloud.arms = std::move(points);
+    return cloud;
+}
+
+// Whether a body and some triangle overlap, by their Minkowski difference: without the routine that is tested.
+bool overlap(const TriangleSurface& s, const Polyhedron& b, const Pose& pose) {
+    std::vector<Vec3> points;
+    Bounds bounds;
+    for (const Vec3& v : b.vertices) bounds.add(points.emplace_back(pose.to_world(v)));
+    const Cloud cloud = cloud_of(std::move(points));
+    bool found = false;
+    s.tree.query(bounds, [&](std::uint32_t t) {
+        found = found || !closest_vector(cloud_of({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}), cloud, Vec3::UnitY());
+    });
+    return found;
 }
 
 }  // namespace
@@ -202,4 +227,38 @@ TEST(PolyhedronOnSurface, ClosedBoxMeshMatchesTheBox) {
         EXPECT_GT(deepest(found), -2.0 * axis_preference(body->radius) - 2e-4) << trial;
     }
     EXPECT_GT(touched, 60);
+}
+
+// Flat, long and thick bodies that lie on hills and in hollows: the surface pushes them off the side that they are on,
+// though they are behind the planes of triangles beyond a hill. Whichever way its triangles are wound.
+TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
+    Random random(65);
+    for (const bool wound_alike : {true, false}) {
+        TriangleMesh mesh = wavy_mesh(24, 6.0);
+        for (auto& t : mesh.triangles)
+            if (!wound_alike && random.below(2) == 0) std::swap(t[0], t[1]);
+        const auto ground = surface_of(mesh);
+        for (int trial = 0; trial < trials(400); ++trial) {
+            const double thin = random(0.02, 0.06);
+            const auto body = trial % 4 == 0   ? box_of({thin, random(0.3, 1.5), random(0.3, 1.5)})
+                              : trial % 4 == 1 ? box_of({thin, thin, random(0.4, 1.5)})
+                              : trial % 4 == 2 ? random_hull(random, 12, {0.6, random(0.05, 0.3), random(0.1, 0.5)})
+                                               : box_of({random(0.1, 1.0), random(0.1, 1.0), random(0.1, 1.0)});
+            Pose pose{{random(-4.0, 4.0), 0.0, random(-4.0, 4.0)}, random.turn().toRotationMatrix()};
+            const double side = trial % 8 < 4 ? 1.0 : -1.0;   // from above, or from below
+            double outside = side * 4.0, inside = wavy_height(pose.position.x(), pose.position.z());
+            while (std::abs(outside - inside) > 1e-9) {
+                pose.position.y() = 0.5 * (outside + inside);
+                (overlap(*ground, *body, pose) ? inside : outside) = pose.position.y();
+            }
+            const double depth = 0.2 * body->inner_radius;
+            pose.position.y() = outside - side * depth;
+            const auto found = collide_all(ground, {}, body, pose, 0.01);
+            ASSERT_FALSE(found.empty()) << trial;
+            EXPECT_GE(deepest(found), -1.001 * depth - 2.0 * axis_preference(body->radius)) << trial << " " << wound_alike;
+            // An edge across a crease may be seen a little late.
+            EXPECT_LT(deepest(found), 0.2 * body->inner_radius) << trial << " " << wound_alike;
+            for (const Manifold& m : found) EXPECT_GT(side * m.normal.y(), 0.0) << trial << " " << wound_alike;
+        }
+    }
 }

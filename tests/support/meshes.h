@@ -61,6 +61,16 @@ inline TriangleMesh grid_mesh(int n, double half, double slope) {
     return m;
 }
 
+/// Hills and hollows .8 m high and deep, 6 by 5 m apart, in a wide bowl.
+inline double wavy_height(double x, double z) { return 0.4 * std::sin(x) * std::cos(1.3 * z) + 0.03 * (x * x + z * z); }
+
+/// The same grid at that height.
+inline TriangleMesh wavy_mesh(int n, double half) {
+    TriangleMesh m = grid_mesh(n, half, 0.0);
+    for (Vec3& v : m.vertices) v.y() = wavy_height(v.x(), v.z());
+    return m;
+}
+
 inline std::shared_ptr<const MeshAsset> open_ramp() { return asset_of(grid_mesh(6, 2.0, 0.3)); }
 
 }  // namespace tumble::testing

@@ -4,6 +4,7 @@
 #include "sim/collision/clip.h"
 #include "sim/collision/collider.h"
 #include "sim/collision/manifold.h"
+#include "sim/collision/surface_side.h"
 
 #include <span>
 #include <utility>
@@ -39,6 +40,7 @@ struct CollisionScratch {
         Vec3 point;
     };
     std::vector<SurfaceHit> hits;
+    SideScratch sides;
     std::vector<std::pair<std::uint32_t, double>> at_edges, at_vertices;
     std::vector<std::uint32_t> used_vertices, used_edges;
     std::vector<std::uint32_t> near_parts[2];   // of compounds: of the last one taken apart, and of the one before

@@ -122,13 +122,16 @@ void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, co
     candidates.clear();
     a.tree.query(region, [&](std::uint32_t t) { candidates.push_back(t); });
     std::sort(candidates.begin(), candidates.end());
-    for (const std::uint32_t index : candidates) {
+    // The body's centre is its origin.
+    find_sides(a, candidates, a_in_b.rotation.transpose() * -a_in_b.position, scratch.sides);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const std::uint32_t index = candidates[k];
         const TriangleSurface::Triangle& triangle = a.triangles[index];
+        const bool behind = scratch.sides.behind[k] != 0;
+        if (behind && a.closed) continue;
         Vec3 t[3];
         for (int i = 0; i < 3; ++i) t[i] = a_in_b.to_world(a.corner(index, i));
         Vec3 n = a_in_b.rotation * triangle.normal;
-        const bool behind = n.dot(t[0]) > 0.0;   // the body's centre, its origin, lies there
-        if (behind && a.closed) continue;
         if (behind) n = -n;
         for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
             TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch);

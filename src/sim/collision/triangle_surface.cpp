@@ -8,6 +8,60 @@
 #include <utility>
 
 namespace tumble {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertices, the lower first
+
+// Finds the sheets, and turns triangles so that each sheet is wound as its first one is. One that cannot be, as a Moebius
+// strip, stays as it is and is none.
+void find_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
+    struct Use {
+        std::uint32_t triangle;
+        bool upward;   // from the lower vertex to the higher
+    };
+    const auto edge_of = [&](std::uint32_t t, std::size_t i) {
+        return Edge(std::minmax(triangles[t].vertices[i], triangles[t].vertices[(i + 1) % 3]));
+    };
+    const auto upward = [&](std::uint32_t t, std::size_t i) {
+        return triangles[t].vertices[i] < triangles[t].vertices[(i + 1) % 3];
+    };
+    std::map<Edge, std::vector<Use>> users;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (const std::size_t i : {0u, 1u, 2u}) users[edge_of(t, i)].push_back({t, upward(t, i)});
+    std::vector<std::uint32_t> members;
+    std::vector<char> found(triangles.size(), 0), turned(triangles.size(), 0);
+    for (std::uint32_t first = 0; first < triangles.size(); ++first) {
+        if (found[first]) continue;
+        found[first] = 1;
+        members.assign(1, first);
+        bool alike = true;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            for (const std::size_t i : {0u, 1u, 2u}) {
+                const std::vector<Use>& both = users[edge_of(members[k], i)];
+                if (both.size() != 2) continue;
+                const std::uint32_t other = both[both[0].triangle == members[k] ? 1 : 0].triangle;
+                const char turn = char(turned[members[k]] ^ char(both[0].upward == both[1].upward));
+                if (found[other]) {
+                    alike = alike && turned[other] == turn;
+                    continue;
+                }
+                found[other] = 1;
+                turned[other] = turn;
+                members.push_back(other);
+            }
+        }
+        if (!alike) continue;
+        for (const std::uint32_t t : members) {
+            TriangleSurface::Triangle& triangle = triangles[t];
+            triangle.sheet = first;
+            if (!turned[t]) continue;
+            std::swap(triangle.vertices[1], triangle.vertices[2]);
+            triangle.normal = -triangle.normal;
+        }
+    }
+}
+
+}  // namespace
 
 TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
     TriangleSurface s;
@@ -16,7 +70,6 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         s.vertices.push_back(v - origin);
         s.radius = std::max(s.radius, s.vertices.back().norm());
     }
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::uint32_t, int>>> users;
     std::vector<Bounds> bounds;
     for (const auto& t : mesh.triangles) {
         const Vec3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
@@ -25,15 +78,27 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         TriangleSurface::Triangle triangle;
         triangle.vertices = t;
         triangle.normal = n.normalized();
-        Bounds box;
-        for (int i = 0; i < 3; ++i) {
-            users[std::minmax(t[i], t[(i + 1) % 3])].emplace_back(std::uint32_t(s.triangles.size()), i);
-            box.add(s.vertices[t[i]]);
-        }
         s.triangles.push_back(triangle);
+        Bounds box;
+        for (const std::uint32_t v : t) box.add(s.vertices[v]);
         bounds.push_back(box);
     }
     if (s.triangles.empty()) throw InputError("the mesh has no triangle with an area");
+    if (!s.closed) find_sheets(s.triangles);
+    std::map<Edge, std::vector<std::pair<std::uint32_t, int>>> users;
+    s.fan_start.assign(s.vertices.size() + 1, 0);
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+        const auto& v = s.triangles[t].vertices;
+        for (int i = 0; i < 3; ++i) {
+            users[std::minmax(v[std::size_t(i)], v[std::size_t((i + 1) % 3)])].emplace_back(t, i);
+            ++s.fan_start[v[std::size_t(i)] + 1];
+        }
+    }
+    std::partial_sum(s.fan_start.begin(), s.fan_start.end(), s.fan_start.begin());
+    s.fan.resize(s.fan_start.back());
+    std::vector<std::uint32_t> next = s.fan_start;
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
+        for (const std::uint32_t v : s.triangles[t].vertices) s.fan[next[v]++] = t;
     for (const auto& [ends, list] : users) {
         for (const auto& [t, i] : list) s.triangles[t].edge[i] = s.edge_count;
         ++s.edge_count;
@@ -49,7 +114,7 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         for (const std::uint32_t v : {ends.first, ends.second}) ++s.ring_start[v + 1];
     std::partial_sum(s.ring_start.begin(), s.ring_start.end(), s.ring_start.begin());
     s.ring.resize(s.ring_start.back());
-    std::vector<std::uint32_t> next = s.ring_start;
+    next = s.ring_start;
     for (const auto& [ends, list] : users) {
         s.ring[next[ends.first]++] = ends.second;
         s.ring[next[ends.second]++] = ends.first;
