@@ -4,6 +4,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 namespace tumble {
 
@@ -13,6 +14,9 @@ struct Moment {
 
     friend auto operator<=>(const Moment&, const Moment&) = default;
 };
+
+/// Later than any clip is long.
+inline constexpr Moment never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
 
 /// How long a step is, as the two whole and given numbers it is made of.
 struct StepClock {
