@@ -410,7 +410,10 @@ void World::State::move() {
 }
 
 void World::State::fall_asleep() {
-    if (settings.sleep) sleep.observe(islands, *manifolds, bodies, h);
+    if (!settings.sleep) return;
+    const std::uint64_t changes = sleep.changes();
+    sleep.observe(islands, *manifolds, bodies, h);
+    if (flights && sleep.changes() != changes) flights->lay_down(bodies, steps);
 }
 
 void World::State::check_finite() {

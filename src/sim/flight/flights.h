@@ -38,6 +38,9 @@ public:
     /// The ways of stepped and kinematic bodies through the step that begins. `limits`: how much of the step stepped ones may
     /// go, for all bodies.
     void begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step);
+    /// What has fallen asleep lies where it is from `step` on, for as long as nothing wakes it: what flies meets it there, though
+    /// nothing be stepped any more.
+    void lay_down(const std::vector<Body>& bodies, std::int64_t step);
     /// All events up to the beginning of step `until`, or of the step after the first landing if that is earlier; returns
     /// which. Throws RunError when a frame holds more impacts than it can mean.
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);

@@ -53,11 +53,20 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>
             bring(i, bodies, now);
             fly(i, bodies, forces, now);
         } else if (body.asleep) {
-            if (fliers_[i].path.still()) continue;
-            start(i, Path::uniform(body, Vec3::Zero(), Vec3::Zero()), now, never);
+            continue;
         } else {
             hold(i, limits[i], bodies, now);
         }
+        changed_.push_back(i);
+    }
+    predict_changed(bodies, now);
+}
+
+void Flights::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
+    const Moment now{step, 0.0};
+    for (const std::uint32_t i : movers_) {
+        if (!bodies[i].asleep || fliers_[i].until == never) continue;
+        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
         changed_.push_back(i);
     }
     predict_changed(bodies, now);
