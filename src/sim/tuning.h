@@ -236,6 +236,9 @@ inline constexpr double in_a_row = 1e-3;
 inline constexpr int impacts_before_landing = 128;
 /// Impacts in a row before hops that move nothing visibly count as contact.
 inline constexpr int impacts_before_stutter = 16;
+/// Times in a step that a held body, once struck, meets others at their own time: what turns about a contact closes it again
+/// and again, by less each time.
+inline constexpr int meetings_in_step = 8;
 /// Impacts in a frame, times the number of bodies: far beyond any clip (a million hits of each body a second).
 inline constexpr std::int64_t impacts_in_frame = 20000;
 /// Accelerations of touching points against each other below this part of what they are the difference of are rounding.

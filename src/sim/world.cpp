@@ -121,7 +121,7 @@ struct World::State {
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
     void turn_freely(Body& body, const Quat& from, double share) const;
-    void return_work(Body& body, const ForceStep& forces_of_step, double share) const;
+    void lose_time(std::uint32_t i, double share, bool in_contact);
     void carry(Body& body, const Body& carrier, double share) const;
     void solve_resting_contacts();
     void forget_blows();
@@ -339,17 +339,15 @@ void World::State::turn_freely(Body& body, const Quat& from, double share) const
     set_state(body, state);
 }
 
-// The forces have done work on a body in contact as if it had moved for the whole step. What they did on the way that it
-// did not go is taken back: held up again and again it would gather all of its fall's speed on the spot.
-void World::State::return_work(Body& body, const ForceStep& forces_of_step, double share) const {
-    const Vec3 push = forces_of_step.after.momentum - forces_of_step.before.momentum;
-    const Vec3 turn = forces_of_step.after.angular_momentum - forces_of_step.before.angular_momentum;
-    const double work = (1.0 - share) * (push.dot(body.velocity) + turn.dot(body.angular_velocity));
-    if (!(work > 0.0)) return;
-    const double energy = body.kinetic_energy();
-    const double scale = std::sqrt(std::max(0.0, 1.0 - work / energy));
-    body.momentum *= scale;
-    body.angular_momentum *= scale;
+// What has to stop on its way: in contact the work of the forces on the rest of the way is taken back, else they have acted for as
+// long as it moved.
+void World::State::lose_time(std::uint32_t i, double share, bool in_contact) {
+    Body& body = bodies[i];
+    const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
+    const Vec3 push = after.momentum - before.momentum, turn = after.angular_momentum - before.angular_momentum;
+    if (in_contact) return return_work(body, push, turn, share);
+    body.momentum = before.momentum + share * push;
+    body.angular_momentum = before.angular_momentum + share * turn;
     body.derive_velocities();
 }
 
@@ -367,7 +365,10 @@ void World::State::carry(Body& body, const Body& carrier, double share) const {
 
 void World::State::move() {
     if (flights) {
-        flights->begin_step(bodies, held_limits(), forces, steps);
+        const auto& limits = held_limits();
+        for (const std::uint32_t i : awake_bodies)
+            if (!bodies[i].flying && limits[i].share < 1.0) lose_time(i, limits[i].share, touched(i));
+        flights->begin_step(bodies, motions, limits, forces, steps);
         steps = flights->run(bodies, sleep, forces, steps + 1);
         flights->place(bodies, steps);
         place_kinematic_bodies();
@@ -393,15 +394,11 @@ void World::State::move() {
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
-            if (!in_contact && share < 1.0) {   // forces have acted for as long as it moved
-                const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
-                body.momentum = before.momentum + share * (after.momentum - before.momentum);
-                body.angular_momentum = before.angular_momentum + share * (after.angular_momentum - before.angular_momentum);
-            }
+            if (!in_contact && share < 1.0) lose_time(i, share, false);
             body.derive();
             if (freely) turn_freely(body, orientation, share);
             else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
-            if (in_contact && share < 1.0) return_work(body, force_steps[i], share);
+            if (in_contact && share < 1.0) lose_time(i, share, true);
         }
         if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], share);
     });

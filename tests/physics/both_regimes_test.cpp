@@ -197,3 +197,47 @@ TEST(BothRegimes, WhatFallsLandsOnSleepers) {
             EXPECT_NEAR(s.bodies[5].center_of_mass.y(), 0.55, 1e-4) << steps << " " << e;
         }
 }
+
+// A ball lands on the end of a plank that lies on a block. Pressed between the two the plank stops on its way, step after step:
+// what gravity does meanwhile it does not gather.
+TEST(BothRegimes, SeeSawGainsNothing) {
+    for (const int steps : {1, 2, 4}) {
+        SceneDescription scene;
+        scene.simulation.steps_per_frame = steps;
+        add_fixed_box(scene, {10.0, 1.0, 10.0}, {0.0, -0.5, 0.0}, 0.2);
+        add_fixed_box(scene, {0.1, 0.03, 0.3}, {0.0, 0.015, 0.0}, 0.2);
+        add_box(scene, {1.0, 0.02, 0.1}, {0.0, 0.04, 0.0}, 2.0).restitution = 0.2;
+        add_sphere(scene, 0.1, {0.43, 0.65, 0.0}, 12.5).restitution = 0.2;
+        for (BodyDescription& body : scene.bodies) body.friction = 0.0;
+        make_exact(scene);
+        World world(scene);
+        const double start = energy(world);
+        double before = start;
+        for (int frame = 0; frame < 60; ++frame) {
+            world.advance_frame();
+            const double now = energy(world);
+            ASSERT_LE(now, before + 1e-3 * start) << steps << " " << frame;
+            before = now;
+        }
+    }
+}
+
+// A plank on a block, hit at its end, swings down to the floor within the step: it stops there. (A half-space pushes out again
+// whatever is below.)
+TEST(BothRegimes, StruckPlankStopsAtTheFloor) {
+    for (const int steps : {1, 2, 4})
+        for (const double speed : {3.0, 10.0}) {
+            SceneDescription scene;
+            scene.simulation.steps_per_frame = steps;
+            add_fixed_box(scene, {10.0, 0.02, 10.0}, {0.0, -0.01, 0.0}, 0.0);
+            add_fixed_box(scene, {0.1, 0.03, 0.3}, {0.0, 0.015, 0.0}, 0.0);
+            add_box(scene, {1.0, 0.01, 0.1}, {0.0, 0.035, 0.0}, 1.0);
+            add_sphere(scene, 0.1, {0.43, 3.14, 0.0}, 10.0).velocity = Vec3(0.0, -speed, 0.0);
+            make_exact(scene);
+            World world(scene);
+            for (int frame = 0; frame < 60; ++frame) {
+                world.advance_frame();
+                ASSERT_LE(world.measure().max_penetration, 1e-3) << steps << " " << speed << " " << frame;
+            }
+        }
+}

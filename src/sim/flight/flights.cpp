@@ -52,6 +52,7 @@ void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const 
     f.start = now;
     f.until = until;
     f.driven = false;
+    f.met = StepLimit::none;
     f.spin = unknown;
     ++f.version;
     Ballistic& ball = balls_[i];
@@ -200,6 +201,12 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
         }
         if (flying || bodies[j].flying) look(j);
     }
+    if (f.event == Flier::Event::leaves_box && f.met != StepLimit::none && f.until <= f.boxed_until) {
+        f.event = Flier::Event::impact;
+        f.partner = f.met;
+        f.partner_version = fliers_[f.met].version;
+        next = f.until;
+    }
     // Nothing more within its path: World takes it up at the end of the step.
     if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
     else queue_.set(i, next);
@@ -309,7 +316,20 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
     const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
     if (bounce_balls(i, j, bodies, now)) return;
-    const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body, {.law = settings_.impact_law, .friction = true, .complete = true});
+    // Where held bodies meet, slow approaches do not bounce, as at a step.
+    const bool meeting = meets(i, j, now);
+    if (meeting)
+        for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
+    const double threshold = meeting ? tuning::restitution_threshold * settings_.gravity.norm() * h_ : 0.0;
+    const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body,
+                                          {.threshold = threshold, .law = settings_.impact_law, .friction = true, .complete = true});
+    if (!changed && meeting) {   // no more of that in this step
+        fliers_[i].meetings = tuning::meetings_in_step;
+        changed_.push_back(i);
+        hold_struck(bodies, forces, now);
+        predict_changed(bodies, now);
+        return;
+    }
     if (!changed) {
         // Touching without approaching, by rounding: looked at again after a while, a longer one each time, but before anything
         // can have come of it.
@@ -324,12 +344,13 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
         fliers_[k].spin = unknown;
         changed_.push_back(k);
     }
+    if (meeting) changed_.push_back(i);   // whether or not the blow has come to it, its path goes no farther
     release_struck(bodies);
-    const std::vector<StepLimit>* limits = land(bodies, forces, now);
-    for (const std::uint32_t k : changed_) {
+    land(bodies, forces, now);
+    sort_unique(changed_);
+    for (const std::uint32_t k : changed_)
         if (bodies[k].flying) fly(k, bodies, forces, now);
-        else hold(k, limits ? (*limits)[k] : StepLimit{}, bodies, now);
-    }
+    hold_struck(bodies, forces, now);
     predict_changed(bodies, now);
 }
 

@@ -35,9 +35,10 @@ public:
     bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
     /// Whether something has to be stepped: a body in contact, a moving kinematic one, one under forces that change.
     bool stepping(const std::vector<Body>& bodies) const;
-    /// The ways of stepped and kinematic bodies through the step that begins. `limits`: how much of the step stepped ones may
-    /// go, for all bodies.
-    void begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step);
+    /// The ways of stepped and kinematic bodies through the step that begins. By body: `motions`, what stepped ones move with;
+    /// `limits`, how much of the step they may go.
+    void begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<StepLimit>& limits,
+                    const ForceField& forces, std::int64_t step);
     /// What has fallen asleep lies where it is from `step` on, for as long as nothing wakes it: what flies meets it there, though
     /// nothing be stepped any more.
     void lay_down(const std::vector<Body>& bodies, std::int64_t step);
@@ -64,6 +65,8 @@ private:
         Moment last_impact;
         double since_impact = 0.0;    // s, between the last two
         int impacts_in_row = 0;
+        std::uint32_t met = StepLimit::none;   // whom a held body meets where its path ends, before the step does
+        int meetings = 0;             // in this step
         double spin = unknown;        // J, twice the energy: of a held body that nothing has struck since its path began
     };
 
@@ -75,10 +78,11 @@ private:
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);
     void predict_changed(const std::vector<Body>& bodies, const Moment& now);
     void release_struck(std::vector<Body>& bodies);
-    /// How far what has landed may move in the rest of the step; null if nothing landed.
-    const std::vector<StepLimit>* land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
-    const std::vector<StepLimit>& landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const Moment& now);
-    void hold(std::uint32_t i, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now);
+    void land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    void hold_struck(std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    /// Whether the body's path ends now, at the other body.
+    bool meets(std::uint32_t i, std::uint32_t other, const Moment& now) const { return fliers_[i].met == other && fliers_[i].until <= now; }
+    void hold(std::uint32_t i, const BodyVelocity& motion, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now);
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now);
     void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now);
     bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now);
@@ -112,7 +116,8 @@ private:
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
-    MotionLimit motion_limit_;            // of what has landed, to the end of its step
+    MotionLimit motion_limit_;            // of what has landed or was struck, to the end of its step
+    std::vector<BodyVelocity> motions_;   // by body, for that; zero in between
     ContactIslands islands_;
     ContactSolver contact_solver_;
     ThreadPool alone_{1};

@@ -31,18 +31,19 @@ bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& 
 
 // Moves a held body evenly to the end of the step. What has to stop on its way goes slower: it ends where it would have
 // stopped.
-void Flights::hold(std::uint32_t i, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now) {
+void Flights::hold(std::uint32_t i, const BodyVelocity& motion, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now) {
     const Body& body = bodies[i];
-    Vec3 velocity = limit.share * (body.velocity + body.push_velocity);
+    Vec3 velocity = limit.share * motion.velocity;
     if (limit.carrier != StepLimit::none) {
         const Body& carrier = bodies[limit.carrier];
         velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
     }
-    start(i, Path::uniform(body, velocity, limit.share * (body.angular_velocity + body.push_angular_velocity)), now, {now.step + 1, 0.0});
+    start(i, Path::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
     fliers_[i].spin = spin(body);
 }
 
-void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>& limits, const ForceField& forces, std::int64_t step) {
+void Flights::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<StepLimit>& limits,
+                         const ForceField& forces, std::int64_t step) {
     const Moment now{step, 0.0};
     changed_.swap(taken_off_);
     taken_off_.clear();
@@ -55,7 +56,8 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<StepLimit>
         } else if (body.asleep) {
             continue;
         } else {
-            hold(i, limits[i], bodies, now);
+            hold(i, motions[i], limits[i], bodies, now);
+            fliers_[i].meetings = 0;
         }
         changed_.push_back(i);
     }
@@ -67,6 +69,7 @@ void Flights::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
     for (const std::uint32_t i : movers_) {
         if (!bodies[i].asleep || fliers_[i].until == never) continue;
         start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
+        fliers_[i].meetings = 0;
         changed_.push_back(i);
     }
     predict_changed(bodies, now);
@@ -95,7 +98,7 @@ void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sle
 }
 
 // What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
-const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
     std::vector<std::uint32_t> landed;
     for (bool more = true; more;) {
         more = false;
@@ -115,15 +118,14 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
             more = true;
         }
     }
-    if (landed.empty()) return nullptr;
+    if (landed.empty()) return;
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
-    if (!(rest > 0.0)) return nullptr;
+    if (!(rest > 0.0)) return;
     landing_manifolds_.clear();
     std::vector<std::uint32_t> touched;
-    for (const Manifold& m : cluster_.manifolds()) {
-        const bool lands = std::find(landed.begin(), landed.end(), m.a) != landed.end() || std::find(landed.begin(), landed.end(), m.b) != landed.end();
-        if (!lands || bodies[m.a].flying || bodies[m.b].flying) continue;
+    for (const Manifold& m : cluster_.manifolds()) {   // those of what it lands on, too: that may lean on something
+        if (bodies[m.a].flying || bodies[m.b].flying) continue;
         landing_manifolds_.push_back(m);   // the little it would still bounce is given up
         for (const std::uint32_t k : {m.a, m.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
@@ -148,29 +150,74 @@ const std::vector<StepLimit>* Flights::land(std::vector<Body>& bodies, const For
         changed_.push_back(k);
     }
     for (const std::uint32_t k : landed) changed_.push_back(k);
-    sort_unique(changed_);
-    return &landing_limits(landed, bodies, now);
 }
 
-// Held bodies meet what is fixed, and each other, by steps: those just landed in what is left of this one.
-const std::vector<StepLimit>& Flights::landing_limits(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies,
-                                                      const Moment& now) {
-    std::vector<BroadPhase::Pair> pairs;
-    std::vector<BodyVelocity> motions(bodies.size());
-    for (const std::uint32_t k : landed) {
-        motions[k] = {bodies[k].velocity, bodies[k].angular_velocity};
-        for (const std::uint32_t other : neighbourhood_.fixed(k)) pairs.push_back({std::min(k, other), std::max(k, other)});
-        for (const std::uint32_t other : neighbourhood_.moving(k)) {
-            if (bodies[other].flying) continue;
-            bring(other, bodies, now);
-            motions[other] = {bodies[other].velocity, bodies[other].angular_velocity};
-            pairs.push_back({std::min(k, other), std::max(k, other)});
+// Held bodies meet what is fixed, and each other, by steps. But those that a blow has just sent another way, or that have
+// landed, go in what is left of this step no farther than they meet something, and so does who was on his way to them: there
+// the next impact is. So a few times in a step; then they stop there. But two that touch and are free to move go on, as they
+// would lose their common motion, and are left to the next step's contact.
+void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    std::vector<std::uint32_t> going, near;
+    for (const std::uint32_t k : changed_)
+        if (held(bodies[k])) going.push_back(k);
+    if (going.empty()) return;
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    motions_.resize(bodies.size());
+    for (const std::uint32_t k : going)
+        motions_[k] = {bodies[k].velocity + bodies[k].push_velocity, bodies[k].angular_velocity + bodies[k].push_angular_velocity};
+    const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
+    const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
+    const std::vector<StepLimit>* limits = nullptr;
+    for (bool more = true; more;) {
+        sort_unique(going);
+        std::vector<BroadPhase::Pair> pairs;
+        near = going;
+        for (const std::uint32_t k : going) {
+            const auto add = [&](std::uint32_t other) {
+                const auto [a, b] = std::minmax(k, other);
+                const bool both = bodies[a].dynamic() && bodies[b].dynamic();
+                const bool often = both && std::max(fliers_[a].meetings, fliers_[b].meetings) >= tuning::meetings_in_step;
+                if (!often || !depth(a, b)) pairs.push_back({a, b});
+            };
+            for (const std::uint32_t other : neighbourhood_.fixed(k)) add(other);
+            for (const std::uint32_t other : neighbourhood_.moving(k)) {
+                if (bodies[other].flying) continue;
+                near.push_back(other);
+                add(other);
+            }
         }
+        sort_unique(near);
+        sort_unique(pairs);
+        for (const std::uint32_t k : near) {
+            if (goes(k)) continue;
+            bring(k, bodies, now);
+            const Motion motion = fliers_[k].path.at(clock_.between(fliers_[k].start, now));
+            motions_[k] = {motion.velocity, motion.angular_velocity};
+        }
+        const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
+        limits = &motion_limit_.limits(find_pairs, depth, bodies, near, motions_, rest);
+        std::vector<std::uint32_t> stopped;
+        for (const std::uint32_t k : near)
+            if (!goes(k) && held(bodies[k]) && (*limits)[k].share < 1.0) stopped.push_back(k);
+        going.insert(going.end(), stopped.begin(), stopped.end());
+        more = !stopped.empty();
     }
-    sort_unique(pairs);
-    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
-    return motion_limit_.limits(find_pairs, touch_depth(landing_manifolds_, bodies), bodies, movers_, motions,
-                                clock_.between(now, {now.step + 1, 0.0}));
+    for (const std::uint32_t k : going) {
+        const StepLimit& limit = (*limits)[k];
+        changed_.push_back(k);
+        if (limit.met != StepLimit::none && fliers_[k].meetings < tuning::meetings_in_step) {
+            hold(k, motions_[k], {}, bodies, now);
+            fliers_[k].until = later(now, limit.share * rest);
+            fliers_[k].met = limit.met;
+            continue;
+        }
+        if (limit.share < 1.0) {
+            const Wrench wrench = forces.at(k, bodies[k], clock_.seconds(now));
+            return_work(bodies[k], rest * wrench.force, rest * wrench.torque, limit.share);
+        }
+        hold(k, motions_[k], limit, bodies, now);
+    }
+    for (const std::uint32_t k : near) motions_[k] = {};
 }
 
 }  // namespace tumble

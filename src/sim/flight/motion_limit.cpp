@@ -35,6 +35,16 @@ double thin(double depth_a, double depth_b) {
 
 }  // namespace
 
+void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share) {
+    const double work = (1.0 - share) * (impulse.dot(body.velocity) + turn.dot(body.angular_velocity));
+    if (!(work > 0.0)) return;
+    const double energy = body.kinetic_energy();
+    const double scale = std::sqrt(std::max(0.0, 1.0 - work / energy));
+    body.momentum *= scale;
+    body.angular_momentum *= scale;
+    body.derive_velocities();
+}
+
 // The first touch in the step, with each body standing still once its share is used up; h if there is none.
 double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
     const std::uint32_t i = pair.a, j = pair.b;
@@ -137,7 +147,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
                 const std::uint32_t other = k == pair.a ? pair.b : pair.a;
-                shorten(k) = {share, bodies[other].track ? other : StepLimit::none};
+                shorten(k) = {share, bodies[other].track ? other : StepLimit::none, other};
                 shorter = true;
             }
         }
@@ -156,9 +166,14 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     // Still changing: all of them stop with the first, which certainly keeps them apart.
     double least = 1.0;
     for (const FastPair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
-    for (const FastPair& pair : fast_)
-        for (const std::uint32_t k : {pair.a, pair.b})
-            if (bodies[k].dynamic()) shorten(k).share = std::min(limits_[k].share, least);
+    for (const FastPair& pair : fast_) {
+        for (const std::uint32_t k : {pair.a, pair.b}) {
+            if (!bodies[k].dynamic() || limits_[k].share <= least) continue;
+            StepLimit& limit = shorten(k);
+            limit.share = least;
+            limit.met = StepLimit::none;
+        }
+    }
     return limits_;
 }
 

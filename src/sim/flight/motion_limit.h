@@ -19,6 +19,7 @@ struct StepLimit {
     static constexpr std::uint32_t none = UINT32_MAX;
     double share = 1.0;              // of the step, that the body may move
     std::uint32_t carrier = none;    // the kinematic body that takes it along from there on
+    std::uint32_t met = none;        // whom it meets there, if that is known
 };
 
 /// How deep (m) a pair that touches already is in each other; nothing for others.
@@ -32,6 +33,11 @@ using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 
 /// Whether a body turns in free rotation, not by its motion's angular velocity; none: no body does.
 using TurnsFreely = std::function<bool(std::uint32_t body)>;
+
+/// The forces have done work on a body in contact as if it had moved for the whole step, by an impulse (N s) and a turn (N m s).
+/// What they did on the way that it did not go, but a share of, is taken back: held up again and again it would gather all of
+/// its fall's speed on the spot.
+void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share);
 
 class MotionLimit {
 public:
