@@ -198,6 +198,22 @@ TEST(BothRegimes, WhatFallsLandsOnSleepers) {
         }
 }
 
+// What lands heavily on a box does not press it into the ground in what is left of the step.
+TEST(BothRegimes, LandingFindsTheSupportBelow) {
+    for (const bool sleep : {true, false}) {
+        SceneDescription scene = ground_scene(0.0, 0.5, 1);
+        add_box(scene, {0.5, 0.5, 0.5}, {0.0, 0.25, 0.0}, 1.0);
+        add_sphere(scene, 0.1, {0.0, 4.6, 0.0}, 10.0);
+        scene.simulation.sleep = sleep;
+        make_exact(scene);
+        World world(scene);
+        for (int frame = 0; frame < 90; ++frame) {
+            world.advance_frame();
+            ASSERT_LE(world.measure().max_penetration, 1e-5) << sleep << " " << frame;
+        }
+    }
+}
+
 // A ball lands on the end of a plank that lies on a block. Pressed between the two the plank stops on its way, step after step:
 // what gravity does meanwhile it does not gather.
 TEST(BothRegimes, SeeSawGainsNothing) {
