@@ -1,13 +1,13 @@
 // The fragment's side of body.vert, shared by all kinds of bodies. Directions and places are in the body's own axes (of
 // a box, its face's: two along it and one outward), where the sun and the eye are the same for all its pixels.
-in vec4 v_haze;
+in vec3 v_air;
 #ifdef SUNLIT
 flat in vec3 v_to_light;
 #endif
 #ifdef SHADOWED
 in vec4 v_shadow;
 #endif
-flat in vec3 v_eye;             // the eye's place
+flat in vec4 v_eye;             // the eye's place; haze_share()'s per_half
 flat in vec3 v_up;
 flat in vec3 v_diffuse;
 flat in vec3 v_f0;
@@ -26,8 +26,10 @@ uniform sampler2D occlusion_atlas;
 
 // `paint`: what a pattern leaves of all its light.
 vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) {
-    vec3 to_eye = v_eye - place;
-    to_eye *= inversesqrt(max(dot(to_eye, to_eye), 1e-30));
+    vec3 to_eye = v_eye.xyz - place;
+    float squared = max(dot(to_eye, to_eye), 1e-30);
+    float air = haze_share(squared, v_eye.w);   // here: a large face's corners are far away
+    to_eye *= inversesqrt(squared);
     Surface surface;
     surface.n_v = dot(normal, to_eye);
     surface.up = dot(normal, v_up);
@@ -47,5 +49,5 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) 
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
     surface.open = open;
-    return vec4(displayed(shade(surface) * paint * v_haze.w + v_haze.rgb), v_rough.w);
+    return vec4(displayed(mix(shade(surface) * paint, v_air, air)), v_rough.w);
 }

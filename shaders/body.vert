@@ -12,14 +12,14 @@
 uniform sampler2D occlusion_atlas;
 #endif
 
-out vec4 v_haze;                    // light of the air before it; w: share of its own light that comes through
+out vec3 v_air;                     // light of the sky behind it
 #ifdef SUNLIT
 flat out vec3 v_to_light;
 #endif
 #ifdef SHADOWED
 out vec4 v_shadow;                  // place in the shadow maps
 #endif
-flat out vec3 v_eye;                // see body.glsl
+flat out vec4 v_eye;                // see body.glsl
 flat out vec3 v_up;
 flat out vec3 v_diffuse;
 flat out vec3 v_f0;
@@ -66,8 +66,7 @@ void main() {
 
     float squared = dot(position, position);
     vec3 direction = position * inversesqrt(max(squared, 1e-30));
-    float share = haze_share(squared, haze.x);
-    v_haze = vec4(share * sky(direction.y, dot(direction, to_light.xyz)), 1.0 - share);
+    v_air = sky(direction.y, dot(direction, to_light.xyz));
 
     float roughness = instance_color.w, metallic = instance_look.x;
     v_diffuse = surface_diffuse(instance_color.rgb, metallic);
@@ -77,12 +76,12 @@ void main() {
     v_pattern = vec2(instance_look.y, instance_scale.w);
 #endif
 
-    v_eye = rotate_back(instance_orientation, -instance_position.xyz);
+    vec3 eye = rotate_back(instance_orientation, -instance_position.xyz);
     v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
     vec3 light = rotate_back(instance_orientation, to_light.xyz);
 #ifdef BOX
-    v_eye -= outward * abs(dot(outward, instance_scale.xyz));   // from the face's middle
-    v_eye = vec3(dot(v_eye, unit_a), dot(v_eye, unit_b), dot(v_eye, outward));
+    eye -= outward * abs(dot(outward, instance_scale.xyz));   // from the face's middle
+    eye = vec3(dot(eye, unit_a), dot(eye, unit_b), dot(eye, outward));
     v_up = vec3(dot(v_up, unit_a), dot(v_up, unit_b), dot(v_up, outward));
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
     vec2 half_size = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
@@ -119,6 +118,7 @@ void main() {
     v_normal = normalize(mesh_normal / instance_scale.xyz);
     vec3 lift = rotate(instance_orientation, v_normal);
 #endif
+    v_eye = vec4(eye, haze.x);
 #ifdef SUNLIT
     v_to_light = light;
 #endif

@@ -55,7 +55,8 @@ BOUNDS = [
 CROWDS = {"SimBenchmark bouncing": ["symplectic-euler", "exact + exact impacts"],
           "SimBenchmark elastic 666": ["exact + exact impacts"],
           "elastic spheres in a pit": ["symplectic-euler", "exact + exact impacts"]}
-# ODE's published column of SimBenchmark's "bouncing" at 0.1 and 0.01 s, to every digit printed.
+# ODE's published column of SimBenchmark's "bouncing" at 0.1 and 0.01 s: its spheres sink into the ground by more than a radius there,
+# ours stop at it and err by less.
 PUBLISHED = {"0.1": "2.03326e+06", "0.01": "18808.3"}
 
 
@@ -99,9 +100,12 @@ class Smoke(unittest.TestCase):
             for row in rows:
                 self.assertLessEqual(float(row[4]), bound, (row, why))
 
-    def test_bouncing_is_the_published_column(self):
+    def test_bouncing_errs_by_less_than_the_published_column(self):
         found = {r[3]: r[4] for r in self.rows if r[0] == "SimBenchmark bouncing: energy" and r[2] == "symplectic-euler"}
-        self.assertEqual(found, PUBLISHED)
+        self.assertEqual(found.keys(), PUBLISHED.keys())
+        for step, error in PUBLISHED.items():
+            self.assertLess(float(found[step]), float(error))
+            self.assertGreater(float(found[step]), 0.5 * float(error))
 
 
 if __name__ == "__main__":

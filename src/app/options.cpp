@@ -60,6 +60,17 @@ struct CommandLine {
     std::string render_size, info_size, aovs;
 };
 
+// CLI::Range lets what is no number through.
+CLI::Validator number_within(double least, double most) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0.0;
+            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return within ? std::string() : fmt::format("Value {} not in range {:g} to {:g}", text, least, most);
+        },
+        "");
+}
+
 void add_scene(CLI::App& command, std::filesystem::path& scene) {
     command.add_option("scene", scene, "The scene file (TOML)")->required()->type_name("SCENE");
 }
@@ -99,9 +110,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
     command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
                         "at the same frames per second), 2 twice as fast")
-        ->check(CLI::Range(slowest_speed, fastest_speed))->option_text("X [1]");
+        ->check(number_within(slowest_speed, fastest_speed))->option_text("X [1]");
     command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
-        ->check(CLI::Range(0.0, 360.0))->option_text("DEGREES [0]");
+        ->check(number_within(0.0, 360.0))->option_text("DEGREES [0]");
     command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
         ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
     command->add_flag_callback("--variable-rate", [&c] { c.times = FrameTimes::longer_frames; },
@@ -176,7 +187,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a pixel may differ in each channel; its surroundings\non average by half of it")
         ->check(CLI::Range(0, 255))->option_text("N [3]");
     command->add_option("--fraction", c.fraction, "Part of the pixels that may differ by more")
-        ->check(CLI::Range(0.0, 1.0))->option_text("F [0.0001]");
+        ->check(number_within(0.0, 1.0))->option_text("F [0.0001]");
     command->footer(
         "Pictures of one scene from two processors pass; a small object moved by one pixel, a lost shadow\n"
         "or a shifted colour do not: several such pixels close together, or a slight difference all over an\n"

@@ -23,7 +23,7 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
     if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye in its own target looks along -z
     forward_ = to_target.norm() > 0.0 ? Vec3(to_target / target_distance_) : Vec3(0.0, 0.0, -1.0);
     right_ = forward_.cross(camera.up);
-    start_distance_ = target_distance_;
+    viewing_distance_ = target_distance_;
     // An up that is parallel to the view (a camera straight from above) leaves the turn open: any axis across will do.
     if (!(right_.norm() > 1e-9 * camera.up.norm())) right_ = forward_.cross(most_across(forward_));
     right_.normalize();
@@ -38,7 +38,13 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
 
 CameraView CameraView::from(const CameraDescription& camera) const {
     CameraView view(camera, width_, height_, shift_);
-    view.start_distance_ = start_distance_;
+    view.viewing_distance_ = viewing_distance_;
+    return view;
+}
+
+CameraView CameraView::with_viewing_distance(double distance) const {
+    CameraView view = *this;
+    view.viewing_distance_ = distance;
     return view;
 }
 

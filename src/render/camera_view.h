@@ -33,8 +33,9 @@ public:
     /// Distance from eye to target, m: the scale of what is looked at.
     double target_distance() const { return target_distance_; }
 
-    /// The same at the clip's start, m: what patterns and haze fit, so that they never jump.
-    double start_distance() const { return start_distance_; }
+    /// What patterns and haze fit, m: the same for a whole clip. Until told otherwise the distance to the target.
+    double viewing_distance() const { return viewing_distance_; }
+    CameraView with_viewing_distance(double distance) const;
 
     /// The width of a pixel at distance 1 along the axis.
     double pixel_size() const { return 2.0 * tan_y_ / height_; }
@@ -62,7 +63,7 @@ public:
 
 private:
     Vec3 eye_, right_, up_, forward_;
-    double target_distance_, start_distance_;
+    double target_distance_, viewing_distance_;
     int width_, height_;
     double tan_x_, tan_y_;
     Eigen::Vector2d shift_;  // pixels

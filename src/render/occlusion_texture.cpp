@@ -39,7 +39,7 @@ void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int en
         columns_ = columns;
     }
     send(atlas, first_row, std::min(end_row, first_of_windows), OcclusionAtlas::width);
-    send(atlas, std::max(first_row, first_of_windows), end_row, columns);
+    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);   // as far as any window may come to read them
 }
 
 void OcclusionTexture::send(const OcclusionAtlas& atlas, int first_row, int end_row, int columns) {

@@ -88,7 +88,7 @@ std::optional<PlanePatch> make_plane_patch(const BodyLook& look, const BodyState
 
 std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
                                            double near_distance) {
-    const double cell = pattern_cell(view.start_distance());
+    const double cell = pattern_cell(view.viewing_distance());
     std::vector<PlanePatch> patches;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         if (looks.bodies[i].kind != DrawKind::plane) continue;

@@ -20,6 +20,7 @@
 #include "render/shadow_cover.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
+#include "render/viewing_distance.h"
 
 #include <fmt/format.h>
 
@@ -48,7 +49,8 @@ struct Renderer::State {
           looks(make_scene_looks(scene)),
           path(description.camera),
           camera(scene.camera),
-          view(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y}),
+          view(CameraView(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
+                   .with_viewing_distance(viewing_distance(scene, looks))),
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks, view.eye()),
           changes(scene, looks, view),

@@ -16,7 +16,8 @@ constexpr double near_margin = 1.3;
 // scissors: a texel is at least this part of the bodies' typical reach (their half edge).
 constexpr double least_texel_of_reach = 0.02;
 
-// A body this many times as far away as the middle one does not widen the near map: it is small in the picture.
+// A body that reaches this many times as far away as the middle one does not widen the near map: it is small in the picture, or so
+// large, a ground or a wall, that the map would be spent on it.
 constexpr double far_away = 4.0;
 
 // Lost bodies must not blur what is left: the far map grows to this many times the near one.
@@ -105,7 +106,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
         std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2), distances.end());
     Extent x, y;
     for (const Place& p : places) {
-        if (p.distance - p.radius > far_away * distances[distances.size() / 2]) continue;
+        if (p.distance + p.radius > far_away * distances[distances.size() / 2]) continue;
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
     }

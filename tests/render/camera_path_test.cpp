@@ -2,8 +2,10 @@
 #include "drawing.h"
 #include "example_scenes.h"
 
+#include "render/body_looks.h"
 #include "render/camera_path.h"
 #include "render/drawn_poses.h"
+#include "render/viewing_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -230,6 +232,28 @@ TEST(MovingCamera, RestsWithABodyThatTrembles) {
     EXPECT_EQ(snapshot.bodies[1].origin, scene.bodies[1].position);
     snapshot.bodies[1].origin.x() += 0.5;
     EXPECT_TRUE(poses.follow(snapshot));
+}
+
+// Haze and grids fit the bodies' distance: the target may stand anywhere along the way to them, and before or behind.
+TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
+    SceneDescription scene = empty_scene();
+    for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
+    const SceneLooks looks = make_scene_looks(scene);
+    scene.camera.eye = Vec3(0.0, 0.0, 10.0);
+    const auto with_target = [&](double z) {
+        scene.camera.target = Vec3(0.0, 0.0, z);
+        return viewing_distance(scene, looks);
+    };
+    EXPECT_EQ(with_target(0.0), 10.0);
+    EXPECT_EQ(with_target(3.0), 7.0);
+    EXPECT_NEAR(with_target(9.9), 5.0, 0.1);
+    EXPECT_NEAR(with_target(-1000.0), 20.0, 0.2);
+    scene.camera.keyframes = {{0.0, {0, 0, 5}, {0, 0, 0}, 40.0}, {2.0, {0, 0, 30}, {0, 0, 0}, 10.0}};
+    EXPECT_EQ(viewing_distance(scene, looks), 30.0);
+    scene.bodies.clear();
+    scene.camera.keyframes.clear();
+    scene.camera.target = Vec3(0.0, 0.0, 6.0);
+    EXPECT_EQ(viewing_distance(scene, make_scene_looks(scene)), 4.0);
 }
 
 }  // namespace

@@ -117,6 +117,28 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawInRandomScenes) {
     EXPECT_LT(redrawn, 0.8) << "of the pictures: the test must have something to leave out";
 }
 
+// What was drawn before must not tell: the window of the ground's darkening was wide, then long, then both, and what had never been
+// sent of it showed as grey slabs on the ground.
+TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 232;
+    scene.output.height = 152;
+    scene.camera.eye = Vec3(0.0, 5.0, 6.0);
+    scene.camera.target = Vec3(0.0, 0.0, 0.0);
+    scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
+    for (int i = 0; i < 4; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3::Constant(0.5), {200, 60, 40}));
+    Renderer used(scene, {});
+    Image frame, truth;
+    Snapshot snapshot = first_snapshot(scene);
+    for (const auto& [wide, deep] : {std::pair{1.5, 0.4}, {0.4, 1.5}, {1.5, 1.5}, {2.5, 0.4}, {0.4, 2.5}, {2.5, 2.5}}) {
+        for (int i = 0; i < 4; ++i)
+            snapshot.bodies[std::size_t(i + 1)].origin = Vec3(i % 2 == 0 ? wide : -wide, 0.3, i / 2 == 0 ? deep : -deep);
+        used.render(snapshot, frame);
+        Renderer(scene, {}).render(snapshot, truth);
+        EXPECT_EQ(different_pixels(frame, truth), 0u) << wide << " by " << deep;
+    }
+}
+
 TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
     const SceneDescription scene = random_scene(1);
     Renderer renderer(scene, {});

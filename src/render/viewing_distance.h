@@ -1,0 +1,13 @@
+// How far away what a clip shows is: what distance haze and the grids of planes fit, the same for all of it, so that they never jump.
+#pragma once
+
+#include "render/body_looks.h"
+#include "scene/description.h"
+
+namespace tumble {
+
+/// From the eye to the target (of keyframes, the farthest), as long as the bodies are about there: who writes an eye and a direction
+/// may put the target anywhere along it. m, by where everything starts.
+double viewing_distance(const SceneDescription& scene, const SceneLooks& looks);
+
+}  // namespace tumble
