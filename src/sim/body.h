@@ -18,23 +18,24 @@ struct alignas(64) BodyVelocity {
 };
 
 struct Body {
-    // What it is: seldom written, and in other cache lines than the state, so that all threads can keep a copy.
-    std::string name;
-    BodyType type = BodyType::dynamic;
-    Collider collider;
-    double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
-    Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
+    // What it is: seldom written, and in other cache lines than the state, so that all threads can keep a copy. What each
+    // step asks for stands first, in one line.
+    alignas(64) BodyType type = BodyType::dynamic;
+    IntegratorKind integrator = IntegratorKind::symplectic_euler;
     bool spherical_top = false;              // equal moments, as a ball or a cube: the tensor is the same in every frame
-    Vec3 principal_inertia = Vec3::Zero();   // kg m^2
-    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
-    Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
+    bool asleep = false;
+    bool flying = false;                     // impacts = "exact": on a path known in closed form, not stepped
+    double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
     double drag_area = 0.0;                  // m^2, mean projected area
-    IntegratorKind integrator = IntegratorKind::symplectic_euler;
+    Collider collider;
     std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
-    bool asleep = false;
-    bool flying = false;   // impacts = "exact": on a path known in closed form, not stepped
+    Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
+    Vec3 principal_inertia = Vec3::Zero();   // kg m^2
+    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
+    Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
+    std::string name;
 
     // State (notes eq. 1). Both forms of the rotation are kept; the world's settings say which one is integrated and
     // which follows from it.
