@@ -17,6 +17,10 @@ bool inside(const Bounds& inner, const Bounds& outer) {
     return true;
 }
 
+double room(const Bounds& inner, const Bounds& outer) {
+    return std::min((inner.min - outer.min).minCoeff(), (outer.max - inner.max).minCoeff());
+}
+
 Bounds carried(Bounds bounds, const Vec3& way) {
     bounds.min += way.cwiseMin(0.0);
     bounds.max += way.cwiseMax(0.0);
@@ -84,13 +88,22 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
 }
 
 // Whether nothing has changed for it: in its fat bounds, awake or flying as before.
-bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) const {
-    const State& state = states_[i];
+bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) {
+    State& state = states_[i];
     if (active(body) != state.active) return false;
     if (!state.active) return resting_tree_.holds(i);
-    const double way = h * body.velocity.norm();
+    const double way = h * body.velocity.norm(), margin = tuning::speculative * body.radius + turning_way(body, h);
     if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;   // it was faster
-    return inside(bounds_of_step(body, h), active_tree_.box(i));
+    // Mostly it has hardly moved since its bounds were worked out: no point of it by more than this (a chord between quaternions:
+    // narrow_phase.h).
+    const double moved = (body.position - state.position).norm() + 2.0 * (body.orientation.coeffs() - state.orientation.coeffs()).norm() * body.radius;
+    if (moved + margin + way <= state.room) return true;
+    const Bounds bounds = world_bounds(body.collider, body.pose()), &fat = active_tree_.box(i);
+    if (!inside(carried(bounds.grown(margin), h * body.velocity), fat)) return false;
+    state.position = body.position;
+    state.orientation = body.orientation;
+    state.room = room(bounds, fat);
+    return true;
 }
 
 void BroadPhase::find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool) {
@@ -121,6 +134,7 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     DynamicTree& tree = state.active ? active_tree_ : resting_tree_;
     tree.set(i, carried(bounds_of_step(body, h).grown(tuning::fat_bounds * body.radius), further));
     state.way = tuning::fat_steps * h * body.velocity.norm();
+    state.room = -1.0;
     state.moved = true;
     moved_.push_back(i);
 }

@@ -43,7 +43,7 @@ public:
 private:
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
-    bool stays(std::uint32_t i, const Body& body, double h) const;
+    bool stays(std::uint32_t i, const Body& body, double h);
     void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);
     void visit(std::uint32_t i, const Body& body, double h);
     bool active(const Body& body) const { return (!body.asleep || kind_ == Pairs::all) && !body.flying; }
@@ -65,6 +65,10 @@ private:
         bool active = false;    // awake and not in exact flight
         bool moved = false;     // in this update: its pairs are looked for anew
         double way = 0.0;       // m, that its fat bounds reach ahead
+        // Where it was when its bounds were last worked out, and how far (m) they lay inside of the fat ones.
+        Vec3 position = Vec3::Zero();
+        Quat orientation = Quat::Identity();
+        double room = -1.0;
     };
     std::vector<State> states_;               // of the bodies
     std::vector<std::uint32_t> moved_;

@@ -7,6 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <type_traits>
 
 namespace tumble {
 namespace {
@@ -16,10 +20,9 @@ constexpr std::size_t ahead = 6;
 
 bool awake(const Body& body) { return body.moves() && !body.asleep; }
 
-// How far (m) any point within `radius` of the body's centre has moved at most.
-double motion(const Pose& from, const Pose& to, double radius) {
-    return (to.position - from.position).norm() + std::sqrt(0.5 * (to.rotation - from.rotation).squaredNorm()) * radius;
-}
+// To single precision, of what is not negative.
+float rounded_down(double x) { return float(x) * (1.0f - std::numeric_limits<float>::epsilon()); }
+float rounded_up(double x) { return float(x) * (1.0f + std::numeric_limits<float>::epsilon()); }
 
 // Along the world's axis that separates them best.
 double distance(const Bounds& a, const Bounds& b) {
@@ -30,6 +33,18 @@ double distance(const Bounds& a, const Bounds& b) {
 
 bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l.part < r.part : !l.more && r.more; }
 
+// Manifolds and anchors are numbers without anything to own, whatever Eigen's constructors say: copied as memory.
+template <class T>
+void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to, std::size_t place) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    if (count > 0) std::memcpy(static_cast<void*>(to.data() + place), from.data() + first, count * sizeof(T));
+}
+
+// Manifolds side by side that stay so.
+struct Run {
+    std::uint32_t from = 0, to = 0, count = 0;
+};
+
 std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch& scratch) {
     return std::span(scratch.left_out).subspan(m.first_left_out, m.left_out);
 }
@@ -39,6 +54,26 @@ std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch
 double NarrowPhase::margin(const View& a, const View& b, double h) const {
     if (mode_ == Mode::measure) return touch_distance(a.radius, b.radius);
     return a.speculative + b.speculative + h * ((b.velocity - a.velocity).norm() + a.spin + b.spin);
+}
+
+NarrowPhase::Placement NarrowPhase::placement(const View& small, const View& large) {
+    Placement p{large.pose.to_body(small.pose.position), {}};
+    const Quat turn = large.orientation.conjugate() * small.orientation;
+    for (int k = 0; k < 4; ++k) p.orientation[k] = float(turn.coeffs()[k]);
+    return p;
+}
+
+// How far (m) any point within `radius` of the body's centre has moved at most. Two unit quaternions t / 2 apart on their sphere
+// tell of a turn by t: the farthest point moved by 2 r sin(t / 2), and the chord between the quaternions is 2 sin(t / 4), so that
+// twice the chord times r is no less.
+double NarrowPhase::motion(const Placement& from, const Placement& to, double radius) {
+    float near = 0.0f, opposite = 0.0f;   // a turn has two quaternions
+    for (int k = 0; k < 4; ++k) {
+        const float less = to.orientation[k] - from.orientation[k], more = to.orientation[k] + from.orientation[k];
+        near += less * less;
+        opposite += more * more;
+    }
+    return (to.position - from.position).norm() + 2.0 * double(std::sqrt(std::min(near, opposite))) * radius;
 }
 
 // What each thread has to do; all by one where meeting costs more than it saves.
@@ -71,21 +106,27 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
 // Which thread looks at which bodies and pairs. Of the bodies in the list only: those that sleep far from all others are not
 // even looked at.
 void NarrowPhase::share_out(const ThreadPool& pool) {
+    const bool alone = found_.size() == 1;
     for (Found& found : found_) {
         found.manifolds.clear();
         found.anchors.clear();
         found.changes.clear();
         found.bodies.clear();
-        found.entries.clear();
+        if (!alone) found.entries.clear();
     }
-    const auto of = [&, alone = found_.size() == 1](std::uint32_t body) -> Found& { return found_[alone ? 0 : pool.thread_of(body)]; };
+    if (alone) {   // all of them, in order
+        auto& all = found_[0].entries;
+        const std::size_t before = std::min(all.size(), entries_.size());
+        all.resize(entries_.size());
+        std::iota(all.begin() + std::ptrdiff_t(before), all.end(), std::uint32_t(before));
+    }
     for (std::uint32_t k = 0; k < entries_.size(); ++k) {
         for (const std::uint32_t i : {entries_[k].pair.a, entries_[k].pair.b}) {
             if (seen_[i] == call_) continue;
             seen_[i] = call_;
-            of(i).bodies.push_back(i);
+            found_[alone ? 0 : pool.thread_of(i)].bodies.push_back(i);
         }
-        of(entries_[k].mover).entries.push_back(k);
+        if (!alone) found_[pool.thread_of(entries_[k].mover)].entries.push_back(k);
     }
 }
 
@@ -145,9 +186,10 @@ void NarrowPhase::unpark(Entry& entry) {
 }
 
 void NarrowPhase::view(View& v, const Body& body) const {
-    const Pose pose = body.pose();
-    if (body.moves()) v.travel += motion(v.pose, pose, body.radius);
-    v.pose = pose;
+    if (body.moves())
+        v.travel += (body.position - v.pose.position).norm() + 2.0 * (body.orientation.coeffs() - v.orientation.coeffs()).norm() * body.radius;
+    v.pose = body.pose();
+    v.orientation = body.orientation;
     v.radius = body.radius;
     v.velocity.setZero();
     v.spin = v.speculative = 0.0;
@@ -195,18 +237,18 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
     const double travel = a.travel + b.travel;
-    Standing now = standing(entry, a, b, reach, last, last.spent + (travel - last.travel));
+    Standing now = standing(entry, a, b, reach, last, double(last.spent) + (travel - last.travel));
     if (now == Standing::holds) return;
     const bool a_larger = a.radius >= b.radius;
     const View &large = a_larger ? a : b, &small = a_larger ? b : a;
-    const Pose pose = seen_from(large.pose, small.pose);
-    last.spent += motion(last.pose, pose, small.radius);
-    last.pose = pose;
+    const Placement now_at = placement(small, large);
+    last.spent = rounded_up(double(last.spent) + motion(last.placement, now_at, small.radius));
+    last.placement = now_at;
     last.travel = travel;
-    if (now == Standing::out_of_date) now = standing(entry, a, b, reach, last, last.spent);
+    if (now == Standing::out_of_date) now = standing(entry, a, b, reach, last, double(last.spent));
     if (now == Standing::holds) return;
     last.sank = last.sank || now == Standing::sank;
-    last.spent = 0.0;
+    last.spent = 0.0f;
     search(index, a, b, reach, found);
 }
 
@@ -216,7 +258,7 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
                                             double moved) {
     const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
     const double radius = std::min(a.radius, b.radius);
-    if (last.outcome == Search::Outcome::apart) return told(last.gap - moved > reach);
+    if (last.outcome == Search::Outcome::apart) return told(double(last.gap) - moved > reach);
     if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * radius) return Standing::out_of_date;
     const double touch = touch_distance(a.radius, b.radius);
     bool stands = true, missed = false;
@@ -249,8 +291,8 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.left_out.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
-    last.axis = found.scratch.axis;
-    last.gap = found.scratch.gap;
+    last.axis = std::uint16_t(found.scratch.axis);
+    last.gap = rounded_down(found.scratch.gap);
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
@@ -329,15 +371,29 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     spare_manifolds_.resize(all);
     spare_anchors_.resize(all);
     each_share(pool, [&](const Found& found) {
+        // What did not change still lies side by side, mostly: it goes in one piece.
+        Run run;
+        const auto flush = [&] {
+            copy_plain(manifolds_, run.from, run.count, spare_manifolds_, run.to);
+            copy_plain(anchors_, run.from, run.count, spare_anchors_, run.to);
+        };
         auto change = found.changes.begin();
         for (const std::uint32_t i : found.entries) {
-            const bool changed = change != found.changes.end() && change->entry == i;
-            const std::uint32_t first = changed ? change++->first : entries_[i].first, end = first + new_count_[i];
-            const auto &manifolds = changed ? found.manifolds : manifolds_;
-            const auto &anchors = changed ? found.anchors : anchors_;
-            std::copy(manifolds.begin() + first, manifolds.begin() + end, spare_manifolds_.begin() + new_first_[i]);
-            std::copy(anchors.begin() + first, anchors.begin() + end, spare_anchors_.begin() + new_first_[i]);
+            if (change != found.changes.end() && change->entry == i) {
+                copy_plain(found.manifolds, change->first, change->count, spare_manifolds_, new_first_[i]);
+                copy_plain(found.anchors, change->first, change->count, spare_anchors_, new_first_[i]);
+                ++change;
+                continue;
+            }
+            const Entry& entry = entries_[i];
+            if (entry.count == 0) continue;
+            if (entry.first != run.from + run.count || new_first_[i] != run.to + run.count) {
+                flush();
+                run = {entry.first, new_first_[i], 0};
+            }
+            run.count += entry.count;
         }
+        flush();
     });
     for (std::uint32_t i = 0; i < count; ++i) {
         entries_[i].first = new_first_[i];

@@ -43,18 +43,24 @@ private:
         enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
         bool awake = false, flying = false;
         Pose pose;
+        Quat orientation = Quat::Identity();
     };
-    // What is known of a pair: the last search, and the smaller body's pose in the frame of the larger: at the search, or at a later look,
-    // when it had moved by `spent` since.
+    // Where a body is in another one's frame; turned in single precision, which is enough to tell how far.
+    struct Placement {
+        Vec3 position = Vec3::Zero();
+        float orientation[4] = {0.0f, 0.0f, 0.0f, 1.0f};   // x, y, z, w
+    };
+    // What is known of a pair: the last search, and where the smaller body was for the larger, at the search or at a later look, when
+    // it had moved by `spent` since. One cache line: there are many pairs, and memory hands them out one by one.
     struct alignas(64) Search {
         enum class Outcome : std::uint8_t { none, apart, near } outcome = Outcome::none;
         bool sank = false;                        // by a point that was left out: from now on no point is given up
-        std::uint32_t axis = 0;                   // hint for boxes
-        double gap = 0.0;                         // m, at least
-        double spent = 0.0;                       // m
+        std::uint16_t axis = 0;                   // hint for boxes
+        float gap = 0.0f, spent = 0.0f;           // m, at least and at most
         double travel = 0.0;                      // m, of both bodies by then
-        Pose pose;
+        Placement placement;
     };
+    static_assert(sizeof(Search) == 64);
     struct Entry {
         BroadPhase::Pair pair;
         std::uint32_t search = 0;                 // index in searches_
@@ -84,6 +90,8 @@ private:
     template <class Work>
     void each_share(ThreadPool& pool, Work&& work);
     void share_out(const ThreadPool& pool);
+    static Placement placement(const View& small, const View& large);
+    static double motion(const Placement& from, const Placement& to, double radius);
     void view(View& v, const Body& body) const;
     double margin(const View& a, const View& b, double h) const;
     enum class Standing { holds, out_of_date, sank };

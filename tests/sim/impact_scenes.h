@@ -16,7 +16,7 @@ struct ImpactScene {
     std::vector<Contact> contacts;
 
     std::uint32_t add(BodyType type, double mass, const Vec3& inertia, const Vec3& position, const Vec3& velocity) {
-        Body body;
+        Body& body = bodies.emplace_back();
         body.type = type;
         body.radius = 0.5;
         body.position = position;
@@ -31,7 +31,6 @@ struct ImpactScene {
             body.momentum = mass * velocity;
             body.derive();
         }
-        bodies.push_back(body);
         return std::uint32_t(bodies.size() - 1);
     }
     std::uint32_t add_floor() { return add(BodyType::fixed, 0.0, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()); }

@@ -35,7 +35,9 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
                  Anchors& anchors) {
     const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
         const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
-        anchors.spare[std::size_t(anchors.spares++)] = {of_b ? on_a : on_b, anchors.normal.dot(of_b ? on_b : on_a)};
+        const Vec3 point = of_b ? on_a : on_b;
+        anchors.spare[std::size_t(anchors.spares++)] = {{float(point.x()), float(point.y()), float(point.z())},
+                                                        float(anchors.normal.dot(of_b ? on_b : on_a))};
     };
     if (left_out.size() <= Anchors::spare_capacity) {
         std::for_each(left_out.begin(), left_out.end(), add);
@@ -63,8 +65,8 @@ double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pos
     const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
         const Anchors::Spare& spare = anchors.spare[i];
-        const double height = n.dot(spare.point);
-        deepest = std::min(deepest, between + (anchors.normal_of_b ? spare.face - height : height - spare.face));
+        const double height = n.dot(Vec3(spare.point[0], spare.point[1], spare.point[2])), face = spare.face;
+        deepest = std::min(deepest, between + (anchors.normal_of_b ? face - height : height - face));
     }
     return deepest;
 }

@@ -30,10 +30,11 @@ struct Anchors {
     const Ends& on_b() const { return normal_of_b ? feet : corners; }
 
     // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal
-    // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body).
+    // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body). Single precision:
+    // they only tell whether something has sunk by more than a part of its size.
     struct Spare {
-        Vec3 point;
-        double face;
+        float point[3];
+        float face;
     };
     static constexpr std::size_t spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
     int spares = 0;

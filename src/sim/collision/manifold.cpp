@@ -80,7 +80,7 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
     manifold.first_left_out = std::uint32_t(left_out.size());
     for (const ContactPoint& p : candidates)
         if (!manifold.has(p.feature)) left_out.push_back(p);
-    manifold.left_out = std::uint32_t(left_out.size()) - manifold.first_left_out;
+    manifold.left_out = std::uint16_t(left_out.size() - manifold.first_left_out);
 }
 
 }  // namespace tumble

@@ -22,9 +22,12 @@ struct Manifold {
 
     std::uint32_t a = 0, b = 0;   // bodies
     std::uint32_t part = 0;       // of the pair: which parts of compounds and which triangle of a surface meet, else 0
-    bool more = false;            // those of the same two faces' points that the first manifold has no room for
-    Vec3 normal = Vec3::Zero();
     int count = 0;
+    bool more = false;            // those of the same two faces' points that the first manifold has no room for
+    bool solved_directly = false; // by the direct contact solver, in the last step
+    std::uint16_t left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
+    std::uint32_t first_left_out = 0;
+    Vec3 normal = Vec3::Zero();
     std::array<ContactPoint, capacity> points;
 
     // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a twist about the normal.
@@ -32,7 +35,6 @@ struct Manifold {
     Vec3 tangent = Vec3::Zero();          // unit, world; zero before the first solve
     double friction[2] = {0.0, 0.0};      // N s on B
     double twist = 0.0;                   // N m s on B
-    bool solved_directly = false;         // by the direct contact solver, in the last step
 
     bool has(std::uint64_t feature) const {
         for (int i = 0; i < count; ++i)
@@ -42,8 +44,6 @@ struct Manifold {
 
     /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).
     bool on_b() const { return (points[0].feature >> 63) != 0; }
-
-    std::uint32_t first_left_out = 0, left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
 };
 
 /// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and three that span a

@@ -26,6 +26,10 @@ void put(float* row, int stride, const Vec3& v) {
     row[2 * stride] = float(v.z());
 }
 
+void put_all(float* row, const std::array<double, 8>& values) {
+    for (std::size_t i = 0; i < 8; ++i) row[i] = float(values[i]);
+}
+
 // What the direct solver holds between masses of 1 : 1e6 would be a blow for soft contacts: of its impulses no more is
 // handed over than some weights of the lighter body.
 void temper(Manifold& m, const ContactProblem& problem) {
@@ -183,30 +187,21 @@ void SoftBatch::give_bodies(ThreadPool& pool) const {
 
 // Of the places first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
-    std::fill_n(state(first + 1), (last - first) * soft::body_floats, 0.0f);
-    for (Floats* array : {&inertia_, &before_, &forces_})
-        std::fill_n(array->data() + (first + 1) * soft::inertia_floats, (last - first) * soft::inertia_floats, 0.0f);
     const double share = 1.0 / substeps_;
     for (std::size_t k = first; k < last; ++k) {
         const std::uint32_t i = blocks_.order()[k];
         const Body& body = problem.bodies[i];
         places_[k + 1] = place_of(body, std::uint32_t(k + 1));
         energies_.begin(k, body, problem.before[i]);
-        float* s = state(k + 1);
-        put(s, 1, problem.before[i].velocity);
-        put(s + 3, 1, problem.before[i].angular_velocity);
-        float* f = forces_.data() + 8 * (k + 1);
-        put(f, 1, share * (body.velocity - problem.before[i].velocity));
-        put(f + 3, 1, share * (body.angular_velocity - problem.before[i].angular_velocity));
-        s[soft::inverse_mass] = float(body.inverse_mass);
-        float* inertia = inertia_.data() + soft::inertia_floats * (k + 1);
+        const auto& [v, w] = problem.before[i];
+        const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
         const Mat3& inverse = body.inverse_inertia;
-        inertia[0] = float(inverse(0, 0));
-        inertia[1] = float(inverse(0, 1));
-        inertia[2] = float(inverse(0, 2));
-        inertia[3] = float(inverse(1, 1));
-        inertia[4] = float(inverse(1, 2));
-        inertia[5] = float(inverse(2, 2));
+        put_all(state(k + 1), {v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), body.inverse_mass});
+        put_all(state(k + 1) + 8, {});
+        put_all(forces_.data() + 8 * (k + 1), {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
+        put_all(before_.data() + 8 * (k + 1), {});
+        put_all(inertia_.data() + soft::inertia_floats * (k + 1),
+                {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)});
     }
 }
 
