@@ -3,6 +3,7 @@
 #include "sim/tuning.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -131,11 +132,12 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.patches.h, n = substeps_of(h);
-    double sag = 0.0;   // of the least body, in its radii
+    double square = 0.0;   // of the sag of the least body, in its radii, over the step
     for (const std::uint32_t i : islands.bodies(island)) {
         const Body& body = problem.bodies[i];
-        sag = std::max(sag, h / (n * n) * (body.velocity - problem.before[i].velocity).norm() / body.radius);
+        square = std::max(square, (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius));
     }
+    const double sag = h / (n * n) * std::sqrt(square);
     if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
     return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
 }

@@ -17,12 +17,9 @@ bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider)
 
 bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
 
-// How far the bodies' points can move against each other in the step; of a ball only the centre counts.
-double way(const Body& a, const Body& b, const BodyVelocity& of_a, const BodyVelocity& of_b, double h) {
-    const auto turning = [](const Body& body, const BodyVelocity& motion) {
-        return ball(body) || motion.angular_velocity.isZero(0.0) ? 0.0 : motion.angular_velocity.norm() * body.radius;
-    };
-    return h * ((of_b.velocity - of_a.velocity).norm() + turning(a, of_a) + turning(b, of_b));
+// Of a ball only the centre counts; what cannot turn may be infinite.
+double turning(double arm, const BodyVelocity& motion) {
+    return arm == 0.0 || motion.angular_velocity.isZero(0.0) ? 0.0 : motion.angular_velocity.norm() * arm;
 }
 
 // How far (m) two bodies of these depths may go against each other unseen. Pushed out of the right side is what is in by less
@@ -61,13 +58,9 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
 }
 
 // Told without looking at any pair: nothing goes as far in the step as the thinnest body is thin.
-bool MotionLimit::all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                           const std::vector<BodyVelocity>& motions, double h) {
+bool MotionLimit::all_slow(std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions, double h) const {
     double farthest = 0.0;
-    for (const std::uint32_t i : moving) {
-        const double turning = ball(bodies[i]) || motions[i].angular_velocity.isZero(0.0) ? 0.0 : motions[i].angular_velocity.norm() * bodies[i].radius;
-        farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning));
-    }
+    for (const std::uint32_t i : moving) farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning(arm_[i], motions[i])));
     return 2.0 * farthest <= least_thin_;
 }
 
@@ -100,6 +93,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
         least_thin_ = std::numeric_limits<double>::infinity();
         const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
         for (const Body& body : bodies) {
+            arm_.push_back(ball(body) ? 0.0 : body.radius);
             const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
             least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
         }
@@ -107,11 +101,13 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
     fast_.clear();
-    if (all_slow(bodies, moving, motions, h)) return limits_;
+    if (all_slow(moving, motions, h)) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
-        const double gone = way(a, b, motions[pair.a], motions[pair.b], h);
+        const BodyVelocity &of_a = motions[pair.a], &of_b = motions[pair.b];
+        // How far the bodies' points can move against each other in the step.
+        const double gone = h * ((of_b.velocity - of_a.velocity).norm() + turning(arm_[pair.a], of_a) + turning(arm_[pair.b], of_b));
         const double least = std::min(depth_a, depth_b);
         // A half-space has no other side: only nothing shall be seen to sink in.
         const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);

@@ -58,14 +58,13 @@ private:
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
-    bool all_slow(const std::vector<Body>& bodies, std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions,
-                  double h);
+    bool all_slow(std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions, double h) const;
     StepLimit& shorten(std::uint32_t body);
 
     ImpactSearch search_;
     std::vector<StepLimit> limits_;
     std::vector<std::uint32_t> shortened_;   // whose limits are not the whole step
-    std::vector<double> depth_;              // m, by body
+    std::vector<double> depth_, arm_;        // m, by body; how far from the centre its points swing
     double least_thin_ = 0.0;                // m, that no pair goes past unseen
     std::vector<Path> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
