@@ -5,7 +5,12 @@ in vec3 v_air;
 flat in vec3 v_to_light;
 #endif
 #ifdef SHADOWED
+#ifdef WIDE
+in vec3 v_in_near;
+in vec3 v_in_far;
+#else
 in vec4 v_shadow;
+#endif
 #endif
 flat in vec4 v_eye;             // the eye's place; haze_share()'s per_half
 flat in vec3 v_up;
@@ -42,7 +47,11 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) 
     surface.l_v = dot(to_eye, v_to_light);
 #endif
 #ifdef SHADOWED
+#ifdef WIDE
+    surface.sun = sun_visible(v_in_near, v_in_far);
+#else
     surface.sun = sun_visible(v_shadow);
+#endif
 #endif
     surface.diffuse = diffuse;
     surface.f0 = v_f0;

@@ -1,6 +1,6 @@
 #version 410 core
 // Compiled for each kind of body: BOX, BALL or MESH is defined; SUNLIT where it may be turned to the sun, and
-// SHADOWED where shadows may fall on it.
+// SHADOWED where shadows may fall on it, with WIDE where it is too large to look into one shadow map only.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "look.glsl"
@@ -17,7 +17,12 @@ out vec3 v_air;                     // light of the sky behind it
 flat out vec3 v_to_light;
 #endif
 #ifdef SHADOWED
+#ifdef WIDE
+out vec3 v_in_near;                 // place in each shadow map
+out vec3 v_in_far;
+#else
 out vec4 v_shadow;                  // place in the shadow maps
+#endif
 #endif
 flat out vec4 v_eye;                // see body.glsl
 flat out vec3 v_up;
@@ -123,6 +128,11 @@ void main() {
     v_to_light = light;
 #endif
 #ifdef SHADOWED
+#ifdef WIDE
+    v_in_near = place_in_map(position, lift, true);
+    v_in_far = place_in_map(position, lift, false);
+#else
     v_shadow = shadow_place(position, lift, instance_tile.w > 0.0);
+#endif
 #endif
 }

@@ -7,7 +7,7 @@ layout(location = 4) in vec4 instance_scale;         // of the mesh; w: its patt
 layout(location = 5) in vec4 instance_color;         // linear; w: roughness
 layout(location = 6) in vec4 instance_look;          // metallic, pattern; z, w: place in the occlusion atlas, texels
 layout(location = 7) in vec4 instance_tile;          // edge of its tiles there (0: none, it is open); face of a box;
-                                                     // its surface's number; 1: within the near shadow map
+                                                     // its surface's number; 1: looks into the near shadow map
 layout(location = 8) in uint mesh_probe;             // whose sky light a vertex of the scene's own meshes has
 
 #include "rotate.glsl"

@@ -48,18 +48,16 @@ float here(vec3 coefficients) {
 // `far`: how far the ray goes to the plane, in lengths of the view ray.
 float sun_of_plane(float far) {
     vec3 at = vec3(here(v_shadow_x), here(v_shadow_y), here(v_shadow_z)) * far + v_shadow_eye;
-    const float margin = 5.0 / SHADOW_TEXELS;
-    float from_middle = max(abs(at.x - 0.5), abs(at.y - 0.5));
-    float inside = from_middle < 0.5 - margin ? 1.0 : 0.0;
 #ifdef FAR_MAP
     vec3 in_far = at + v_far_lift;
     in_far.xy = in_far.xy * v_far.x + v_far.yz;
-    float from_edge = 0.5 - max(abs(in_far.x - 0.5), abs(in_far.y - 0.5));   // it fades out at its rim
-    float in_near = inside;
-    inside = max(in_near, clamp((from_edge - margin) * 16.0, 0.0, 1.0));
-    at = mix(in_far + vec3(1.0, 0.0, 0.0), at, in_near);
-#endif
+    return sun_visible(at, in_far);
+#else
+    const float margin = 5.0 / SHADOW_TEXELS;
+    float from_middle = max(abs(at.x - 0.5), abs(at.y - 0.5));
+    float inside = from_middle < 0.5 - margin ? 1.0 : 0.0;
     return mix(1.0, filtered_shadow(at.xy * SHADOW_TEXELS - 0.5, clamp(at.z, 0.0, 1.0)), inside);
+#endif
 }
 #endif
 

@@ -25,3 +25,14 @@ float filtered_shadow(vec2 t, float depth) {
 float sun_visible(vec4 place) {
     return mix(1.0, filtered_shadow(place.xy, clamp(place.z, 0.0, 1.0)), place.w);
 }
+
+// The same where each pixel finds out which map it lies in: places as place_in_map() gives them.
+float sun_visible(vec3 in_near, vec3 in_far) {
+    const float margin = 5.0 / SHADOW_TEXELS;
+    float from_middle = max(abs(in_near.x - 0.5), abs(in_near.y - 0.5));
+    float near = from_middle < 0.5 - margin ? 1.0 : 0.0;
+    float from_edge = 0.5 - max(abs(in_far.x - 0.5), abs(in_far.y - 0.5));   // the far map's shadows fade out at its rim
+    float inside = max(near, clamp((from_edge - margin) * 16.0, 0.0, 1.0));
+    vec3 at = mix(in_far + vec3(1.0, 0.0, 0.0), in_near, near);
+    return mix(1.0, filtered_shadow(at.xy * SHADOW_TEXELS - 0.5, clamp(at.z, 0.0, 1.0)), inside);
+}

@@ -1,5 +1,6 @@
 #include "render/body_looks.h"
 
+#include "render/grounds.h"
 #include "render/mesh_occluders.h"
 #include "render/mesh_probes.h"
 #include "render/occlusion_atlas.h"
@@ -86,7 +87,7 @@ double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> at;
         for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-            if (looks.bodies[i].reach > 0.0) at.push_back(scene.bodies[i].position[axis]);
+            if (looks.bodies[i].reach > 0.0 && !looks.bodies[i].ground) at.push_back(scene.bodies[i].position[axis]);
         if (at.empty()) break;
         const auto skipped = std::ptrdiff_t(stragglers * double(at.size()));
         std::nth_element(at.begin(), at.begin() + skipped, at.end());
@@ -116,9 +117,10 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
         if (look.kind == DrawKind::plane) looks.planes.push_back(looks.bodies.size());
         looks.bodies.push_back(look);
     }
+    find_grounds(scene, looks);
     std::vector<double> reaches;
     for (const BodyLook& look : looks.bodies)
-        if (look.reach > 0.0) reaches.push_back(look.reach);
+        if (look.reach > 0.0 && !look.ground) reaches.push_back(look.reach);
     if (!reaches.empty()) {
         const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
         std::nth_element(reaches.begin(), middle, reaches.end());

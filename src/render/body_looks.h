@@ -29,6 +29,7 @@ struct BodyLook {
     glm::vec3 color{1.0f};             // linear
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
+    bool ground = false;               // see grounds.h
 };
 
 /// A box inside a mesh that stands for it where neighbours are darkened; body frame.
@@ -57,7 +58,7 @@ struct SceneLooks {
     std::vector<BodyLook> bodies;  // in scene order
     std::vector<MeshLook> meshes;  // each once, in order of first use
     std::vector<std::size_t> planes;   // which bodies are planes
-    double typical_reach = 1.0;    // m, the median of the bodies'
+    double typical_reach = 1.0;    // m, the median of the bodies', without grounds
     std::size_t mesh_triangles = 0;    // of all bodies together
     double window_cell = 0.25;     // m, of the texels that planes are darkened by; a power of two
 };

@@ -32,14 +32,16 @@ struct Item {
     std::uint32_t number;   // of the body, or past these of the cord
     std::uint32_t mesh;
     std::uint8_t face;      // of a box
-    bool patterned, lit;
+    bool patterned, lit, wide;
 };
 
-Item make_item(std::size_t mesh, bool patterned, bool lit, double distance, std::size_t number, int face, bool in_shells) {
+Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
+               bool in_shells) {
     const double shell =
         in_shells ? std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30))) + shell_offset : 0.0;
-    return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 2 | (patterned ? 2u : 0u) | (lit ? 1u : 0u),
-            float(distance), std::uint32_t(number), std::uint32_t(mesh), std::uint8_t(face), patterned, lit};
+    return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 3 | (wide ? 4u : 0u) | (patterned ? 2u : 0u) |
+                (lit ? 1u : 0u),
+            float(distance), std::uint32_t(number), std::uint32_t(mesh), std::uint8_t(face), patterned, lit, wide};
 }
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
@@ -125,8 +127,8 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     std::vector<Batch> batches;
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
-            batches.back().lit != item.lit)
-            batches.push_back({item.mesh, item.patterned, item.lit, instances.size(), 0});
+            batches.back().lit != item.lit || batches.back().wide != item.wide)
+            batches.push_back({item.mesh, item.patterned, item.lit, item.wide, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -153,27 +155,29 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const double distance = ball.center.norm();
         if (casts) {
             const std::size_t mesh = look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
-            casters.push_back(make_item(mesh, false, true, distance, i, 0, false));
+            casters.push_back(make_item(mesh, false, true, false, distance, i, 0, false));
         }
         if (!in_view) continue;
+        const bool wide = scene.light.shadows && shadows.spans_maps(ball.center, ball.radius);
         if (look.kind != DrawKind::box) {
-            visible.push_back(make_item(mesh_of(look, looks, ball, view), patterned, true, distance, i, 0, true));
+            visible.push_back(make_item(mesh_of(look, looks, ball, view), patterned, true, wide, distance, i, 0, true));
             continue;
         }
         // The faces of a box that can be seen, those in the sun apart from the others.
         const Vec3 there = snapshot.bodies[i].orientation.conjugate() * light;
         for (int face = 0; face < 6; ++face)
-            if ((visibility.faces[i] >> face & 1) != 0)
-                visible.push_back(make_item(face_mesh, patterned, there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0,
-                                            distance, i, face, true));
+            if ((visibility.faces[i] >> face & 1) != 0) {
+                const bool lit = there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0;
+                visible.push_back(make_item(face_mesh, patterned, lit, wide && lit, distance, i, face, true));
+            }
     }
     std::vector<CordPlace> cords;
     for (std::size_t i = 0; i < scene.cords.size(); ++i) {
         cords.push_back(place_cord(scene.cords[i], snapshot, view));
         const double distance = cords.back().middle.norm();
-        if (wanted[bodies + i] != 0) visible.push_back(make_item(cylinder_mesh, false, true, distance, bodies + i, 0, true));
+        if (wanted[bodies + i] != 0) visible.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, true));
         if (scene.light.shadows && casting[bodies + i] != 0)
-            casters.push_back(make_item(cylinder_mesh, false, true, distance, bodies + i, 0, false));
+            casters.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, false));
     }
     const auto instance = [&](const Item& item) {
         const std::size_t i = item.number;

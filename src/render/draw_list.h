@@ -24,7 +24,7 @@ struct Instance {
     glm::vec4 color;        // linear; w: roughness
     glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
     glm::vec4 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its surface's
-                            // number as alpha; 1: wholly within the near shadow map
+                            // number as alpha; 1: looks into the near shadow map, 0: the far one
 };
 
 /// The meshes by number: half a box (what the sun sees of it), one face of it, the balls from coarse to fine, the
@@ -38,6 +38,7 @@ struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
     bool lit = true;                   // false: faces turned away from the sun, which need no look for shadows
+    bool wide = false;                 // each pixel finds out which shadow map it lies in
     std::size_t first = 0, count = 0;  // of the instances
 };
 

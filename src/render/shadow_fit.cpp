@@ -1,7 +1,7 @@
 #include "render/shadow_fit.h"
 
 #include "render/glm_conversion.h"
-#include "render/plane_patch.h"
+#include "render/grounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,13 @@ constexpr double near_margin = 1.3;
 // scissors: a texel is at least this part of the bodies' typical reach (their half edge).
 constexpr double least_texel_of_reach = 0.02;
 
-// A body that reaches this many times as far away as the middle one does not widen the near map: it is small in the picture, or so
-// large, a ground or a wall, that the map would be spent on it.
+// A body that reaches this many times as far away as the middle one does not widen the near map: it is small in the
+// picture. Nor does a ground: what throws a shadow on it lies at the same place of the map as the shadow.
 constexpr double far_away = 4.0;
+
+// A body of at least this part of the near map (its ball's diameter) has sharp shadows within that map and coarse ones
+// beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
+constexpr double least_span = 0.25;
 
 // Lost bodies must not blur what is left: the far map grows to this many times the near one.
 constexpr double most_growth = 64.0;
@@ -33,29 +37,6 @@ struct Extent {
     double size() const { return high - low; }
 };
 
-// The scene's planes, where they start.
-std::vector<PlaneShape> planes_at_start(const SceneDescription& scene, const SceneLooks& looks) {
-    std::vector<PlaneShape> planes;
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        if (looks.bodies[i].kind != DrawKind::plane) continue;
-        BodyState state;
-        state.origin = scene.bodies[i].position;
-        state.orientation = scene.bodies[i].rotation;
-        planes.push_back(plane_in_world(looks.bodies[i], state));
-    }
-    return planes;
-}
-
-// How far a point falls until it meets one of the planes, m; 0 where there is none below.
-double fall_to_plane(const Vec3& point, const Vec3& down, const std::vector<PlaneShape>& planes) {
-    double fall = std::numeric_limits<double>::infinity();
-    for (const PlaneShape& plane : planes) {
-        const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
-        if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
-    }
-    return std::isfinite(fall) ? fall : 0.0;
-}
-
 double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
 }  // namespace
@@ -69,6 +50,10 @@ bool ShadowFit::near_holds(const Vec3& center, double radius) const {
     return true;
 }
 
+bool ShadowFit::spans_maps(const Vec3& center, double radius) const {
+    return 2.0 * radius > least_span * near_texel * texels && !near_holds(center, radius);
+}
+
 ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels)
     : texels_(texels) {
     z_axis_ = scene.light.direction.normalized();
@@ -78,7 +63,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
-    const std::vector<PlaneShape> planes = planes_at_start(scene, looks);
+    const Landing landing(scene, looks);
     struct Place {
         Vec3 center;
         double radius, distance;
@@ -87,14 +72,14 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
     const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
-        const Vec3 landed = center + down * (falls ? fall_to_plane(center, down, planes) : 0.0);
+        const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
         for (const Vec3& p : {center, landed})
             if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
                 places.push_back({p, look.bound_radius, view.relative(p).norm()});
     };
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
         const BodyDescription& body = scene.bodies[i];
         add(look, body.position, body.rotation, body.type == BodyType::dynamic);
         for (const Keyframe& key : body.keyframes) add(look, key.position, key.rotation, false);

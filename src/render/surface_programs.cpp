@@ -7,22 +7,6 @@
 #include <algorithm>
 
 namespace tumble {
-namespace {
-
-std::size_t index_of(DrawKind kind, bool patterned, bool lit) {
-    const std::size_t which = kind == DrawKind::box ? (lit ? 0 : 1) : kind == DrawKind::ball ? 2 : 3;
-    return 2 * which + (patterned ? 1 : 0);
-}
-
-std::size_t index_of(const Batch& batch) {
-    const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
-                          : batch.mesh < cylinder_mesh ? DrawKind::ball
-                                                       : DrawKind::mesh;
-    return index_of(kind, batch.patterned, batch.lit);
-}
-
-}  // namespace
-
 std::string shadow_size() { return fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels); }
 
 void connect(const ShaderProgram& program) {
@@ -33,46 +17,60 @@ void connect(const ShaderProgram& program) {
 
 SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
                                  bool has_cords, bool multisample, bool shadows)
-    : multisample_(multisample), shadows_(shadows) {
+    : gl_(&gl), shaders_(shaders), multisample_(multisample), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
-            for (const bool lit : {true, false}) add(gl, shaders, look.kind, look.pattern != Pattern::plain, lit);
-    if (has_cords) add(gl, shaders, DrawKind::mesh, false, true);
+            for (const bool lit : {true, false}) program({look.kind, look.pattern != Pattern::plain, lit, false});
+    if (has_cords) program({DrawKind::mesh, false, true, false});
 }
 
-void SurfacePrograms::add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned,
-                          bool lit) {
-    auto& program = programs_[index_of(kind, patterned, lit)];
-    if (program) return;
+SurfacePrograms::Variant SurfacePrograms::variant_of(const Batch& batch) {
+    const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
+                          : batch.mesh < cylinder_mesh ? DrawKind::ball
+                                                       : DrawKind::mesh;
+    return {kind, batch.patterned, batch.lit, batch.wide};
+}
+
+std::size_t SurfacePrograms::index_of(const Variant& variant) {
+    const std::size_t which = variant.kind == DrawKind::box ? (variant.lit ? 0 : 1) : variant.kind == DrawKind::ball ? 2 : 3;
+    return 4 * which + (variant.patterned ? 2 : 0) + (variant.wide ? 1 : 0);
+}
+
+const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
+    auto& made = programs_[index_of(variant)];
+    if (made) return *made;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
-    if (kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
-    if (kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
+    if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
+    if (variant.kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
     files.defines.push_back(shadow_size());
     if (multisample_) files.defines.emplace_back("MULTISAMPLE");
-    if (kind != DrawKind::box || lit) {
+    if (variant.kind != DrawKind::box || variant.lit) {
         files.defines.emplace_back("SUNLIT");
         if (shadows_) files.defines.emplace_back("SHADOWED");
     }
-    if (patterned) files.defines.emplace_back("PATTERNED");
-    program.emplace(gl, shaders, files);
-    connect(*program);
+    if (variant.patterned) files.defines.emplace_back("PATTERNED");
+    if (variant.wide) files.defines.emplace_back("WIDE");
+    made.emplace(*gl_, shaders_, files);
+    connect(*made);
+    return *made;
 }
 
-void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const {
+void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) {
     for (const Batch& batch : batches) {
-        programs_[index_of(batch)]->use();
+        program(variant_of(batch)).use();
         meshes.draw(batch);
     }
 }
 
 std::vector<std::function<void()>> SurfacePrograms::compilations(const MeshLibrary& meshes,
-                                                                 const std::vector<Batch>& batches) const {
+                                                                 const std::vector<Batch>& batches) {
     std::vector<std::function<void()>> all;
     for (std::size_t i = 0; i < programs_.size(); ++i)
         all.emplace_back([this, &meshes, &batches, i] {
-            const auto first = std::find_if(batches.begin(), batches.end(), [&](const Batch& b) { return index_of(b) == i; });
+            const auto first =
+                std::find_if(batches.begin(), batches.end(), [&](const Batch& b) { return index_of(variant_of(b)) == i; });
             if (first == batches.end()) return;
-            programs_[i]->use();
+            program(variant_of(*first)).use();
             Batch one = *first;
             one.count = 1;
             meshes.draw(one);

@@ -25,21 +25,29 @@ void connect(const ShaderProgram& program);
 
 class SurfacePrograms {
 public:
-    /// Compiles what the scene's bodies need.
+    /// Compiles what the scene's bodies need; the shaders of wide ones when there first is such a one.
     SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
                     bool has_cords, bool multisample, bool shadows);
 
-    void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
+    void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches);
 
     /// For each shader a draw of one instance, where there is one, that has it compiled. The caller sees to it that nothing
     /// of it lands in the picture.
-    std::vector<std::function<void()>> compilations(const MeshLibrary& meshes, const std::vector<Batch>& batches) const;
+    std::vector<std::function<void()>> compilations(const MeshLibrary& meshes, const std::vector<Batch>& batches);
 
 private:
-    void add(const GlFunctions& gl, const std::filesystem::path& shaders, DrawKind kind, bool patterned, bool lit);
+    struct Variant {
+        DrawKind kind;
+        bool patterned, lit, wide;
+    };
+    static Variant variant_of(const Batch& batch);
+    static std::size_t index_of(const Variant& variant);
+    const ShaderProgram& program(const Variant& variant);
 
+    const GlFunctions* gl_;
+    std::filesystem::path shaders_;
     bool multisample_, shadows_;
-    std::array<std::optional<ShaderProgram>, 8> programs_;  // by kind, pattern and light
+    std::array<std::optional<ShaderProgram>, 16> programs_;  // by kind, pattern, light and width
 };
 
 }  // namespace tumble

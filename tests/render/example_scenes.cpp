@@ -91,6 +91,22 @@ std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_rad
     return asset;
 }
 
+std::shared_ptr<const MeshAsset> sheet_asset(double size, std::uint32_t cells) {
+    auto asset = std::make_shared<MeshAsset>();
+    for (std::uint32_t j = 0; j <= cells; ++j)
+        for (std::uint32_t i = 0; i <= cells; ++i) {
+            const Vec3 p = size * Vec3(double(i) / cells - 0.5, 0.0, double(j) / cells - 0.5);
+            asset->surface.vertices.push_back(p);
+            asset->vertices.push_back({{float(p.x()), 0.0f, float(p.z())}, {0.0f, 1.0f, 0.0f}});
+            if (i == cells || j == cells) continue;
+            const std::uint32_t at = j * (cells + 1) + i, below = at + cells + 1;
+            asset->surface.triangles.push_back({at, below, below + 1});
+            asset->surface.triangles.push_back({at, below + 1, at + 1});
+        }
+    for (const auto& t : asset->surface.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
+    return asset;
+}
+
 Snapshot first_snapshot(const SceneDescription& scene) {
     Snapshot snapshot;
     for (const BodyDescription& body : scene.bodies)

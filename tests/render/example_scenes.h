@@ -22,6 +22,9 @@ bool passes_through(const BodyDescription& box, const Vec3& start, const Vec3& w
 std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_radius, std::uint32_t around = 64,
                                              std::uint32_t across = 32);
 
+/// A flat square in the plane y = 0, seen from above, of 2 cells^2 triangles.
+std::shared_ptr<const MeshAsset> sheet_asset(double size, std::uint32_t cells);
+
 /// The poses that the description starts from.
 Snapshot first_snapshot(const SceneDescription& scene);
 

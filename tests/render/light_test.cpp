@@ -79,6 +79,58 @@ TEST(Light, AFlyingBodyKeepsItsShadow) {
     EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
 }
 
+// A body of any kind that reaches y = 0 from below and is `size` wide.
+BodyDescription wide_ground(const std::string& kind, double size) {
+    constexpr Color color{190, 190, 190};
+    BodyDescription ground = box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), color);
+    if (kind == "mesh") ground = mesh_body(Vec3::Zero(), sheet_asset(size, 8), color);
+    ground.type = BodyType::fixed;
+    ground.surface.roughness = 0.8;   // as the plane's
+    return ground;
+}
+
+// How far two pictures of a ground at y = 0 differ at most, in levels, within `reach` of a point of it.
+int most_difference(const Image& a, const Image& b, const SceneDescription& scene, const Vec3& around, double reach) {
+    int most = 0;
+    for (double x = -reach; x <= reach; x += 0.02 * reach)
+        for (double z = -reach; z <= reach; z += 0.02 * reach) {
+            const Pixel at = pixel_of(scene, around + Vec3(x, 0.0, z));
+            for (int channel = 0; channel < 3; ++channel)
+                most = std::max(most, std::abs(a.at(at.x, at.y)[channel] - b.at(at.x, at.y)[channel]));
+        }
+    return most;
+}
+
+// However far a ground reaches, it catches the shadows that a plane at its place does: sharp ones from the near map,
+// also where bodies land that are still in the air.
+TEST(Light, ALargeGroundCatchesShadowsAsAPlaneDoes) {
+    SceneDescription scene = shadow_scene();
+    const Image on_plane = drawn(scene);
+    for (const std::string kind : {"box", "mesh"})
+        for (const double size : {16.0, 60.0, 2000.0}) {
+            scene.bodies[0] = wide_ground(kind, size);
+            EXPECT_LE(most_difference(drawn(scene), on_plane, scene, Vec3(-0.6, 0.0, 0.0), 2.0), 1) << kind << ", " << size;
+        }
+}
+
+// The near map's shadows go over to the far one's on a large ground as on a plane.
+TEST(Light, ALargeGroundCatchesFarShadowsToo) {
+    SceneDescription scene = shadow_scene();
+    scene.camera.eye = Vec3(0.0, 15.0, 20.0);
+    scene.bodies.push_back(box_body(Vec3(3.0, 2.0, 0.0), Vec3(1.0, 0.5, 1.0), {90, 120, 180}));
+    Snapshot snapshot = first_snapshot(scene);
+    snapshot.bodies[2].origin = Vec3(9.0, 2.0, -2.0);   // it leaves the near map
+    const Image on_plane = drawn(scene, snapshot);
+    scene.bodies[0] = wide_ground("box", 60.0);
+    snapshot.bodies[0] = first_snapshot(scene).bodies[0];
+    const Image on_box = drawn(scene, snapshot);
+    const double bright = brightness_at(on_box, scene, Vec3(5.0, 0.0, 0.0));
+    EXPECT_LT(brightness_at(on_box, scene, Vec3(8.0, 0.0, -2.0)), 0.75 * bright) << "the far one has a shadow";
+    EXPECT_LE(most_difference(on_box, on_plane, scene, Vec3(-0.6, 0.0, 0.0), 2.0), 1);
+    EXPECT_LT(brightness_at(on_box, scene, Vec3(-1.6, 0.0, 0.0)), 0.75 * bright) << "the near one has a sharp one";
+    EXPECT_GT(brightness_at(on_box, scene, Vec3(-1.81, 0.0, 0.0)), 0.97 * bright);
+}
+
 // No acne: a ball and a box in full sun have no dark speckles on the sides turned to it.
 TEST(Light, LitFacesAreNotShadowedByThemselves) {
     SceneDescription scene = shadow_scene();
