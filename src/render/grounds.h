@@ -1,5 +1,5 @@
-// Boxes and meshes that the others stand on or between: a table in a wide field, a floor, the walls of a room. Whatever is fitted to
-// the bodies' size or place (the near shadow map, how finely darkening is sampled) is fitted to the rest.
+// Large bodies that the others stand on or between: a floor, a field, the walls of a room. Whatever is fitted to the bodies'
+// size or place (the near shadow map, how finely darkening is sampled) is fitted to the rest.
 #pragma once
 
 #include "render/body_looks.h"

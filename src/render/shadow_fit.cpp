@@ -20,9 +20,9 @@ constexpr double least_texel_of_reach = 0.02;
 // picture. Nor does a ground: what throws a shadow on it lies at the same place of the map as the shadow.
 constexpr double far_away = 4.0;
 
-// A body of at least this part of the near map (its ball's diameter) has sharp shadows within that map and coarse ones
+// A ball of more than this part of the near map across that reaches out of it has sharp shadows within and coarse ones
 // beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
-constexpr double least_span = 0.25;
+constexpr double least_span = 0.5;
 
 // Lost bodies must not blur what is left: the far map grows to this many times the near one.
 constexpr double most_growth = 64.0;
