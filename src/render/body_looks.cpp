@@ -1,5 +1,6 @@
 #include "render/body_looks.h"
 
+#include "render/far_limit.h"
 #include "render/grounds.h"
 #include "render/mesh_occluders.h"
 #include "render/mesh_probes.h"
@@ -80,14 +81,39 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
 
 void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
 
-// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers.
+// Which bodies some eye of the camera has near, as they start.
+std::vector<char> bodies_near(const SceneDescription& scene, const SceneLooks& looks) {
+    std::vector<Vec3> eyes;
+    for (const CameraKeyframe& key : scene.camera.keyframes) eyes.push_back(key.eye);
+    if (eyes.empty()) eyes.push_back(scene.camera.eye);
+    std::vector<char> near(looks.bodies.size(), 0);
+    std::vector<double> distances, sorted;
+    for (const Vec3& eye : eyes) {
+        distances.assign(looks.bodies.size(), std::numeric_limits<double>::infinity());
+        sorted.clear();
+        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+            if (!(looks.bodies[i].reach > 0.0) || looks.bodies[i].ground) continue;
+            distances[i] = (scene.bodies[i].position - eye).norm();
+            sorted.push_back(distances[i]);
+        }
+        if (sorted.empty()) break;
+        const double limit = far_limit(sorted);
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (distances[i] <= limit) near[i] = 1;
+    }
+    return near;
+}
+
+// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers
+// and what is lost.
 double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
     constexpr double stragglers = 0.02, margin = 1.1;
     double extent = 0.0;
+    const std::vector<char> near = bodies_near(scene, looks);
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> at;
         for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-            if (looks.bodies[i].reach > 0.0 && !looks.bodies[i].ground) at.push_back(scene.bodies[i].position[axis]);
+            if (near[i] != 0) at.push_back(scene.bodies[i].position[axis]);
         if (at.empty()) break;
         const auto skipped = std::ptrdiff_t(stragglers * double(at.size()));
         std::nth_element(at.begin(), at.begin() + skipped, at.end());

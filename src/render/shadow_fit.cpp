@@ -1,5 +1,6 @@
 #include "render/shadow_fit.h"
 
+#include "render/far_limit.h"
 #include "render/glm_conversion.h"
 #include "render/grounds.h"
 
@@ -15,10 +16,6 @@ constexpr double near_margin = 1.3;
 // A shadow's edge is about three texels wide. Around few bodies the map could be so fine that the edge looks cut with
 // scissors: a texel is at least this part of the bodies' typical reach (their half edge).
 constexpr double least_texel_of_reach = 0.02;
-
-// A body that reaches this many times as far away as the middle one does not widen the near map: it is small in the
-// picture. Nor does a ground: what throws a shadow on it lies at the same place of the map as the shadow.
-constexpr double far_away = 4.0;
 
 // A ball of more than this part of the near map across that reaches out of it has sharp shadows within and coarse ones
 // beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
@@ -77,6 +74,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
             if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
                 places.push_back({p, look.bound_radius, view.relative(p).norm()});
     };
+    // A ground does not widen the map: what throws a shadow on it lies at the same place of the map as the shadow.
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
@@ -87,11 +85,10 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 
     std::vector<double> distances;
     for (const Place& p : places) distances.push_back(p.distance);
-    if (!distances.empty())
-        std::nth_element(distances.begin(), distances.begin() + std::ptrdiff_t(distances.size() / 2), distances.end());
+    const double limit = far_limit(distances);
     Extent x, y;
     for (const Place& p : places) {
-        if (p.distance + p.radius > far_away * distances[distances.size() / 2]) continue;
+        if (p.distance + p.radius > limit) continue;
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
     }

@@ -1,5 +1,7 @@
 #include "render/viewing_distance.h"
 
+#include "render/far_limit.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -24,9 +26,7 @@ double viewing_distance(const SceneDescription& scene, const SceneLooks& looks) 
             distances.push_back((body.position + body.rotation * look.bound_center - eye).norm());
         }
         if (distances.empty()) return;
-        const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
-        std::nth_element(distances.begin(), middle, distances.end());
-        to_bodies = std::max(to_bodies, *middle);
+        to_bodies = std::max(to_bodies, lower_median(distances));
     };
     if (scene.camera.keyframes.empty()) add(scene.camera.eye, scene.camera.target);
     for (const CameraKeyframe& key : scene.camera.keyframes) add(key.eye, key.target);

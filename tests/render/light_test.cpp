@@ -161,6 +161,27 @@ TEST(Light, ContactIsDarkAndItsDarknessEnds) {
     EXPECT_NEAR(brightness_at(image, scene, Vec3(0.0, 0.0, 1.2)), open, 2.0);
 }
 
+// A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
+// darkness and the haze of the one that is left are the same without it.
+TEST(Light, ALostBodyChangesNothingAroundTheRest) {
+    SceneDescription scene = shadow_scene();
+    scene.bodies[1].position.y() = 0.5;
+    const Image alone = drawn(scene);
+    scene.bodies.push_back(scene.bodies[1]);
+    scene.bodies[2].position = Vec3(2.0, 0.5, -1.0);
+    Snapshot aside = first_snapshot(scene);
+    aside.bodies[2].origin = Vec3(6.0, 0.5, -1.0);
+    const Image gone_aside = drawn(scene, aside);   // the shadow map is made for both
+    for (const Vec3& place : {Vec3(0.0, -5000.0, 0.0), Vec3(3000.0, 0.5, 0.0), Vec3(-3000.0, 0.5, 0.0), Vec3(0.0, 0.5, -3000.0)})
+        for (const bool from_start : {true, false}) {
+            scene.bodies[2].position = from_start ? place : Vec3(2.0, 0.5, -1.0);
+            Snapshot snapshot = first_snapshot(scene);
+            snapshot.bodies[2].origin = place;
+            EXPECT_LE(most_difference(drawn(scene, snapshot), from_start ? alone : gone_aside, scene, Vec3::Zero(), 1.8), 1)
+                << "at " << place.transpose() << (from_start ? ", from the start" : ", later");
+        }
+}
+
 // Where nothing changes, no pixel changes: neither shadow texels nor depths nor darkening follow a body elsewhere.
 TEST(Light, RestingThingsStayStillWhileOthersFly) {
     SceneDescription scene = shadow_scene();
