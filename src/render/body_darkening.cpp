@@ -39,6 +39,27 @@ void BodyDarkening::darken_points(const Surroundings& around, double reach) {
     for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
 }
 
+// As face_.darken() does, but only the texels that it can reach are looked at: of a ground they are few.
+void BodyDarkening::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
+    const Eigen::Vector3f from = occluder.center - corner;
+    const float far = occluder.bound_radius + std::min(reach, occluder.reach);
+    const auto range = [&](const Eigen::Vector3f& step, int& first, int& count) {
+        const float length = step.norm(), at = from.dot(step) / length;   // m
+        first = int(std::floor(std::clamp((at - far) / length, 0.0f, float(size))));
+        count = int(std::ceil(std::clamp((at + far) / length, -1.0f, float(size - 1)))) - first + 1;
+    };
+    int i0, j0, columns, rows;
+    range(across, i0, columns);
+    range(along, j0, rows);
+    if (columns <= 0 || rows <= 0) return;
+    part_.set(corner + across * float(i0) + along * float(j0), across, along, normal, columns, rows);
+    part_.darken(occluder, reach);
+    const float* share = part_.open().data();
+    for (int j = j0; j < j0 + rows; ++j)
+        for (int i = i0; i < i0 + columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
+}
+
 std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
                                      const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
     const int size = place.size;
@@ -51,10 +72,14 @@ std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace&
         const Vec3 middle = body.center + normal * look.half_size[axis];
         const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
         const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
-        face_.set((middle - u - v).cast<float>(), (2.0 * u / (size - 1)).cast<float>(),
-                  (2.0 * v / (size - 1)).cast<float>(), outward, size, size);
+        const Eigen::Vector3f corner = (middle - u - v).cast<float>();
+        const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(), along = (2.0 * v / (size - 1)).cast<float>();
+        face_.set(corner, across, along, outward, size, size);
         if (detail > 0.0f) {
-            for (const std::size_t i : around.near) face_.darken(around.occluders[i], reach);
+            for (const std::size_t i : around.near) {
+                if (look.ground) darken_part(around.occluders[i], corner, across, along, outward, size, reach);
+                else face_.darken(around.occluders[i], reach);
+            }
             for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, reach);
         }
         if (detail < 1.0f) {

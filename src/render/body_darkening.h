@@ -42,10 +42,12 @@ public:
                    float detail, const Store& store);
 
 private:
+    void darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                     const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach);
     void darken_points(const Surroundings& around, double reach);
 
     const SceneLooks* looks_;
-    SurfaceLattice face_;
+    SurfaceLattice face_, part_;
     SurfacePoints points_;
     std::vector<float> coarse_, stretched_;
 };

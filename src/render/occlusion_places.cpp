@@ -9,6 +9,7 @@ namespace tumble {
 namespace {
 
 constexpr int most_tile = 64;
+constexpr int most_ground_tile = 256;   // six of them in a row: a field of 60 m is as finely darkened by crates as a plane
 
 // How finely tiles are made: the first of these whose places fit the budget.
 struct Fineness {
@@ -18,9 +19,11 @@ struct Fineness {
 constexpr Fineness ladder[] = {{OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 5, 16}, {1.0, 5, 12}, {0.5, 4, 8},
                                {0.25, 3, 6}, {0.125, 2, 4}};
 
-int box_tile(const BodyLook& look, const Fineness& fineness) {
+int box_tile(const BodyLook& look, const SceneLooks& looks, const Fineness& fineness) {
     const double edge = 2.0 * look.half_size.maxCoeff();
-    return std::clamp(int(std::ceil(fineness.texels_per_reach * edge / look.reach)) + 1, fineness.least_box_tile, most_tile);
+    const double reach = look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;   // of what darkens it
+    const double texels = std::min(std::ceil(fineness.texels_per_reach * edge / reach) + 1.0, double(most_ground_tile));
+    return std::clamp(int(texels), fineness.least_box_tile, look.ground ? most_ground_tile : most_tile);
 }
 
 // What finds no room any more stays open.
@@ -33,7 +36,7 @@ bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& 
         OcclusionPlace place;
         bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane;
         if (look.kind == DrawKind::box) {
-            place.size = box_tile(look, fineness);
+            place.size = box_tile(look, looks, fineness);
             fits = shelves.take(6 * place.size, place.size, place.x, place.y);
         } else if (look.kind == DrawKind::ball) {
             place.size = fineness.ball_tile;

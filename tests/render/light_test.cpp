@@ -161,6 +161,22 @@ TEST(Light, ContactIsDarkAndItsDarknessEnds) {
     EXPECT_NEAR(brightness_at(image, scene, Vec3(0.0, 0.0, 1.2)), open, 2.0);
 }
 
+// The darkness around a contact does not spread with the ground's size.
+TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    scene.bodies[1].position.y() = 0.5;
+    const Image on_plane = drawn(scene);
+    for (const double size : {16.0, 40.0, 60.0}) {
+        scene.bodies[0] = wide_ground("box", size);
+        const Image on_box = drawn(scene);
+        for (const double gap : {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2})
+            for (const Vec3& at : {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
+                EXPECT_NEAR(brightness_at(on_box, scene, at), brightness_at(on_plane, scene, at), 4.0)
+                    << size << " m, " << at.transpose();
+    }
+}
+
 // A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
 // darkness and the haze of the one that is left are the same without it.
 TEST(Light, ALostBodyChangesNothingAroundTheRest) {
@@ -172,7 +188,8 @@ TEST(Light, ALostBodyChangesNothingAroundTheRest) {
     Snapshot aside = first_snapshot(scene);
     aside.bodies[2].origin = Vec3(6.0, 0.5, -1.0);
     const Image gone_aside = drawn(scene, aside);   // the shadow map is made for both
-    for (const Vec3& place : {Vec3(0.0, -5000.0, 0.0), Vec3(3000.0, 0.5, 0.0), Vec3(-3000.0, 0.5, 0.0), Vec3(0.0, 0.5, -3000.0)})
+    for (const Vec3& place :
+         {Vec3(0.0, -5000.0, 0.0), Vec3(3000.0, 0.5, 0.0), Vec3(-3000.0, 0.5, 0.0), Vec3(0.0, 0.5, -3000.0)})
         for (const bool from_start : {true, false}) {
             scene.bodies[2].position = from_start ? place : Vec3(2.0, 0.5, -1.0);
             Snapshot snapshot = first_snapshot(scene);
