@@ -1,10 +1,13 @@
 // The parts of drawing that need no OpenGL, against closed forms and slower ways.
 #include "example_scenes.h"
 
+#include "core/elementary.h"
 #include "render/body_looks.h"
 #include "render/camera_view.h"
 #include "render/cell_rectangles.h"
 #include "render/draw_list.h"
+#include "render/frame_uniforms.h"
+#include "render/grounds.h"
 #include "render/mesh_occluders.h"
 #include "render/plane_patch.h"
 #include "render/primitives.h"
@@ -242,6 +245,50 @@ TEST(ShadowFit, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
         }
         EXPECT_TRUE(row(flown.z) > 0.0f && row(flown.z) < 1.0f) << i;
     }
+}
+
+// Crates 4 m apart at most, on what may be a ground: the rest take up 3 + 2 sqrt(3) / 2 = 4.73 m, at least 15 half edges.
+TEST(Grounds, AreMuchLargerThanAllTheRestTogether) {
+    for (const auto& [size, ground] : {std::pair{5.0, false}, {7.0, false}, {9.0, true}, {300.0, true}}) {
+        SceneDescription scene = empty_scene();
+        scene.bodies.push_back(box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), {}));
+        for (const double x : {-1.5, 0.5, 1.5}) scene.bodies.push_back(box_body(Vec3(x, 0.5, 0.0), Vec3::Ones(), {}));
+        const SceneLooks looks = make_scene_looks(scene);
+        EXPECT_EQ(looks.bodies[0].ground, ground) << size;   // diagonal against 1.5 * max(4.73, 7.5)
+        for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(looks.bodies[i].ground);
+        EXPECT_EQ(looks.typical_reach, 0.5);
+    }
+}
+
+TEST(Grounds, CatchWhatFalls) {
+    SceneDescription scene = empty_scene();
+    scene.bodies.push_back(ground_plane());   // y = 0
+    const Quat slope(Eigen::AngleAxisd(pi / 6.0, Vec3::UnitZ()));
+    scene.bodies.push_back(box_body(Vec3(0.0, 20.0, 0.0), Vec3(40.0, 2.0, 40.0), {}, slope));
+    scene.bodies.push_back(ball_body(Vec3(0.0, 25.0, 0.0), 0.5, {}));
+    const SceneLooks looks = make_scene_looks(scene);
+    ASSERT_TRUE(looks.bodies[1].ground);
+    const Landing landing(scene, looks);
+    // Above the middle plane the top lies 1 / cos 30 degrees higher, and rises by tan 30 degrees.
+    EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 3.0), -Vec3::UnitY()), 5.0 - 2.0 / std::sqrt(3.0), 1e-9);
+    EXPECT_NEAR(landing.fall(Vec3(3.0, 25.0, 0.0), -Vec3::UnitY()), 5.0 - 5.0 / std::sqrt(3.0), 1e-9);
+    EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 21.0), -Vec3::UnitY()), 25.0, 1e-9) << "beside it";
+    EXPECT_NEAR(landing.fall(Vec3(0.0, 10.0, 0.0), -Vec3::UnitY()), 10.0, 1e-9) << "under it";
+    EXPECT_EQ(landing.fall(Vec3(0.0, 25.0, 0.0), Vec3::UnitY()), 0.0);
+}
+
+// The ball around a wide ground holds the eye; the ground in view is at the bottom of the picture, along the axis
+// height / fall away.
+TEST(NearDistance, FitsTheGroundBelowTheEye) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(0.0, 4.0, 8.0);
+    scene.bodies.push_back(box_body(Vec3(0.0, -1.0, 0.0), Vec3(100.0, 2.0, 100.0), {}));
+    scene.bodies.push_back(box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {}));
+    const CameraView view(scene.camera, 320, 180);
+    const double near = near_distance_for(make_scene_looks(scene), first_snapshot(scene), view);
+    const double nearest = 4.0 / -view.ray(160.0, 180.0).y();
+    EXPECT_LT(near, nearest);
+    EXPECT_GT(near, nearest / 8.0) << "depths have too few bits";
 }
 
 TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {

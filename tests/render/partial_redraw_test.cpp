@@ -137,6 +137,29 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawOnLargeGrounds) {
     EXPECT_LT(draw_partly(12, Ground::large_body), 0.97) << "of the pictures";
 }
 
+// So high that it darkens nothing: its shadow alone changes the ground, in the near map and in the far one.
+TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
+    RenderOptions everything;
+    everything.full_redraw = true;
+    for (const bool mesh : {false, true}) {
+        SceneDescription scene = empty_scene();
+        scene.camera.eye = Vec3(0.0, 8.0, 24.0);
+        scene.bodies.push_back(box_body(Vec3(0.0, -1.0, 0.0), Vec3(16.0, 2.0, 16.0), {176, 180, 184}));
+        if (mesh) scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(16.0, 10), {176, 180, 184});
+        scene.bodies.push_back(ball_body(Vec3(0.0, 2.0, 0.0), 0.3, {200, 60, 40}));
+        scene.bodies.push_back(box_body(Vec3(-1.0, 0.25, 0.0), Vec3::Constant(0.5), {60, 90, 200}));
+        Renderer partial(scene, {}), full(scene, everything);
+        Image frame, truth;
+        Snapshot snapshot = first_snapshot(scene);
+        for (int step = 0; step < 30; ++step) {
+            snapshot.bodies[1].origin = Vec3(0.25 * step, 2.0, -0.1 * step);
+            partial.render(snapshot, frame);
+            full.render(snapshot, truth);
+            EXPECT_EQ(different_pixels(frame, truth), 0u) << "step " << step << (mesh ? ", mesh" : ", box");
+        }
+    }
+}
+
 // What was drawn before must not tell: the window of the ground's darkening was wide, then long, then both, and what had never been
 // sent of it showed as grey slabs on the ground.
 TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
