@@ -31,24 +31,28 @@ PlaneDarkening::Texels PlaneDarkening::touched(const Foot& foot, const Occlusion
 // Around all feet; where they do not fit, around those that are not lost, or where most of these are.
 bool PlaneDarkening::place(OcclusionWindow& window, AtlasShelves& shelves) const {
     constexpr int largest = OcclusionAtlas::largest_window;
-    std::vector<double> distances;   // from the eye's first place
-    for (const Foot& foot : feet_) distances.push_back(double(foot.occluder->center.norm()));
-    const double limit = far_limit(distances);
+    const auto distance = [](const Foot& foot) { return double(foot.occluder->center.norm()); };   // from the eye's first place
+    const auto limit_of_near = [&] {
+        std::vector<double> distances;
+        for (const Foot& foot : feet_) distances.push_back(distance(foot));
+        return far_limit(distances);
+    };
     const auto range = [&](auto coordinate, double& low, int& count) {
         double least = 0.0, most = 0.0;
         const auto fit = [&](double farthest) {
             least = std::numeric_limits<double>::infinity(), most = -least;
             for (const Foot& foot : feet_) {
-                if (double(foot.occluder->center.norm()) > farthest) continue;
+                if (std::isfinite(farthest) && distance(foot) > farthest) continue;
                 least = std::min(least, coordinate(foot) - foot.radius);
                 most = std::max(most, coordinate(foot) + foot.radius);
             }
             return (most - least) / window.cell <= largest - 4;
         };
-        if (!fit(std::numeric_limits<double>::infinity()) && !fit(limit)) {
+        double limit = std::numeric_limits<double>::infinity();
+        if (!fit(limit) && !fit(limit = limit_of_near())) {
             std::vector<double> middles;
             for (const Foot& foot : feet_)
-                if (double(foot.occluder->center.norm()) <= limit) middles.push_back(coordinate(foot));
+                if (distance(foot) <= limit) middles.push_back(coordinate(foot));
             const auto middle = middles.begin() + std::ptrdiff_t(middles.size() / 2);
             std::nth_element(middles.begin(), middle, middles.end());
             least = *middle - 0.5 * (largest - 4) * window.cell;
