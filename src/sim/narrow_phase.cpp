@@ -288,6 +288,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     const auto begin = std::uint32_t(found.manifolds.size());
     found.scratch.axis = last.axis;
     found.scratch.gap = 0.0;
+    found.scratch.on_ball = false;
     found.scratch.left_out.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
@@ -296,7 +297,9 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
-    last.outcome = count > 0 ? Search::Outcome::near : Search::Outcome::apart;
+    // A point on a ball runs over it as it rolls. Left behind for a thousandth of the radius it bears the body from behind, and what rolls
+    // slowly gathers speed out of nothing.
+    last.outcome = count == 0 ? Search::Outcome::apart : found.scratch.on_ball ? Search::Outcome::none : Search::Outcome::near;
     if (count == 0) {
         if (entry.count > 0) found.changes.push_back({index, 0, 0});
         return;

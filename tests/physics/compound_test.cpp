@@ -83,6 +83,27 @@ TEST(Compound, ATableStandsOnFourLegsAndCarriesABox) {
     EXPECT_LT(m.kinetic, 1e-6);
 }
 
+// Two wheels on an axle, rolling without slip: nothing drives them, nothing brakes them. On a slope of one in a hundred they gain
+// g sin / (1 + I/(m r^2)) a second.
+TEST(Compound, WheelsRollEvenly) {
+    const double r = 0.1, angle = std::atan(0.01), axle = 0.02, wheel = 4.0 / 3.0 * M_PI * r * r * r, rod = axle * axle * 0.6;
+    const double inertia = (2.0 * 0.4 * wheel * r * r + rod * axle * axle / 6.0) / ((2.0 * wheel + rod) * r * r);
+    for (const double slope : {0.0, angle}) {
+        SceneDescription scene = ground_scene(0.0, 0.5);
+        scene.simulation.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope), 0.0};
+        BodyDescription& wheels = add_compound(scene, compound_of({part(SphereShape{r}, {0.0, 0.0, 0.3}), part(SphereShape{r}, {0.0, 0.0, -0.3}),
+                                                                   part(BoxShape{Vec3(axle, axle, 0.6)}, Vec3::Zero())}), {0.0, r, 0.0});
+        wheels.velocity = {0.003, 0.0, 0.0};
+        wheels.angular_velocity = {0.0, 0.0, -0.03};
+        World world(scene);
+        for (int second = 1; second <= 4; ++second) {
+            run(world, scene, 1.0);
+            const double expected = 0.003 + 9.81 * std::sin(slope) / (1.0 + inertia) * second;
+            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), expected, 1e-7) << "after " << second << " s on a slope of " << slope;
+        }
+    }
+}
+
 // A hoop of 24 convex parts, read from its file, on a peg that sticks out of the wall.
 TEST(Compound, AHoopHangsOnAPeg) {
     const SceneDescription scene = parse_scene(R"(

@@ -126,15 +126,16 @@ void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
         [&](const auto& shape_a, const auto& shape_b) {
             using A = std::decay_t<decltype(shape_a)>;
             using B = std::decay_t<decltype(shape_b)>;
+            const std::size_t first = out.size();
             if constexpr ((immovable<A> && immovable<B>) || compound<A> || compound<B>) {
                 return;
             } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
                 Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
             } else {   // the same pair the other way round: swap, collide, turn the normals
-                const std::size_t first = out.size();
                 Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
                 for (std::size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
             }
+            if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>) scratch.on_ball = scratch.on_ball || out.size() > first;
         },
         a, b);
 }
