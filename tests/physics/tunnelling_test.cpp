@@ -247,6 +247,49 @@ TEST(ThinWall, APlaneStopsThinBodiesAsABoxDoes) {
         }
 }
 
+// A ball that rolls over a plane by more than its size in a step touches it all the while, and is not held up by it.
+TEST(ThinWall, AFastBallRollsOnOverAPlane) {
+    for (const bool exact : {false, true})
+        for (const double speed : {1.0, 4.0, 25.0, 300.0})
+            for (const double friction : {0.0, 0.3}) {
+                SceneDescription scene = ground_scene(0.5, friction, 1);
+                if (exact) make_exact(scene);
+                set_step(scene, 60.0);
+                BodyDescription& ball = add_sphere(scene, 0.03, {0.0, 0.03, 0.0}, 0.17);
+                ball.friction = friction;
+                ball.restitution = 0.5;
+                ball.velocity = {0.6 * speed, 0.0, 0.8 * speed};
+                ball.angular_velocity = Vec3(0.8, 0.0, -0.6) * speed / 0.03;
+                World world(scene);
+                run(world, scene, 2.0);
+                const BodyState end = world.snapshot().bodies[1];
+                EXPECT_LT((end.center_of_mass - Vec3(1.2 * speed, 0.03, 1.6 * speed)).norm(), 1e-6 * speed) << speed << ' ' << friction << ' ' << exact;
+            }
+}
+
+// A ball shot into a rack: what it strikes moves on, and all of them keep the momentum; nobody stands still inside another.
+TEST(ThinWall, ARackIsBroken) {
+    SceneDescription scene = ground_scene(0.5, 0.0, 1);
+    set_step(scene, 60.0);
+    const double r = 0.0286;
+    const auto add = [&](double x, double z) -> BodyDescription& {
+        BodyDescription& ball = add_sphere(scene, r, {x, r, z}, 0.17);
+        ball.restitution = 0.6;
+        return ball;
+    };
+    add(-1.2, 0.0).velocity = {6.0, 0.0, 0.0};
+    for (int row = 0; row < 5; ++row)
+        for (int k = 0; k <= row; ++k) add(2.0002 * r * std::sqrt(0.75) * row, 2.0002 * r * (k - 0.5 * row));
+    World world(scene);
+    run(world, scene, 1.0);
+    const Snapshot s = world.snapshot();
+    for (std::size_t i = 1; i < s.bodies.size(); ++i)
+        for (std::size_t k = 1; k < i; ++k) EXPECT_GT((s.bodies[i].center_of_mass - s.bodies[k].center_of_mass).norm(), 1.99 * r) << i << ' ' << k;
+    const Measurement m = world.measure();
+    EXPECT_NEAR(m.momentum.x(), 0.17 * 6.0, 1e-12);
+    EXPECT_LT(m.kinetic, 0.35 * 3.06);   // exact impacts: 0.16
+}
+
 // A rod that turns by a radian a step beside a block which it never reaches: its way is looked along, and is that of a free body.
 TEST(ThinWall, SpinningBesideAWallChangesNothing) {
     for (const IntegratorKind integrator : {IntegratorKind::symplectic_euler, IntegratorKind::exact}) {

@@ -185,7 +185,7 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     const bool evenly = parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0);
     if (ball_a && ball_b && evenly) {   // first, and quickly: there are many of them
         return result(approach_time(b.path->position(b.since) - a.path->position(a.since), b.path->velocity(b.since) - a.path->velocity(a.since),
-                                    ball_a->radius + ball_b->radius, horizon, a, b),
+                                    ball_a->radius + ball_b->radius - overlap, horizon, a, b),
                       horizon);
     }
     // Planes and surfaces come first; the search does not care which is which.
@@ -204,7 +204,7 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
         const double height = normal.dot(b.path->position(b.since) - a.path->position(a.since)) - pair.plane->offset - b.body->radius;
         const double rate = normal.dot(b.path->velocity(b.since) - a.path->velocity(a.since));
         const double acceleration = normal.dot(b.path->acceleration(b.since) - a.path->acceleration(a.since));
-        if (ball_b) return result(fall_time(height, rate, acceleration, pair.scale), horizon);
+        if (ball_b) return result(fall_time(height + overlap, rate, acceleration, pair.scale), horizon);
         if (height > 0.0) from = fall_time(height, rate, acceleration, pair.scale);
     } else if (!pair.plane && evenly) {
         const Vec3 d = b.path->position(b.since) - a.path->position(a.since);

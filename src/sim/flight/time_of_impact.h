@@ -35,7 +35,7 @@ public:
     ImpactSearch() { scratch_.choice = AxisChoice::nearest; }
 
     /// Bodies that touch at the beginning and part, or rest against each other, have no impact there.
-    /// `overlap` (m): so deep they may come into each other before it counts (not for two balls, nor a ball and a plane).
+    /// `overlap` (m): so deep they may come into each other before it counts.
     TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, double overlap = 0.0);
 
 private:
