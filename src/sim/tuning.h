@@ -86,6 +86,9 @@ inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
 inline constexpr double friction_near = 2e-3;
 inline constexpr double friction_far_weight = 0.01;
+/// Masses (kg) that it counts in kilograms; beyond, in a unit of the scene's own.
+inline constexpr double soft_least_mass = 1e-9;
+inline constexpr double soft_most_mass = 1e9;
 /// Manifolds from which on several threads share one island: below, meeting twice a sweep costs more.
 inline constexpr std::size_t soft_team_manifolds = 500;
 /// Manifolds of small islands that are solved together, through all substeps, before the next: their rows stay in a core's

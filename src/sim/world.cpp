@@ -135,6 +135,7 @@ void World::State::step() {
     resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces();             // F and tau at t_n change P and L
     solve_resting_contacts();   // non-penetration and friction
+    check_finite();             // before anything is looked for on the way
     move();                     // x and q to t_n+1; free flights from impact to impact
     fall_asleep();              // islands at rest leave the loop
     check_finite();
@@ -418,7 +419,8 @@ void World::State::check_finite() {
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = bodies[i];
         // One number that is none makes the sum none.
-        if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum()))
+        if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum() +
+                          body.push_velocity.sum() + body.push_angular_velocity.sum()))
             return;
         for (std::uint32_t known = first; i < known && !first.compare_exchange_weak(known, i);) {}
     });

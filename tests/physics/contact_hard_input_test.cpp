@@ -205,6 +205,25 @@ TEST(ContactHardInput, AMillimetreAndAHundredMetres) {
     for (std::size_t k = 0; k < 5; ++k) EXPECT_LE((s.bodies[k + 1].center_of_mass - places[k]).norm(), 1e-5 * sizes[k]) << k;
 }
 
+// Dust of 1e-24 kg and moons of 1e24 kg pile up as crates do: powers of two in mass change no digit of what single precision does.
+TEST(ContactHardInput, DustAndMoons) {
+    const auto heap = [](double mass) {
+        SceneDescription scene = ground_scene(0.0, 0.5, 4);
+        scene.simulation.contact_solver = ContactSolverChoice::soft;
+        for (int k = 0; k < 12; ++k) add_box(scene, {0.5, 0.3, 0.4}, {0.1 * (k % 3), 0.16 + 0.31 * k, 0.07 * (k % 2)}, mass);
+        set_friction(scene, 0.5);
+        World world(scene);
+        run(world, scene, 2.0);
+        return world.snapshot();
+    };
+    const Snapshot crates = heap(1.0);
+    for (const int power : {-80, 80}) {
+        const Snapshot others = heap(std::ldexp(1.0, power));
+        for (std::size_t i = 1; i < crates.bodies.size(); ++i)
+            EXPECT_EQ(others.bodies[i].center_of_mass, crates.bodies[i].center_of_mass) << power << ' ' << i;
+    }
+}
+
 // Boxes and balls resting on and sliding over the seams of a triangle mesh: no bumps, no turning aside.
 TEST(ContactHardInput, SeamsOfAMesh) {
     for (const double friction : {0.0, 0.2})

@@ -62,7 +62,8 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
-void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot) {
+void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot) {
+    mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
     substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
@@ -195,8 +196,8 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
         energies_.begin(k, body, problem.before[i]);
         const auto& [v, w] = problem.before[i];
         const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
-        const Mat3& inverse = body.inverse_inertia;
-        put_all(state(k + 1), {v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), body.inverse_mass});
+        const Mat3 inverse = mass_unit_ * body.inverse_inertia;
+        put_all(state(k + 1), {v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), mass_unit_ * body.inverse_mass});
         put_all(state(k + 1) + 8, {});
         put_all(forces_.data() + 8 * (k + 1), {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
         put_all(before_.data() + 8 * (k + 1), {});
@@ -262,7 +263,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
     lane_moved_[2 * g] |= std::uint16_t(a.dynamic << l);
     lane_moved_[2 * g + 1] |= std::uint16_t(b.dynamic << l);
-    const double share = 1.0 / substeps_;
+    const double share = 1.0 / (substeps_ * mass_unit_);
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
     Source& source = sources_[lanes * g + l];
@@ -381,6 +382,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
 // Impulses to the manifolds, and to the momenta of their bodies.
 void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
     const std::size_t lanes = std::size_t(kernel_.lanes);
+    const double all = substeps_ * mass_unit_;
     for (std::size_t l = 0; l < lanes; ++l) {
         const Source& source = sources_[lanes * g + l];
         if (source.count == 0) continue;
@@ -390,12 +392,12 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         release(m);
         const float* impulse = head + soft::head_rows * lanes + soft::impulse * lanes;
         for (int i = 0; i < source.count; ++i, impulse += soft::point_rows * lanes)
-            m.points[source.point[i]].impulse = substeps_ * double(*impulse);
-        m.friction[0] = (source.swapped ? -substeps_ : substeps_) * double(head[soft::friction_1 * lanes]);
-        m.friction[1] = substeps_ * double(head[soft::friction_2 * lanes]);
-        m.twist = substeps_ * double(head[soft::twist * lanes]);
+            m.points[source.point[i]].impulse = all * double(*impulse);
+        m.friction[0] = (source.swapped ? -all : all) * double(head[soft::friction_1 * lanes]);
+        m.friction[1] = all * double(head[soft::friction_2 * lanes]);
+        m.twist = all * double(head[soft::twist * lanes]);
         m.tangent = three(soft::tangent_1);
-        const Vec3 force = three(soft::force), moment = three(soft::moment);   // on B; about A's centre
+        const Vec3 force = mass_unit_ * three(soft::force), moment = mass_unit_ * three(soft::moment);   // on B; about A's centre
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;

@@ -21,8 +21,9 @@ class SoftBatch {
 public:
     explicit SoftBatch(const soft::Kernel& kernel);
 
-    /// Blocks and colours; then, called by all threads of a team, all the rest. slot: by body, the part's own are set.
-    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, std::vector<std::uint32_t>& slot);
+    /// Blocks and colours; then, called by all threads of a team, all the rest. slot: by body, the part's own are set. `mass_unit`
+    /// (kg): a power of two that masses and impulses are counted in.
+    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot);
     /// To the threads that are going to run it.
     void give_bodies(ThreadPool& pool) const;
     void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
@@ -86,6 +87,7 @@ private:
     const soft::Kernel& kernel_;
     double d_ = 0.0;                                  // s, a substep
     int substeps_ = 1;
+    double mass_unit_ = 1.0;                          // kg
     soft::Substep substep_{};
     Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
     BodyBlocks blocks_;                               // slot k + 1 is the k-th of its order

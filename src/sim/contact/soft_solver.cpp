@@ -5,8 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
+namespace {
+
+// The mass (kg) that single precision counts in: squares of impulses must neither overflow nor vanish. 1 for what a hand or a crane
+// lifts; for dust and moons the power of two in the middle of the scene's masses, by which numbers change without rounding.
+double mass_unit(const std::vector<Body>& bodies) {
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const Body& body : bodies) {
+        if (!body.dynamic()) continue;
+        least = std::min(least, body.mass);
+        most = std::max(most, body.mass);
+    }
+    if (!(most > 0.0) || (least >= tuning::soft_least_mass && most <= tuning::soft_most_mass)) return 1.0;
+    return std::ldexp(1.0, (std::ilogb(least) + std::ilogb(most)) / 2);
+}
+
+}  // namespace
+
 int substeps_of(double h) {
     // A step of exactly so many substeps must not get one more by rounding.
     const double n = std::ceil(h / tuning::soft_substep - 1e-6);
@@ -17,6 +35,7 @@ SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_
 SoftSolver::~SoftSolver() = default;
 
 void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool) {
+    if (mass_unit_ == 0.0) mass_unit_ = mass_unit(problem.bodies);
     const auto threads = std::size_t(pool.size());
     while (batches_.size() < threads) batches_.push_back(std::make_unique<SoftBatch>(kernel_));
     small_.clear();
@@ -29,7 +48,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
             continue;
         }
         SoftBatch& batch = *batches_[0];
-        batch.prepare(problem, part, slot_);
+        batch.prepare(problem, part, mass_unit_, slot_);
         batch.give_bodies(pool);
         SpinBarrier barrier(threads);
         pool.together([&](std::size_t thread) { batch.run(problem, slot_, thread, threads, barrier); });
@@ -41,7 +60,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
     const auto run = [&](std::size_t thread, std::size_t team) {
         each_of(thread, team, [&](const Part& part) {
             SpinBarrier alone(1);
-            batches_[thread]->prepare(problem, part, slot_);
+            batches_[thread]->prepare(problem, part, mass_unit_, slot_);
             batches_[thread]->run(problem, slot_, 0, 1, alone);
         });
     };

@@ -56,6 +56,7 @@ private:
     std::vector<std::uint32_t> slot_;                 // by body
     std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a thread
     std::vector<const Part*> small_;                  // which one thread solves
+    double mass_unit_ = 0.0;                          // kg; of the scene's bodies, which do not change
 };
 
 /// Substeps of a step of h seconds.
