@@ -70,7 +70,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     const double reach = b.radius + margin;
     // The face it is most outside of: a bound of the distance, and the way out when the centre is inside.
     double most = -std::numeric_limits<double>::infinity();
-    const Polyhedron::Face* face = nullptr;
+    const Polyhedron::Face* face = a.faces.data();   // some face even where the centre is no number: the step's end tells of that
     for (const Polyhedron::Face& f : a.faces) {
         const double d = f.normal.dot(center) - f.offset;
         if (d > reach) return;
