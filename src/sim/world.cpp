@@ -60,6 +60,7 @@ struct World::State {
     FreeFlights free_flights;           // with exact motion between stepped ones
     MotionLimit motion_limit;
     std::vector<BodyVelocity> motions;
+    std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // body
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
     std::vector<BodyVelocity> old_velocities;   // at the step's start, before its forces: what explicit Euler moves by
@@ -127,6 +128,8 @@ struct World::State {
     void forget_blows();
     void move();
     void fall_asleep();
+    void look_at_numbers(std::uint32_t i);
+    void stop_if_not_finite() const;
     void check_finite();
 };
 
@@ -135,10 +138,8 @@ void World::State::step() {
     resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces();             // F and tau at t_n change P and L
     solve_resting_contacts();   // non-penetration and friction
-    check_finite();             // before anything is looked for on the way
     move();                     // x and q to t_n+1; free flights from impact to impact
     fall_asleep();              // islands at rest leave the loop
-    check_finite();
 }
 
 // Steps only while something has to be stepped: bodies in free flight need none.
@@ -303,11 +304,12 @@ void World::State::forget_blows() {
     }
 }
 
-// The velocities that poses are moved with.
+// The velocities that poses are moved with: numbers, or nothing may be looked for on the way.
 const std::vector<BodyVelocity>& World::State::step_motions() {
     pool.for_bodies(moving_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = bodies[i];
         motions[i] = {};
+        look_at_numbers(i);
         if (body.flying) return;
         // Between exact flights all held bodies move by the velocities they are solved for.
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
@@ -318,6 +320,7 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
                                                      : mean_angular_velocity(body, h, settings.rotation);
         motions[i].angular_velocity += body.push_angular_velocity;
     });
+    stop_if_not_finite();
     return motions;
 }
 
@@ -373,6 +376,7 @@ void World::State::move() {
         steps = flights->run(bodies, sleep, forces, steps + 1);
         flights->place(bodies, steps);
         place_kinematic_bodies();
+        check_finite();
         return;
     }
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h, &pool); };
@@ -402,8 +406,10 @@ void World::State::move() {
             if (in_contact && share < 1.0) lose_time(i, share, true);
         }
         if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], share);
+        look_at_numbers(i);
     });
     ++steps;
+    stop_if_not_finite();
     place_kinematic_bodies();
 }
 
@@ -414,16 +420,23 @@ void World::State::fall_asleep() {
     if (flights && sleep.changes() != changes) flights->lay_down(bodies, steps);
 }
 
+// The first body in order tells, whichever thread finds it.
+void World::State::look_at_numbers(std::uint32_t i) {
+    const Body& body = bodies[i];
+    // One number that is none makes the sum none.
+    if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum() +
+                      body.push_velocity.sum() + body.push_angular_velocity.sum()))
+        return;
+    for (std::uint32_t known = first_not_finite; i < known && !first_not_finite.compare_exchange_weak(known, i);) {}
+}
+
 void World::State::check_finite() {
-    std::atomic<std::uint32_t> first{UINT32_MAX};
-    pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
-        const Body& body = bodies[i];
-        // One number that is none makes the sum none.
-        if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum() +
-                          body.push_velocity.sum() + body.push_angular_velocity.sum()))
-            return;
-        for (std::uint32_t known = first; i < known && !first.compare_exchange_weak(known, i);) {}
-    });
+    pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) { look_at_numbers(i); });
+    stop_if_not_finite();
+}
+
+void World::State::stop_if_not_finite() const {
+    const std::uint32_t first = first_not_finite;
     if (first == UINT32_MAX) return;
     throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
                                "a smaller step (steps_per_frame, now {}) may hold it",
