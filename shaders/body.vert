@@ -91,10 +91,10 @@ void main() {
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
     vec2 half_size = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
-    // A tile has a texel's centre at each corner of its face.
+    // A tile has a texel's centre at each corner of its face, less a thousandth: no share of the next tile's by rounding.
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
-    float span = max(instance_tile.x - 1.0, 0.0);
-    vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * span : vec2(0.5);
+    float span = max(instance_tile.x - 1.002, 0.0);
+    vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * (instance_tile.x - 1.0) : vec2(0.5);
     v_tile = vec4(middle, 0.5 * span / half_size) * atlas.xyxy;
     // A bevel narrower than a pixel would glitter: it grows with the distance instead.
     float pixel = haze.y * length(instance_position.xyz);
@@ -107,8 +107,8 @@ void main() {
     v_local = local;
 #endif
 #ifdef BALL
-    float half_span = max(0.5 * (instance_tile.x - 1.0), 0.0);
-    v_tile = vec4(instance_tile.x > 0.0 ? instance_look.zw + 0.5 + half_span : vec2(0.5), vec2(half_span)) * atlas.xyxy;
+    float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as boxes have it
+    v_tile = vec4(instance_tile.x > 0.0 ? instance_look.zw + 0.5 * instance_tile.x : vec2(0.5), vec2(half_span)) * atlas.xyxy;
 #ifndef PATTERNED
     // Paler paint; metal has none.
     v_octants = ball_contrast * vec4((1.0 - metallic) * (1.0 - metallic - v_diffuse), metallic);

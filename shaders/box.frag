@@ -18,18 +18,16 @@ float groove(vec2 on_face) {
 #endif
 
 void main() {
-    vec2 on_face = v_on_face;
-#ifdef MULTISAMPLE
-    // At the rim of a face seen edge-on the pixel's middle can lie far outside of it: back onto the box, and its tile.
-    on_face = clamp(on_face, -v_face.xy, v_face.xy);
-#endif
+    // OpenGL moves corners by parts of a pixel, and a pixel's middle may lie beside the face that shows there (with several
+    // samples always): many widths away from a thin one, on another face's tile. Back onto the box.
+    vec2 on_face = clamp(v_on_face, -v_face.xy, v_face.xy);
     // A rounded box's normal: away from the box that is smaller by the bevel.
     vec3 normal = vec3(max(on_face - v_face.zw, 0.0) + min(on_face + v_face.zw, 0.0), v_edges.x);
     normal *= inversesqrt(dot(normal, normal));
 #ifdef PATTERNED
-    float paint = pattern_paint(v_pattern.x, on_face / v_pattern.y, fwidth(on_face) / v_pattern.y);
+    float paint = pattern_paint(v_pattern.x, on_face / v_pattern.y, fwidth(v_on_face) / v_pattern.y);
 #else
-    float paint = 1.0 - crate_groove_depth * groove(on_face);
+    float paint = 1.0 - crate_groove_depth * groove(v_on_face);
 #endif
     float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
     pixel = body_pixel(vec3(on_face, 0.0), normal, v_diffuse, paint, open);

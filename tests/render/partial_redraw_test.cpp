@@ -182,6 +182,29 @@ TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
     }
 }
 
+// Nor may what the sides now out of sight looked like: a thin side seen edge-on had the darkening of the next tile in the atlas.
+TEST(PartialRedraw, ThinSidesHaveTheirOwnDarkening) {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 232;
+    scene.output.height = 152;
+    scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
+    Random random(3);
+    for (int i = 0; i < 90; ++i)
+        scene.bodies.push_back(box_body(Vec3::Zero(), Vec3(0.1, 0.004, 0.4), {200, 160, 140}));
+    Renderer used(scene, {});
+    Image frame, truth;
+    Snapshot snapshot = first_snapshot(scene);
+    for (int arrangement = 0; arrangement < 12; ++arrangement) {
+        for (std::size_t i = 1; i < snapshot.bodies.size(); ++i) {
+            snapshot.bodies[i].origin = Vec3(0.0, 0.2, 0.0) + random.vector(2.5, 0.2, 2.5);
+            snapshot.bodies[i].orientation = random.turn();
+        }
+        used.render(snapshot, frame);
+        Renderer(scene, {}).render(snapshot, truth);
+        EXPECT_EQ(different_pixels(frame, truth), 0u) << "arrangement " << arrangement;
+    }
+}
+
 TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
     const SceneDescription scene = random_scene(1);
     Renderer renderer(scene, {});
