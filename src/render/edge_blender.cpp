@@ -24,6 +24,9 @@ double share_of(double t, double half, double inverse) {
 
 double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
 
+// Where a surface's number goes on so far beyond its edge, more of the surface hides that edge (a ring's far rim).
+constexpr double hidden = 0.1;   // pixels
+
 // The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
 int below(double x) { return int(x + 2.0) - 2; }
 
@@ -59,7 +62,8 @@ public:
             if (length <= 0.0) continue;
             const double line = n0 + (0.5 * (from + to) - m0) * slope, half = steepness * length;
             if (!(line + half >= 0.0 && line - half < count_n_)) continue;
-            const Crossing here{line, half, length == 1.0 ? inverse : inverse_width(half), length};
+            const Crossing here{line, half, length == 1.0 ? inverse : inverse_width(half), length,
+                                n0 + (m + 0.5 - m0) * slope};
             const int end = std::min(below(line + half), count_n_ - 1);
             for (int n = std::max(below(std::max(line - half, 0.0)), 0); n <= end; ++n) pixel(m, n, here);
         }
@@ -71,6 +75,7 @@ private:
         double line, half;      // its height there, and how far it rises and falls around that
         double inverse;         // inverse_width() of that
         double length;          // how much of the pixels' width it passes
+        double middle;          // the height of its line, drawn on, in the middle of that width
     };
 
     // A share of the pixel's colour comes from the neighbour over the edge, or the one behind it where the edge runs
@@ -86,6 +91,7 @@ private:
         for (int other = n + step;; other += step) {
             if (other == n + 3 * step || other < 0 || other >= count_n_) return;
             from += step * step_n_;
+            if (is_inner && outer_ == 0 && from[3] == inner_ && (other + 0.5 - here.middle) * step > hidden) return;
             if (is_inner ? (outer_ == 0 ? from[3] != inner_ : from[3] == outer_) : from[3] == inner_) break;
         }
         const int x = across_ ? n : m, y = across_ ? m : n;

@@ -123,6 +123,24 @@ public:
         return std::sqrt(sum / count);
     }
 
+    // The darkest pixel that lies, with all around it, within what is drawn with one sample.
+    int darkest_within(SceneDescription scene) const {
+        const Image smooth = drawn(scene, shaders_.options());
+        scene.output.samples = 1;
+        const Image plain = drawn(scene, shaders_.options());
+        int darkest = 255, count = 0;
+        for (int y = 1; y + 1 < plain.height; ++y)
+            for (int x = 1; x + 1 < plain.width; ++x) {
+                bool within = true;
+                for (int i = 0; i < 9; ++i) within = within && plain.at(x + i % 3 - 1, y + i / 3 - 1)[0] == 255;
+                if (!within) continue;
+                ++count;
+                darkest = std::min(darkest, int(smooth.at(x, y)[0]));
+            }
+        EXPECT_GT(count, 5);
+        return darkest;
+    }
+
 private:
     ShaderCopy shaders_;
 };
@@ -180,6 +198,17 @@ TEST(SmoothEdges, OfAMeshHaveManyShades) {
     const double smooth = silhouettes.error(scene, false, inside);
     EXPECT_LT(smooth, 0.1);   // the mesh itself is a little thinner than the torus
     EXPECT_LT(smooth, silhouettes.error(scene, true, inside) + 0.02);
+}
+
+// The far rim of its hole, which the near tube hides, took colour from beyond the ring: grey holes in small ones.
+TEST(SmoothEdges, ThatAMeshHidesItselfAreNotSeen) {
+    const Silhouettes silhouettes;
+    SceneDescription scene = empty_scene();
+    for (double angle = 0.0; angle < 1.6; angle += 0.2) {
+        scene.bodies = {mesh_body(Vec3(0.0, 1.0, 0.0), torus_asset(0.3, 0.1), {255, 255, 255},
+                                  Quat(Eigen::AngleAxisd(angle, Vec3(1.0, 0.3, 0.5).normalized())))};
+        EXPECT_GT(silhouettes.darkest_within(scene), 250) << angle;
+    }
 }
 
 }  // namespace
