@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/output_path.h"
 #include "core/error.h"
 #include "output/image_compare.h"
 #include "output/png_reader.h"
@@ -13,6 +14,8 @@ namespace tumble {
 int run_compare(const CompareCommand& command) try {
     if (!(command.fraction >= 0.0 && command.fraction <= 1.0))   // not a number passes CLI11's range
         throw InputError(fmt::format("--fraction: must be between 0 and 1 (was {})", command.fraction));
+    if (command.difference)
+        for (const auto& picture : {command.a, command.b}) check_output("--diff", *command.difference, picture);
     const CompareOptions options{command.tolerance, command.fraction};
     const Image a = read_png(command.a), b = read_png(command.b);
     const Comparison result = compare_images(a, b, options);

@@ -71,8 +71,13 @@ CLI::Validator number_within(double least, double most) {
         "");
 }
 
+// An empty name is what a script's unset variable leaves.
+CLI::Validator some_name() {
+    return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
 void add_scene(CLI::App& command, std::filesystem::path& scene) {
-    command.add_option("scene", scene, "The scene file (TOML)")->required()->type_name("SCENE");
+    command.add_option("scene", scene, "The scene file (TOML)")->check(some_name())->required()->type_name("SCENE");
 }
 
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
@@ -95,13 +100,16 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("-o,--output", c.clip,
                         "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
                         ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
-                        "name with .mp4, in this folder")->type_name("CLIP");
-    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->type_name("DIR");
+                        "name with .mp4, in this folder")->check(some_name())->type_name("CLIP");
+    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->check(some_name())
+        ->type_name("DIR");
     command->add_option("--aov", line.aovs,
                         "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/aovs.md)")
         ->type_name("LIST");
-    command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")->type_name("DIR");
-    command->add_option("--size", line.render_size, "Picture size, in place of the scene's")->type_name("WxH");
+    command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")
+        ->check(some_name())->type_name("DIR");
+    command->add_option("--size", line.render_size, "Picture size, in place of the scene's")
+        ->check(some_name())->type_name("WxH");
     add_frames_of_time(*command, c.overrides);
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
@@ -140,9 +148,9 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     add_scene(*command, c.scene);
     command->add_option("--trajectory", c.trajectory,
                         "CSV: one row per frame and moving body, with its centre of mass, orientation\nand velocities")
-        ->type_name("T.csv");
+        ->check(some_name())->type_name("T.csv");
     command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts")
-        ->type_name("E.csv");
+        ->check(some_name())->type_name("E.csv");
     CLI::Option* step = command->add_option("--step", c.overrides.step,
                                             "The fixed step in s, in place of the scene's; it must divide 1/fps")
                             ->type_name("H");
@@ -183,7 +191,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     command->add_option("a", c.a, "A picture (PNG)")->required()->type_name("A.png");
     command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
     command->add_option("--diff", c.difference, "Write a picture of the differences: red beyond the tolerance, blue within")
-        ->type_name("D.png");
+        ->check(some_name())->type_name("D.png");
     command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a pixel may differ in each channel; its surroundings\non average by half of it")
         ->check(CLI::Range(0, 255))->option_text("N [3]");
     command->add_option("--fraction", c.fraction, "Part of the pixels that may differ by more")
@@ -199,7 +207,8 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
 CLI::App* add_info(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("info", "Tell what a scene holds and what it will cost");
     add_scene(*command, line.info.scene);
-    command->add_option("--size", line.info_size, "Picture size, in place of the scene's")->type_name("WxH");
+    command->add_option("--size", line.info_size, "Picture size, in place of the scene's")
+        ->check(some_name())->type_name("WxH");
     add_frames_of_time(*command, line.info.overrides);
     command->footer("Example:\n  tumble info scene.toml");
     return command;

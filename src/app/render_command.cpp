@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output_path.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/simulation_threads.h"
@@ -109,6 +110,7 @@ void run_render(const RenderCommand& command) {
     // What can be wrong with the outputs is found out before anything is simulated or written.
     FrameForms forms{std::nullopt, command.frames.has_value(), command.aovs};
     if (clip) {
+        check_output("--output", *clip, command.scene);
         forms.video = video_format(*clip, clip_fps).pixels;
         find_ffmpeg();
     }

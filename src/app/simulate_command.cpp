@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/output_path.h"
 #include "app/progress.h"
 #include "app/stage_time.h"
 #include "core/error.h"
@@ -88,9 +89,12 @@ private:
 void run_simulate(const SimulateCommand& command) {
     const double start = wall_seconds();
     const SceneDescription scene = load_scene(command.scene, command.overrides);
-    if (command.trajectory && command.energy && *command.trajectory == *command.energy)
+    const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); };
+    if (command.trajectory && command.energy && whole(*command.trajectory) == whole(*command.energy))
         throw InputError(fmt::format("--trajectory and --energy must be two files (both are '{}')",
                                      command.trajectory->string()));
+    if (command.trajectory) check_output("--trajectory", *command.trajectory, command.scene);
+    if (command.energy) check_output("--energy", *command.energy, command.scene);
     const std::int64_t frames = scene.frame_count();
     {
         Watch watch(frames, command.quiet);

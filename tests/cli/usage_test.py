@@ -42,7 +42,8 @@ class WrongUsage(program.ProgramTest):
     def test_exit_code_2_and_nothing_written(self):
         for arguments in ([], ["paint"], ["render"], ["render", "scene.toml", "--colour"], ["render", "scene.toml", "more"],
                           ["render", "none.toml"], ["simulate", "."], ["render", "scene.toml", "--size", "48"],
-                          ["render", "scene.toml", "--size", "48x"], ["render", "scene.toml", "--size", "48x32x2"],
+                          ["render", "scene.toml", "--size", "48x"], ["render", "scene.toml", "--size", ""],
+                          ["render", "scene.toml", "--size", "48x32x2"],
                           ["render", "scene.toml", "--size=-48x32"], ["render", "scene.toml", "--size", "0x0"],
                           ["render", "scene.toml", "--size", "1000000x1000000"],
                           ["render", "scene.toml", "--fps", "0"], ["render", "scene.toml", "--fps", "nan"],
@@ -57,6 +58,10 @@ class WrongUsage(program.ProgramTest):
                           ["simulate", "scene.toml", "--integrator", "magic"],
                           ["simulate", "scene.toml", "--impacts", "magic"], ["simulate", "scene.toml", "--fps", "1.1e6"],
                           ["simulate", "scene.toml", "--trajectory", "t.csv", "--energy", "t.csv"],
+                          ["simulate", "scene.toml", "--trajectory", "t.csv", "--energy", "./t.csv"],
+                          ["render", "scene.toml", "--frames", ""], ["render", "scene.toml", "-o", ""], ["render", ""],
+                          ["render", "scene.toml", "--aov", "depth", "--aov-folder", ""],
+                          ["simulate", "scene.toml", "--trajectory", ""], ["simulate", "scene.toml", "--energy", ""],
                           ["encode"], ["encode", "."], ["encode", ".", "-o", "clip.mp4"], ["encode", ".", "-o", "clip.txt"],
                           ["compare"], ["compare", "a.png"], ["compare", "a.png", "b.png"], ["info"], ["info", "none.toml"]):
             with self.subTest(arguments=arguments):
@@ -64,6 +69,19 @@ class WrongUsage(program.ProgramTest):
                 self.assertIn("error", run.stderr)
                 self.assertEqual(run.stdout, "")
                 self.assertEqual(self.names(), [])
+
+    def test_nothing_that_is_read_is_replaced(self):
+        self.write("clip.mp4", program.SCENE)   # a scene whose clip would have its own name
+        (self.folder / "a.png").write_bytes(program.png(8, 8))
+        for arguments in (["render", "clip.mp4"], ["render", "scene.toml", "-o", "scene.toml"],
+                          ["simulate", "scene.toml", "--energy", "./scene.toml"],
+                          ["simulate", "scene.toml", "--trajectory", self.folder / "scene.toml"],
+                          ["compare", "a.png", "a.png", "--diff", "a.png"]):
+            with self.subTest(arguments=arguments):
+                self.check(2, *arguments)
+        for scene in ("scene.toml", "clip.mp4"):
+            self.assertEqual((self.folder / scene).read_text(), program.SCENE)
+        self.assertEqual((self.folder / "a.png").read_bytes(), program.png(8, 8))
 
     def test_options_are_named(self):
         for option, value in (("--fps", "0"), ("--duration", "-1"), ("--size", "48by32"), ("--samples", "-3"),
