@@ -24,8 +24,9 @@ double share_of(double t, double half, double inverse) {
 
 double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
 
-// Where a surface's number goes on so far beyond its edge, more of the surface hides that edge (a ring's far rim).
-constexpr double hidden = 0.1;   // pixels
+// A surface that shows so far beyond its own edge, or something else so far within it, hides that edge (a ring's near side
+// the far rim): more than a ball's mesh (.15) and the polygon for its outline (.03) are off.
+constexpr double hidden = 0.2;   // pixels
 
 // The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
 int below(double x) { return int(x + 2.0) - 2; }
@@ -88,6 +89,7 @@ private:
         if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
         const int step = is_inner ? -side_ : side_;
         const std::uint8_t* from = drawn;
+        if (outer_ == 0 && (n + 0.5 - here.middle) * step > hidden) return;
         for (int other = n + step;; other += step) {
             if (other == n + 3 * step || other < 0 || other >= count_n_) return;
             from += step * step_n_;

@@ -94,6 +94,18 @@ TEST(BlendEdges, LeavesHiddenEdgesAlone) {
     }
 }
 
+// As does the far rim of a ring whose near side reaches farther.
+TEST(BlendEdges, LeavesEdgesAloneThatTheirOwnSurfaceHides) {
+    for (double angle = 0.0; angle < 6.28; angle += 0.13) {
+        const HalfPlane half(angle);
+        const double x = -1.5 * std::sin(angle), y = 1.5 * std::cos(angle);   // pixels inwards
+        const ScreenEdge& e = half.edge;
+        const Image frame = blended(half.drawn, {float(e.x0 + x), float(e.y0 + y), float(e.x1 + x), float(e.y1 + y), inner, 0});
+        for (int i = 0; i < HalfPlane::size * HalfPlane::size; ++i)
+            ASSERT_EQ(frame.pixels[std::size_t(4 * i)], half.drawn.pixels[std::size_t(4 * i)]) << angle;
+    }
+}
+
 // White bodies before a black sky: a pixel is the share of it that is covered.
 class Silhouettes {
 public:
