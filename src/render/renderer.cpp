@@ -66,7 +66,7 @@ struct Renderer::State {
           meshes(gl, looks),
           occlusion_texture(gl),
           shadow_map(gl, shaders, frame_block),
-          programs(gl, shaders, looks, !scene.cords.empty(), framebuffer.samples() > 1, scene.light.shadows),
+          programs(gl, shaders, looks, !scene.cords.empty(), scene.light.shadows),
           planes(gl, shaders, looks, scene.light.shadows),
           full_redraw(options.full_redraw),
           draw_hidden(options.draw_hidden),

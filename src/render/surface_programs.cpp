@@ -16,8 +16,8 @@ void connect(const ShaderProgram& program) {
 }
 
 SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                                 bool has_cords, bool multisample, bool shadows)
-    : gl_(&gl), shaders_(shaders), multisample_(multisample), shadows_(shadows) {
+                                 bool has_cords, bool shadows)
+    : gl_(&gl), shaders_(shaders), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
             for (const bool lit : {true, false}) program({look.kind, look.pattern != Pattern::plain, lit, false});
@@ -43,7 +43,6 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
     if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (variant.kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
     files.defines.push_back(shadow_size());
-    if (multisample_) files.defines.emplace_back("MULTISAMPLE");
     if (variant.kind != DrawKind::box || variant.lit) {
         files.defines.emplace_back("SUNLIT");
         if (shadows_) files.defines.emplace_back("SHADOWED");

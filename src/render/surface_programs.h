@@ -27,7 +27,7 @@ class SurfacePrograms {
 public:
     /// Compiles what the scene's bodies need; the shaders of wide ones when there first is such a one.
     SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                    bool has_cords, bool multisample, bool shadows);
+                    bool has_cords, bool shadows);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches);
 
@@ -46,7 +46,7 @@ private:
 
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
-    bool multisample_, shadows_;
+    bool shadows_;
     std::array<std::optional<ShaderProgram>, 16> programs_;  // by kind, pattern, light and width
 };
 
