@@ -1,5 +1,6 @@
 #include "render/change_finder.h"
 
+#include "render/frame_uniforms.h"
 #include "render/plane_marks.h"
 
 #include <algorithm>
@@ -22,12 +23,15 @@ public:
 
     void add(const DrawnItem& caster) {
         const double depth = light_.direction.dot(caster.center) - caster.radius;
-        visit(caster, light_.margin(caster), [&](double& cell) { cell = std::min(cell, depth); });
+        visit(caster, 0.0, [&](double& cell) { cell = std::min(cell, depth); });
     }
     bool shadows(const DrawnItem& receiver) {
         const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
-        visit(receiver, 0.0, [&](const double& cell) { found = found || cell < depth; });
+        // of the map that the receiver looks into
+        const bool far = light_.fit.has_far && !light_.fit.near_holds(receiver.center, receiver.radius);
+        const double margin = shadow_filter_texels * (far ? light_.fit.far_texel : light_.fit.near_texel);
+        visit(receiver, margin, [&](const double& cell) { found = found || cell < depth; });
         return found;
     }
 
@@ -54,15 +58,6 @@ private:
     ShadowLight light_;
     std::array<double, std::size_t(count* count)> depths_;
 };
-
-std::array<Vec3, 4> face_corners(const DrawnItem& box, int face) {
-    const std::array<Vec3, 8> corners = box.corners();
-    std::array<Vec3, 4> points;
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < 8; ++i)
-        if ((i >> (face / 2) & 1) == std::size_t(face % 2)) points[found++] = corners[i];
-    return points;
-}
 
 }  // namespace
 
@@ -97,15 +92,10 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
         if (!first_) shadow_marks_.mark(items_[i]);
         shadow_marks_.mark(now.items[i]);
     }
-    // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
-    const bool too_near = std::any_of(now.items.begin(), now.items.end(), [&](const DrawnItem& item) {
-        return item.exists() && view_->sees(item.center, item.radius) &&
-               item.center.dot(view_->forward()) - item.radius < 1.01 * now.near_distance;
-    });
     shadow_marks_.settle();
     // Where very many move, finding out what they touch costs more than drawing all.
     const bool many = std::count(item_moved.begin(), item_moved.end(), char(1)) > most_marked;
-    if (too_near || many || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
+    if (too_near(now) || many || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
         marks.mark_all();
     } else {
         for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
@@ -121,7 +111,13 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
             if (item_moved[changed.body] != 0) continue;
             if (changed.faces == 0) marks.mark_hull(item.corners());
             for (int face = 0; face < 6; ++face)
-                if ((changed.faces >> face & 1) != 0) marks.mark_hull(face_corners(item, face));
+                if ((changed.faces >> face & 1) != 0) marks.mark_hull(face_part(item, face));
+        }
+        for (const OcclusionChanges::Part& part : occlusion.parts) {
+            if (item_moved[part.body] != 0) continue;
+            const DrawnItem& item = now.items[part.body];
+            // Of several samples the pixel's middle may lie beside the face, and takes its texel from the rim.
+            marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high) : face_part(item, part.face));
         }
     }
     for (std::size_t i = 0; i < bodies; ++i)
@@ -131,6 +127,19 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
     shadows_ = now.shadows;
     first_ = false;
     return marks;
+}
+
+// What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
+bool ChangeFinder::too_near(const FrameState& now) const {
+    for (std::size_t i = 0; i < now.items.size(); ++i) {
+        const DrawnItem& item = now.items[i];
+        if (!item.exists() || !view_->sees(item.center, item.radius)) continue;
+        const double depth = i < looks_->bodies.size()
+                                 ? least_depth(looks_->bodies[i], *looks_, now.snapshot.bodies[i], {item.center, item.radius}, *view_)
+                                 : item.center.dot(view_->forward()) - item.radius;
+        if (depth < 1.01 * now.near_distance) return true;
+    }
+    return false;
 }
 
 void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now,
@@ -144,16 +153,31 @@ void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, con
 // Whatever stood still behind something that moved, as the sun sees it.
 void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
                                  const Visibility& visibility, TileMarks& marks) const {
-    LightCells cells{ShadowLight(scene_->light, now.shadows)};
+    const ShadowLight light(scene_->light, now.shadows);
+    LightCells cells{light};
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
         cells.add(items_[i]);
         cells.add(now.items[i]);
     }
+    std::vector<FaceMarks> grounds;
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] != 0 || !now.items[i].exists()) continue;
         if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
-        if (cells.shadows(now.items[i])) marks.mark_hull(now.items[i].corners());
+        if (!cells.shadows(now.items[i])) continue;
+        const bool by_faces = i < looks_->bodies.size() && looks_->bodies[i].ground &&
+                              looks_->bodies[i].kind == DrawKind::box && now.one_sample &&
+                              FaceMarks::suits(now.items[i], now.shadows);
+        if (by_faces) grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
+        else marks.mark_hull(now.items[i].corners());
+    }
+    if (grounds.empty()) return;
+    for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
+        if (item_moved[i] == 0 || !now.items[i].exists()) continue;
+        for (const FaceMarks& ground : grounds) {
+            ground.mark_shadow(items_[i], marks);
+            ground.mark_shadow(now.items[i], marks);
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 // Which tiles of the picture the movements since the last frame may have changed. A moved body is drawn anew where it was
 // and where it is; so is the ground under its old and new shadow and within its darkening, every body that lies behind it
-// as the sun sees it, and every surface whose darkening has other values than before. What holds for the whole picture
-// (the depths' range, the shadow maps' place, a plane that moved) changes everything.
+// as the sun sees it, and every surface whose darkening has other values than before. Of grounds made of boxes not the whole,
+// but the shadows on their faces (face_marks.h) and the texels that changed. What holds for the whole picture (the depths'
+// range, the shadow maps' place, a plane that moved) changes everything.
 // Only ever too much is marked: the frame has the bytes of a full redraw.
 #pragma once
 
 #include "render/drawn_items.h"
+#include "render/face_marks.h"
 #include "render/occlusion_atlas.h"
 #include "render/plane_patch.h"
 #include "render/shadow_fit.h"
@@ -23,6 +25,7 @@ struct FrameState {
     double near_distance = 0.0;   // m
     ShadowFit shadows;
     std::vector<PlanePatch> planes;
+    bool one_sample = false;   // a pixel: what it shows lies at its middle
 };
 
 class ChangeFinder {
@@ -50,6 +53,7 @@ private:
     };
     bool moved(const Snapshot& snapshot, std::size_t body) const;
     void mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now, TileMarks& marks) const;
+    bool too_near(const FrameState& now) const;
     void mark_shadowed(const std::vector<char>& item_moved, const FrameState& now, const Visibility& visibility,
                        TileMarks& marks) const;
 

@@ -15,8 +15,10 @@ constexpr double haze_distance = 5.0;
 // The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
 constexpr double nearest_part = 1e-4;
 
-// How deep at least what is in view of a body lies, m. The ball around a ground often holds the eye; but what is in view
-// of the box around it is no nearer than its nearest point, and along the axis less by a corner's cosine.
+}  // namespace
+
+// The ball around a ground often holds the eye; but what is in view of the box around it is no nearer than its nearest
+// point, and along the axis less by a corner's cosine.
 double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
                    const CameraView& view) {
     const double depth = ball.center.dot(view.forward()) - ball.radius;
@@ -29,8 +31,6 @@ double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyStat
         for (const double y : {0.0, double(view.height())}) longest = std::max(longest, view.ray(x, y).norm());
     return std::max(depth, gap / longest);
 }
-
-}  // namespace
 
 double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
     double nearest = view.target_distance();

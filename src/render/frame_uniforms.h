@@ -22,6 +22,10 @@ static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4
 FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
                                   const ShadowFit& shadows, int atlas_height);
 
+/// How deep at least what is in view of a body lies, m.
+double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
+                   const CameraView& view);
+
 /// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
 /// movements do not round all depths anew.
 double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);

@@ -21,6 +21,11 @@ constexpr Sizes box_sizes{4.0, 8.0}, ball_sizes{6.0, 12.0}, mesh_sizes{24.0, 48.
 // Where more than this part of the bodies moved, all are looked at again: searching who is near one of them gains nothing.
 constexpr double most_moved = 0.25;
 
+int level(float open) { return int(255.0f * open + 0.5f); }
+
+// Texels to a side of the parts in which changes of a ground's face are told.
+constexpr int ground_part = 8;
+
 }  // namespace
 
 double darkening_detail(double pixels, double few, double all) {
@@ -51,6 +56,7 @@ struct OcclusionMaker::State {
     void update_windows(const Snapshot& snapshot);
     void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
     bool store(int x, int y, int width, int height, int stride, const float* open);
+    void store_ground(std::size_t body, int x, int y, int size, const float* open);
     Vec3 center_of(std::size_t body) const {   // of the ball around it
         return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
     }
@@ -171,7 +177,7 @@ bool OcclusionMaker::State::store(int x, int y, int width, int height, int strid
         std::uint8_t* to = &atlas.texels[std::size_t(row) * OcclusionAtlas::width + std::size_t(x)];
         int changed = 0;
         for (int i = 0; i < width; ++i) {
-            const int value = int(255.0f * open[i] + 0.5f);
+            const int value = level(open[i]);
             changed |= to[i] ^ value;
             to[i] = std::uint8_t(value);
         }
@@ -181,6 +187,28 @@ bool OcclusionMaker::State::store(int x, int y, int width, int height, int strid
         changes.end_row = std::max(changes.end_row, row + 1);
     }
     return any;
+}
+
+// A face of a box, part by part.
+void OcclusionMaker::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
+    const int face = (x - atlas.places[body].x) / size;
+    const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
+    for (int j = 0; j < size; j += ground_part)
+        for (int i = 0; i < size; i += ground_part) {
+            int i0 = size, i1 = -1, j0 = size, j1 = -1;   // of those that change
+            for (int b = j; b < std::min(j + ground_part, size); ++b)
+                for (int a = i; a < std::min(i + ground_part, size); ++a)
+                    if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] != level(open[b * size + a])) {
+                        i0 = std::min(i0, a);
+                        i1 = std::max(i1, a);
+                        j0 = std::min(j0, b);
+                        j1 = std::max(j1, b);
+                    }
+            if (i0 > i1) continue;
+            store(x + i0, y + j0, i1 - i0 + 1, j1 - j0 + 1, size, open + j0 * size + i0);
+            // between texels: what lies nearer than one to a changed one, and a tenth for rounding
+            changes.parts.push_back({body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
+        }
 }
 
 void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, const CameraView& view) {
@@ -208,11 +236,17 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     const auto keep = [&](int x, int y, int width, int height, const float* open) {
         return store(x, y, width, height, width, open);
     };
+    const auto keep_ground = [&](int x, int y, int width, int, const float* open) {
+        store_ground(body, x, y, width, open);
+        return false;   // it is in the changes already
+    };
     std::uint8_t faces = 0;
     bool changed = false;
     switch (look.kind) {
         case DrawKind::box:
-            faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep);
+            faces = look.ground
+                        ? body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep_ground)
+                        : body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep);
             changed = faces != 0;
             break;
         case DrawKind::ball:

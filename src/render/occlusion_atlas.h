@@ -53,7 +53,14 @@ struct OcclusionChanges {
         std::size_t body;
         std::uint8_t faces;   // of a box, as in Visibility; 0: any part of another body
     };
-    std::vector<Body> bodies;
+    /// A part of a ground's face: low and high on the face's axes (see face_part()), from -1 to 1.
+    struct Part {
+        std::size_t body;
+        int face;
+        Eigen::Vector2d low, high;
+    };
+    std::vector<Body> bodies;   // but grounds made of boxes
+    std::vector<Part> parts;    // of those
     bool windows_moved = false;   // or appeared, or went: texels of planes are elsewhere
     int first_row = 0, end_row = 0;   // of the texels
 };

@@ -9,9 +9,6 @@
 namespace tumble {
 namespace {
 
-// A lower sun throws shadows without end.
-constexpr double least_approach = 0.02;   // sine of the elevation
-
 // The corners of the rectangle along the plane's axes around the feet of all corners, and `margin` (m) more.
 std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, double margin) {
     const PlaneAxes axes = plane_axes(plane.normal);
@@ -32,6 +29,12 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, d
 
 }  // namespace
 
+// The filter looks at texels whose centres are nearer than 2 on both axes; the offset along the normal leads across the
+// light the less, the steeper it falls; half a texel to spare.
+double filter_reach(double approach) {
+    return 2.83 + shadow_offset_texels * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
+}
+
 ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit)
     : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
 
@@ -42,10 +45,7 @@ double ShadowLight::margin(const DrawnItem& item) const {
 }
 
 double ShadowLight::margin_on_plane(const DrawnItem& item, double approach) const {
-    // The filter looks at texels whose centres are nearer than 2 on both axes; the offset along the normal of 2.2 texels
-    // (look.glsl) leads across the light the less, the steeper it falls; half a texel to spare.
-    const double texels = 2.83 + 2.2 * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
-    return margin(item) * std::min(texels / shadow_filter_texels, 1.0);
+    return margin(item) * std::min(filter_reach(approach) / shadow_filter_texels, 1.0);
 }
 
 void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,

@@ -187,7 +187,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     }
     FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
                      near_distance_for(s.looks, snapshot, s.view),
-                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}};
+                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}, s.framebuffer.samples() <= 1};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
     const std::vector<DrawnItem>& items = state.items;

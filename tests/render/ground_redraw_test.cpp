@@ -1,0 +1,161 @@
+// On grounds made of boxes, drawing only what changed gives the bytes of drawing everything, and is less.
+#include "drawing.h"
+#include "example_scenes.h"
+#include "random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr Color stone{176, 180, 184};
+
+BodyDescription slab(const Vec3& top, const Vec3& size, const Quat& rotation = Quat::Identity()) {
+    BodyDescription body = box_body(top - rotation * Vec3(0.0, 0.5 * size.y(), 0.0), size, stone, rotation);
+    body.type = BodyType::fixed;
+    return body;
+}
+
+Quat turned_about(const Vec3& axis, double radians) { return Quat(Eigen::AngleAxisd(radians, axis)); }
+
+// A floor, a ramp, a room, or two floors side by side, of 5 to 400 m.
+void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
+    const double size = std::pow(10.0, random.between(0.7, 2.6)), thick = random.between(0.2, 2.0);
+    const Vec3 whole(size, thick, size);
+    if (kind == 0) scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(Vec3::UnitY(), random.between(0.0, 1.5))));
+    if (kind == 1) {
+        const Vec3 axis = Vec3(random.between(-1.0, 1.0), 0.2, random.between(-1.0, 1.0)).normalized();
+        scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(axis, random.between(-0.6, 0.6))));
+    }
+    if (kind == 2) {   // some of the walls may stand before the eye
+        const double room = std::min(size, 30.0), high = random.between(2.0, 6.0);
+        scene.bodies.push_back(slab(Vec3::Zero(), Vec3(room, thick, room)));
+        scene.bodies.push_back(slab(Vec3(-0.5 * room, high, 0.0), Vec3(thick, high, room)));
+        scene.bodies.push_back(slab(Vec3(0.0, high, -0.5 * room), Vec3(room, high, thick)));
+        if (random.chance(0.5)) scene.bodies.push_back(slab(Vec3(0.5 * room, high, 0.0), Vec3(thick, high, room)));
+    }
+    if (kind == 3) {
+        scene.bodies.push_back(slab(Vec3(-0.5 * size, 0.0, 0.0), whole));
+        scene.bodies.push_back(slab(Vec3(0.5 * size, random.between(-0.5, 0.5), 0.0), whole));
+    }
+    for (BodyDescription& body : scene.bodies)
+        if (random.chance(0.3)) body.surface.pattern = Pattern::grid;
+}
+
+SceneDescription random_scene(unsigned seed) {
+    Random random(seed);
+    SceneDescription scene = empty_scene();
+    scene.output.width = 232;   // not a whole number of tiles
+    scene.output.height = 152;
+    scene.output.samples = seed % 7 == 0 ? 1 : 4;
+    scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 6.0), random.between(4.0, 12.0));
+    scene.camera.target = Vec3(0.0, 0.3, 0.0);
+    if (seed % 6 == 5) scene.camera.orbit = 40.0;
+    scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.1, 1.0), random.between(-1.0, 0.6));
+    if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);   // shadows without end
+    scene.light.shadows = seed % 8 != 6;   // without, nothing hides what darkening alone changes
+    add_ground(scene, random, seed % 4);
+    if (seed % 5 == 4) {
+        scene.bodies.push_back(ground_plane(stone, Pattern::checker));
+        scene.bodies.back().position.y() = -2.0;
+    }
+    const int count = 2 + int(random.between(0.0, 6.0));
+    for (int i = 0; i < count; ++i) {
+        const Vec3 size(random.between(0.2, 0.8), random.between(0.2, 0.8), random.between(0.2, 0.8));
+        scene.bodies.push_back(i % 3 == 2 ? ball_body(Vec3::Zero(), 0.4 * size.x(), random.color())
+                                          : box_body(Vec3::Zero(), size, random.color()));
+        scene.bodies.back().position = random.vector(2.0, 1.0, 2.0) + Vec3(0.0, 1.2, 0.0);
+        if (random.chance(0.2)) {
+            scene.bodies.back().type = BodyType::kinematic;
+            const Vec3 far = random.vector(5.0, 1.0, 5.0) + Vec3(0.0, 1.2, 0.0);
+            scene.bodies.back().keyframes = {{0.0, scene.bodies.back().position, Quat::Identity()},
+                                                 {2.0, far, Quat::Identity()}};
+        }
+    }
+    if (seed % 9 == 8) scene.bodies.push_back(mesh_body(Vec3(0.5, 0.8, 0.0), torus_asset(0.4, 0.15), random.color()));
+    if (seed % 10 == 9)
+        scene.cords.push_back({scene.bodies.size() - 1, Vec3(0.0, 0.1, 0.0), Vec3(0.5, 3.0, 0.0), 0.03, {60, 60, 60}});
+    return scene;
+}
+
+// Some stay where they are; the others roll, fly off, leave the ground, or come back.
+void move(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
+    const double share = random.between(0.1, 0.8), way = std::pow(10.0, random.between(-3.0, -0.3));
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+        BodyState& body = snapshot.bodies[i];
+        if (scene.bodies[i].type == BodyType::fixed || !random.chance(share)) continue;
+        body.origin += random.vector(way);
+        if (random.chance(0.3)) body.origin = random.vector(3.0, 1.0, 3.0) + Vec3(0.0, 1.2, 0.0);
+        if (random.chance(0.05)) body.origin = random.vector(std::pow(10.0, random.between(0.5, 2.5)));
+        if (random.chance(0.6)) body.orientation = random.turn();
+    }
+}
+
+std::size_t different_pixels(const Image& a, const Image& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 4)
+        count += !std::equal(&a.pixels[i], &a.pixels[i] + 4, &b.pixels[i]);
+    return count;
+}
+
+// One draws all frames, another every second one, as two workers do. The part of all pictures that was redrawn.
+double draw_partly(unsigned seeds) {
+    RenderOptions everything;
+    everything.full_redraw = true;
+    double redrawn = 0.0, frames = 0.0;
+    for (unsigned seed = 0; seed < seeds; ++seed) {
+        const SceneDescription scene = random_scene(seed);
+        Renderer partial(scene, {}), second(scene, {}), full(scene, everything);
+        Image frame, half, truth;
+        Random random(1000 + seed);
+        Snapshot snapshot = first_snapshot(scene);
+        for (int step = 0; step < 20; ++step) {
+            if (step % 10 == 9) snapshot.time += 0.5;   // an orbiting camera goes on
+            partial.render(snapshot, frame);
+            full.render(snapshot, truth);
+            EXPECT_EQ(different_pixels(frame, truth), 0u) << "scene " << seed << ", step " << step;
+            if (step % 2 == 0) {
+                second.render(snapshot, half);
+                EXPECT_EQ(different_pixels(half, truth), 0u) << "scene " << seed << ", step " << step << ", second worker";
+            }
+            if (frame != truth) return 1.0;
+            for (const Rectangle& r : partial.changed()) redrawn += double(r.width) * r.height / (232.0 * 152.0);
+            frames += 1.0;
+            move(scene, random, snapshot);
+        }
+    }
+    return redrawn / frames;
+}
+
+TEST(GroundRedraw, HasTheBytesOfAFullRedrawOnBoxes) {
+    EXPECT_LT(draw_partly(24), 0.6) << "of the pictures: the test must have something to leave out";
+}
+
+// A small step on a large floor: not more is redrawn than on a plane, wherever the ground's ball and its far corners are.
+TEST(GroundRedraw, RedrawsLittleOnALargeBox) {
+    const auto redrawn = [](const BodyDescription& ground) {
+        SceneDescription scene = empty_scene();
+        scene.camera.eye = Vec3(6.0, 4.0, 9.0);
+        scene.bodies.push_back(ground);
+        scene.bodies.push_back(box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 130, 60}));
+        scene.bodies.push_back(box_body(Vec3(1.5, 0.5, 1.0), Vec3::Ones(), {200, 130, 60}));
+        scene.bodies.push_back(ball_body(Vec3(-1.5, 0.6, 1.0), 0.6, {60, 110, 200}));
+        Renderer renderer(scene, {});
+        Snapshot snapshot = first_snapshot(scene);
+        Image frame;
+        renderer.render(snapshot, frame);
+        snapshot.bodies[3].origin.x() += 0.01;
+        renderer.render(snapshot, frame);
+        double pixels = 0.0;
+        for (const Rectangle& r : renderer.changed()) pixels += double(r.width) * r.height;
+        return pixels / double(frame.width * frame.height);
+    };
+    const double on_plane = redrawn(ground_plane(stone));
+    for (const double size : {20.0, 60.0, 200.0})
+        EXPECT_LT(redrawn(slab(Vec3::Zero(), Vec3(size, 1.0, size))), 1.2 * on_plane) << size << " m";
+}
+
+}  // namespace
+}  // namespace tumble
