@@ -90,8 +90,8 @@ def main():
     window, renderer = window_of(boxes, width, height, eye, target)
     encoder = subprocess.Popen(
         ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", shape, "-framerate", str(FPS),
-         "-i", "-", "-vf", "vflip", "-c:v", "libx264", "-preset", "veryfast", "-crf", "21", "-bf", "0", "-threads", "4",
-         "-pix_fmt", "yuv420p", "-x264-params", "mbtree=0:rc-lookahead=0:ipratio=2.2:partitions=p8x8", clip],
+         "-i", "-", "-vf", "vflip", "-c:v", "libx264", "-preset", "veryfast", "-qp", "22", "-bf", "0", "-threads", "2",
+         "-pix_fmt", "yuv420p", "-x264-params", "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8", clip],
         stdin=subprocess.PIPE)
     with open(path, "rb") as poses:
         for frame in range(frames):
