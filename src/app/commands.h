@@ -21,6 +21,7 @@ struct RenderCommand {
     SceneOverrides overrides;
     RenderOptions drawing;
     FrameTimes times = FrameTimes::constant_rate;
+    double start = 0.0;   // s of the scene: what comes before is not drawn
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
     int blur_samples = 8;   // moments of an open shutter

@@ -82,8 +82,9 @@ Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, cons
 
 Drawer::~Drawer() = default;
 
-void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times) {
-    FrameOrder order(workers_.size());
+void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
+                 std::int64_t first) {
+    FrameOrder order(workers_.size(), first);
     std::vector<std::thread> threads;
     const auto stop = [&] {
         poses.cancel();
@@ -95,7 +96,7 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
         for (std::size_t i = 0; i < workers_.size(); ++i)
             threads.emplace_back([&, i] {
                 try {
-                    tend(i, poses, order, times);
+                    tend(i, poses, order, times, first);
                 } catch (...) {
                     order.fail(std::current_exception());
                 }
@@ -110,10 +111,10 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
     stop();
 }
 
-/// What to draw; false: the frame shows what the one before shows.
-bool Drawer::follow(Exposure& exposure) {
-    if (!forms_.picture() || !follow_picture(exposure)) exposure.moments.clear();
-    if (exposure.aovs && !aov_changes_.follow(*exposure.aovs)) exposure.aovs.reset();
+/// What to draw; false: the frame shows what the one before shows, which it may not where it is the first (`anew`).
+bool Drawer::follow(Exposure& exposure, bool anew) {
+    if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
+    if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
     return !exposure.moments.empty() || exposure.aovs;
 }
 
@@ -129,12 +130,15 @@ bool Drawer::follow_picture(Exposure& exposure) {
 }
 
 /// The life of the thread that looks after one worker.
-void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times) {
+void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times,
+                  std::int64_t first) {
     Slots& slots = *slots_[worker];
     const auto next_pose = [&]() -> std::optional<Exposure> {
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<Exposure> pose = poses.pop()) {
-            if (follow(*pose)) {
+            const bool wanted = follow(*pose, pose->frame == first);
+            if (pose->frame < first) continue;
+            if (wanted) {
                 if (!pose->moments.empty()) ++drawn_;
                 return pose;
             }

@@ -51,8 +51,10 @@ public:
     ~Drawer();
 
     /// Takes poses until their queue ends, and hands each finished frame on, in the order of the poses. Stops early
-    /// when `hand_on` says false. Throws RunError naming the frame where drawing fails or a process dies.
-    void run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times);
+    /// when `hand_on` says false. Of the frames before `first` only the poses are followed: what rests by then is drawn as if
+    /// all had been. Throws RunError naming the frame where drawing fails or a process dies.
+    void run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
+             std::int64_t first = 0);
 
     /// Ends the processes at once, from any thread; run() then comes back.
     void abandon();
@@ -65,9 +67,9 @@ public:
 
 private:
     class Slots;
-    bool follow(Exposure& exposure);
+    bool follow(Exposure& exposure, bool anew);
     bool follow_picture(Exposure& exposure);
-    void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times);
+    void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times, std::int64_t first);
 
     std::shared_ptr<CompilationTurns> turns_;
     std::vector<std::unique_ptr<DrawWorker>> workers_;

@@ -11,7 +11,8 @@ constexpr std::int64_t most_ahead = 4096;   // repeated frames that wait for a d
 
 }  // namespace
 
-FrameOrder::FrameOrder(std::size_t workers) : working_(workers), picture_of_worker_(workers, -1) {}
+FrameOrder::FrameOrder(std::size_t workers, std::int64_t first)
+    : first_(first), next_(first), working_(workers), picture_of_worker_(workers, -1) {}
 
 void FrameOrder::add(Frame frame, std::size_t worker, bool unchanged) {
     const std::lock_guard lock(mutex_);
@@ -69,13 +70,13 @@ std::optional<Frame> FrameOrder::next() {
 /// Frames come here in order, so that "the worker's frame before" is known by now.
 Frame FrameOrder::told_apart(Waiting waiting) {
     Frame& frame = waiting.frame;
-    TUMBLE_CHECK_EQ(frame.number > 0 || waiting.worker || frame.aov_slot, true);
+    TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);
     if (!frame.aov_slot) {
         frame.aovs = last_.aovs;
         frame.aov_slot = last_.aov_slot;
     }
     if (!waiting.worker) {
-        frame.repeated = frame.number > 0;
+        frame.repeated = frame.number > first_;
         frame.video = last_.video;
         frame.png = last_.png;
         frame.slot = last_.slot;

@@ -15,8 +15,8 @@ namespace tumble {
 
 class FrameOrder {
 public:
-    /// Of so many workers, from frame 0 on.
-    explicit FrameOrder(std::size_t workers);
+    /// Of so many workers, from a frame on, which must have all that is asked for.
+    explicit FrameOrder(std::size_t workers, std::int64_t first = 0);
 
     /// A frame that a worker has drawn; `unchanged`: it is the same picture as the frame it drew before.
     void add(Frame frame, std::size_t worker, bool unchanged);
@@ -48,7 +48,8 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::int64_t, Waiting> waiting_;
-    std::int64_t next_ = 0;
+    const std::int64_t first_;
+    std::int64_t next_;
     std::size_t working_;
     bool stopped_ = false;
     std::exception_ptr error_;

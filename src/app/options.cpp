@@ -5,6 +5,7 @@
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
+#include "scene/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -111,6 +112,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--size", line.render_size, "Picture size, in place of the scene's")
         ->check(some_name())->type_name("WxH");
     add_frames_of_time(*command, c.overrides);
+    command->add_option("--start", c.start, "Seconds that are simulated and not drawn. Frames keep their numbers and their pixels")
+        ->check(number_within(limits::duration.min, limits::duration.max))->option_text("S [0]");
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
     static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
@@ -137,6 +140,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
         "  tumble render scene.toml --speed 0.25             slow motion\n"
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
+        "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
         "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
         "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all");
     return command;

@@ -33,7 +33,7 @@ void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<voi
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+Pipeline::Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
                    AovFolder* aovs, Shutter shutter)
     : world_(world),
       frames_(frames),
@@ -59,7 +59,8 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
     });
     stages.start([this] { simulate(); });
     stages.start([this] {
-        drawer_.run(poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing);
+        drawer_.run(poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing,
+                    frames_.first);
         for_png_.close();
         for_aovs_.close();
         for_video_.close();
@@ -73,7 +74,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 void Pipeline::simulate() {
     const bool ahead = aovs_ != nullptr && aovs_->aovs().has(Aov::motion);
     std::optional<Exposure> waiting;   // where motion is wanted: for the poses of the next frame
-    for (std::int64_t n = 0; n < frames_; ++n) {
+    for (std::int64_t n = 0; n < frames_.end; ++n) {
         Exposure exposure = expose(n);
         if (waiting) waiting->aovs->next = exposure.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
@@ -93,7 +94,7 @@ Exposure Pipeline::expose(std::int64_t frame) {
     Exposure exposure;
     exposure.frame = frame;
     // What the shutter of the last frame does not see needs not be simulated.
-    const int parts = frame + 1 < frames_ ? shutter_.parts : shutter_.moments;
+    const int parts = frame + 1 < frames_.end ? shutter_.parts : shutter_.moments;
     for (int part = 0; part < parts; ++part) {
         if (frame > 0 || part > 0) world_.advance_frame();
         if (part < shutter_.moments) exposure.moments.push_back(world_.snapshot());
@@ -139,13 +140,13 @@ void Pipeline::write_video() {
         ++filmed_;
     }
     // After a stop the queue ends too, but the clip is not whole.
-    if (filmed_ != frames_) return;
+    if (filmed_ != frames_.count()) return;
     const StageTimer timer(times_.video);
     video_->finish();
 }
 
 std::int64_t Pipeline::finished() const {
-    std::int64_t done = frames_;
+    std::int64_t done = frames_.count();
     if (folder_ != nullptr) done = std::min(done, written_.load());
     if (aovs_ != nullptr) done = std::min(done, aovs_written_.load());
     if (video_ != nullptr) done = std::min(done, filmed_.load());

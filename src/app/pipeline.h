@@ -12,6 +12,7 @@
 #include "app/aov_folder.h"
 #include "app/drawer.h"
 #include "app/frame_folder.h"
+#include "app/frame_range.h"
 #include "app/stage_time.h"
 #include "output/video_writer.h"
 #include "scene/description.h"
@@ -35,10 +36,11 @@ struct PipelineTimes {
 
 class Pipeline {
 public:
-    /// Simulates and draws `frames` frames; each goes to the outputs that are there (null: not asked for).
+    /// Simulates the frames up to the range's end and draws those in it; each goes to the outputs that are there (null: not
+    /// asked for).
     /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
     /// the outputs want.
-    Pipeline(World& world, std::int64_t frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+    Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
              AovFolder* aovs = nullptr, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
@@ -58,7 +60,7 @@ private:
     std::int64_t finished() const;
 
     World& world_;
-    std::int64_t frames_;
+    FrameRange frames_;
     Drawer& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;

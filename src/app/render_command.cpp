@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 /// What was written, and where the time went.
 struct Summary {
     const SceneDescription& scene;
+    const FrameRange& frames;
     const Pipeline& pipeline;
     const FrameFolder* folder;
     const AovFolder* aovs;
@@ -33,25 +34,24 @@ struct Summary {
     double seconds;
 
     void print() const {
-        const std::int64_t frames = scene.frame_count();
         if (video != nullptr)
             fmt::print(stderr, "wrote {}: {} frames of {} x {}{}{}\n", clip->string(), video->frames_in_clip(),
-                       scene.output.width, scene.output.height, every_so_manieth(frames), stored());
+                       scene.output.width, scene.output.height, every_so_manieth(), stored());
         if (folder != nullptr)
-            fmt::print(stderr, "wrote {} to {}\n", frame_path(folder->path(), 0).string(),
-                       frame_path(folder->path(), frames - 1).filename().string());
+            fmt::print(stderr, "wrote {} to {}\n", frame_path(folder->path(), frames.first).string(),
+                       frame_path(folder->path(), frames.end - 1).filename().string());
         if (aovs != nullptr)
-            fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), 0).string(),
-                       aov_path(aovs->path(), frames - 1).filename().string(), names_of(aovs->aovs()));
-        print_times(frames);
+            fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), frames.first).string(),
+                       aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
+        print_times();
         if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
         if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
     }
 
-    std::string every_so_manieth(std::int64_t frames) const {
-        if (video->frames_in_clip() == frames) return "";
+    std::string every_so_manieth() const {
+        if (video->frames_in_clip() == frames.count()) return "";
         return fmt::format(" (every {}. of {}: the format holds no more)",
-                           video_format(*clip, clip_fps).frame_step, frames);
+                           video_format(*clip, clip_fps).frame_step, frames.count());
     }
 
     std::string stored() const {
@@ -59,10 +59,10 @@ struct Summary {
         return fmt::format(", stored as {} (what does not change is shown longer)", video->frames_stored());
     }
 
-    void print_times(std::int64_t frames) const {
+    void print_times() const {
         const PipelineTimes& t = pipeline.times();
         std::string text = fmt::format("{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s",
-                                       seconds, double(frames) / seconds, drawer.drawn(), t.simulation.cpu.load(),
+                                       seconds, double(frames.count()) / seconds, drawer.drawn(), t.simulation.cpu.load(),
                                        t.drawing.drawing.cpu.load());
         if (folder != nullptr) text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
         if (aovs != nullptr)
@@ -78,7 +78,7 @@ struct Summary {
     /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
     void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
                      fs::path (&path)(const fs::path&, std::int64_t)) const {
-        const auto older = std::lower_bound(there.begin(), there.end(), scene.frame_count());
+        const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
         if (older != there.end())
             fmt::print(stderr, "note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
                        path(where, *older).string());
@@ -103,6 +103,7 @@ void run_render(const RenderCommand& command) {
     SceneDescription scene = load_scene(command.scene, command.overrides);
     const double clip_fps = scene.output.fps;
     apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
+    const FrameRange frames = frames_from(scene, command.start);
     const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
@@ -116,7 +117,7 @@ void run_render(const RenderCommand& command) {
     }
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
-    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, scene.frame_count())),
+    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, frames.count())),
                   shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
@@ -133,15 +134,15 @@ void run_render(const RenderCommand& command) {
     std::optional<VideoWriter> video;
     if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.times);
 
-    Pipeline pipeline(world, scene.frame_count(), drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
+    Pipeline pipeline(world, frames, drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
                       aovs ? &*aovs : nullptr, shutter);
     {
-        Progress progress(scene.frame_count(), command.quiet);
+        Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     const ProcessEnd workers_end = drawer.finish();
     if (!command.quiet)
-        Summary{scene, pipeline, folder ? &*folder : nullptr, aovs ? &*aovs : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
+        Summary{scene, frames, pipeline, folder ? &*folder : nullptr, aovs ? &*aovs : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
                 clip_fps, wall_seconds() - start}
             .print();
 }

@@ -78,7 +78,7 @@ struct Seen {
 /// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
 std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64_t frames,
                        const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
-                       const std::function<Exposure(std::int64_t)>& exposure = sharp) {
+                       const std::function<Exposure(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
     BoundedQueue<Exposure> poses(4);
     std::thread simulation([&] {
         for (std::int64_t n = 0; n < frames; ++n)
@@ -98,7 +98,7 @@ std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64
                 meanwhile(frame.number);
                 return true;
             },
-            times);
+            times, first);
     } catch (...) {
         simulation.join();
         throw;
@@ -141,6 +141,32 @@ TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
         for (std::size_t n = 1; n < first.size(); ++n) {
             EXPECT_FALSE(first[n].repeated) << n;
             EXPECT_NE(first[n].png, first[n - 1].png) << n;
+        }
+    }
+}
+
+// Trembling tells: a pose that is drawn anew only when it has moved far enough is that of the whole clip.
+TEST(Drawer, AFrameIsTheSameWhicheverWasTheFirst) {
+    const SceneDescription scene = two_boxes();
+    const auto creeping = [](std::int64_t n) {
+        Exposure exposure = sharp(n);
+        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // .02 pixels are .9e-3 m
+        return exposure;
+    };
+    for (const auto& exposure : {std::function<Exposure(std::int64_t)>(creeping), std::function<Exposure(std::int64_t)>(blurred)}) {
+        Drawer whole(scene, {}, both, 2, 4);
+        const std::vector<Seen> all = draw(whole, scene, 36, [](std::int64_t) {}, exposure);
+        for (const std::int64_t first : {1, 7, 10, 20, 35}) {
+            Drawer drawer(scene, {}, both, 2, 4);
+            const std::vector<Seen> seen = draw(drawer, scene, 36, [](std::int64_t) {}, exposure, first);
+            ASSERT_EQ(seen.size(), std::size_t(36 - first));
+            EXPECT_FALSE(seen.front().repeated);
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                const Seen& expected = all[i + std::size_t(first)];
+                EXPECT_EQ(seen[i].number, expected.number);
+                EXPECT_EQ(seen[i].repeated, i > 0 && expected.repeated) << first << ' ' << i;
+                EXPECT_TRUE(seen[i].video == expected.video && seen[i].png == expected.png) << first << ' ' << i;
+            }
         }
     }
 }

@@ -51,6 +51,24 @@ class Render(program.ProgramTest):
         self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["1"])
         self.assertEqual(self.names(), ["a.mp4", "out", "out/frame_000000.png"])
 
+    def test_from_a_moment_on(self):
+        self.check(0, "render", "scene.toml", "--frames", "all", "--aov", "motion")
+        run = self.check(0, "render", "scene.toml", "-o", "a.mp4", "--frames", "out", "--aov", "motion", "--start", "0.25")
+        self.assertIn("wrote a.mp4: 3 frames of 48 x 32", run.stderr)
+        self.assertIn("wrote out/frame_000003.png to frame_000005.png", run.stderr)
+        self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["3"])
+        self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
+                         [f"aov_{n:06}.npz" for n in (3, 4, 5)] + program.frame_names(6)[3:])
+        for path in (self.folder / "out").iterdir():
+            self.assertEqual(path.read_bytes(), (self.folder / "all" / path.name).read_bytes(), path.name)
+        self.check(0, "render", "scene.toml", "--frames", "one", "--start", "0.3", "--duration", "0.3")
+        self.assertEqual([p.name for p in (self.folder / "one").iterdir()], ["frame_000003.png"])
+        self.assertEqual((self.folder / "one/frame_000003.png").read_bytes(),
+                         (self.folder / "all/frame_000003.png").read_bytes())
+        run = self.check(2, "render", "scene.toml", "--frames", "none", "--start", "0.51")
+        self.assertIn("--start: the scene's last frame is at 0.5 s (0.51 was given)", run.stderr)
+        self.assertFalse((self.folder / "none").exists())
+
     RESTING = program.SCENE.replace("position = [0.0, 3.0, 0.0]", "position = [0.0, 0.5, 0.0]").replace(
         "angular_velocity = [1.0, 2.0, 0.5]", "")
 

@@ -85,7 +85,7 @@ class WrongUsage(program.ProgramTest):
 
     def test_options_are_named(self):
         for option, value in (("--fps", "0"), ("--duration", "-1"), ("--size", "48by32"), ("--samples", "-3"),
-                              ("--threads", "-1")):
+                              ("--threads", "-1"), ("--start", "nan")):
             self.assertIn(option, self.check(2, "render", "scene.toml", f"{option}={value}").stderr)
 
     def test_an_error_in_the_scene_has_file_line_and_column(self):
