@@ -25,6 +25,7 @@ struct Body {
     bool spherical_top = false;              // equal moments, as a ball or a cube: the tensor is the same in every frame
     bool asleep = false;
     bool flying = false;                     // impacts = "exact": on a path known in closed form, not stepped
+    bool flew = false;                       // in the last step: by an integrator of higher order than Euler's two
     double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;

@@ -285,8 +285,12 @@ void World::State::apply_forces() {
 
 void World::State::solve_resting_contacts() {
     const double threshold = tuning::restitution_threshold * gravity_step();
-    pool.for_each(colliding.size(), tuning::parallel_grain,
-                  [&](std::size_t i, std::size_t) { hold_bounces(colliding[i], contacts, bodies, threshold); });
+    pool.for_each(colliding.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
+        hold_bounces(colliding[i], contacts, bodies, threshold);
+        // What only bounces is not held by a contact: it turns as in flight, which adds nothing to its spin.
+        for (const std::uint32_t k : colliding[i].bodies)
+            if (!by_whole_state(bodies[k])) force_steps[k].after = {bodies[k].momentum, bodies[k].angular_momentum};
+    });
     contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold}}, islands, pool);
     forget_blows();
 }
@@ -387,7 +391,8 @@ void World::State::move() {
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
         const bool in_contact = touched(i);
-        if (by_whole_state(body) && !in_contact) {
+        body.flew = by_whole_state(body) && !in_contact;
+        if (body.flew) {
             body.momentum = force_steps[i].before.momentum;
             body.angular_momentum = force_steps[i].before.angular_momentum;
             if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);

@@ -70,6 +70,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
         const Contact& c = contacts[k];
         // A blow that goes through a contact at rest may leave it parting by rounding: that is no bounce.
         if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * threshold && c.restitution > 0.0)) continue;
+        if (bodies[c.a].flew || bodies[c.b].flew) continue;
         bounced.contacts.push_back(k);
         for (const std::uint32_t i : {c.a, c.b})
             if (bodies[i].dynamic()) bounced.bodies.push_back(i);
