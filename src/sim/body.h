@@ -50,6 +50,7 @@ struct Body {
     Vec3 velocity = Vec3::Zero();            // m/s
     Vec3 angular_velocity = Vec3::Zero();    // rad/s
     Mat3 inverse_inertia = Mat3::Zero();     // world frame
+    Vec3 gyration = Vec3::Zero();            // rad/s, of this step (spin_limit.h): for what contact does
     // Position correction of this step: moves the pose and leaves the momenta alone.
     Vec3 push_velocity = Vec3::Zero();
     Vec3 push_angular_velocity = Vec3::Zero();

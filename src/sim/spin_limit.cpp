@@ -2,6 +2,7 @@
 
 #include "core/elementary.h"
 #include "sim/free_rotation.h"
+#include "sim/keyframe_track.h"
 #include "sim/tuning.h"
 
 #include <cmath>
@@ -13,29 +14,28 @@ namespace {
 Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
     const double length = form == RotationForm::quaternion ? 0.5 * h : h, square = length * length * omega.squaredNorm();
     if (square < tuning::spin_series_turn * tuning::spin_series_turn)
-        return (1.0 + square / 3.0 + square * square * (2.0 / 15.0) + square * square * square * (17.0 / 315.0)) * omega;
+        return (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0 + square * (62.0 / 2835.0 + square * (1382.0 / 155925.0)))))) * omega;
     const double x = std::sqrt(square);
     const auto [sine, cosine] = sincos(x);
     return sine / (cosine * x) * omega;
 }
 
-Vec3 by_series(const Body& body, double h, RotationForm form) {
+Vec3 by_series(const Body& body, double h) {
     const Vec3 &omega = body.angular_velocity, &l = body.angular_momentum;
     const Vec3 change = body.inverse_inertia * l.cross(omega);   // omega'
     // I^-1 turns with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
     const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) + body.inverse_inertia * l.cross(change);
-    return lengthened(omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega), h, form);
+    return omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
 }
 
-Vec3 in_closed_form(const Body& body, double h, RotationForm form) {
+Vec3 in_closed_form(const Body& body, double h) {
     const FreeRotation rotation(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
-    Quat turn = rotation.at(h) * body.orientation.conjugate();
-    if (turn.w() < 0.0) turn.coeffs() = -turn.coeffs();
-    const double sine = turn.vec().norm(), cosine = turn.w();   // of half the angle
-    if (sine == 0.0) return body.angular_velocity;
-    // advance_pose() turns by 2 atan(h |omega| / 2) or atan(h |omega|).
-    const double length = form == RotationForm::quaternion ? 2.0 * sine / cosine : 2.0 * sine * cosine / (cosine * cosine - sine * sine);
-    return length / (h * sine) * turn.vec();
+    return rotation_vector(rotation.at(h) * body.orientation.conjugate()) / h;
+}
+
+// Of torque-free rotation over the step.
+Vec3 mean(const Body& body, double h) {
+    return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, h) : in_closed_form(body, h);
 }
 
 }  // namespace
@@ -45,16 +45,18 @@ bool turns_too_far(const Body& body, double h) {
 }
 
 Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form) {
-    if (turns_too_far(body, h)) return body.angular_velocity;
-    return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, h, form) : in_closed_form(body, h, form);
+    return turns_too_far(body, h) ? body.angular_velocity : lengthened(mean(body, h), h, form);
+}
+
+Vec3 gyration(const Body& body, double h) {
+    if (body.spherical_top) return Vec3::Zero();
+    const Vec3 g = body.angular_velocity.cross(body.angular_momentum);
+    if (!(h * h * g.dot(body.inverse_inertia * g) > tuning::spin_steady * spin(body)) || turns_too_far(body, h)) return Vec3::Zero();
+    return mean(body, h) - body.angular_velocity;
 }
 
 Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form) {
-    if (!body.spherical_top) {
-        const Vec3 g = body.angular_velocity.cross(body.angular_momentum);
-        if (h * h * g.dot(body.inverse_inertia * g) > tuning::spin_growth * spin(body)) return mean_angular_velocity(body, h, form);
-    }
-    return turns_too_far(body, h) ? body.angular_velocity : lengthened(body.angular_velocity, h, form);
+    return turns_too_far(body, h) ? body.angular_velocity : lengthened(body.angular_velocity + gyration(body, h), h, form);
 }
 
 bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tuning::spin_growth) * before; }

@@ -19,8 +19,12 @@ bool turns_too_far(const Body& body, double h);
 /// longer by what advance_pose() turns too little; larger ones in closed form (free_rotation.h).
 Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form);
 
-/// The same in contact, but where omega adds no more than tuning::spin_growth to the spin, as if it stayed: a step turns by h omega,
-/// and what rolls has turned by its way over its radius.
+/// By how much the mean of the angular velocity over such a step differs from omega (rad/s); nothing where omega as it stands adds
+/// no more than tuning::spin_steady to the spin, or turns too far. What contact holds in a step is held for the mean: held for
+/// omega, a top would slip by as much on its tip, or wobble more and more.
+Vec3 gyration(const Body& body, double h);
+
+/// omega and its gyration, for advance_pose().
 Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form);
 
 /// Twice the energy of its spin (J).

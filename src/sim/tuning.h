@@ -274,8 +274,10 @@ inline constexpr double extrapolation_no_drag = 1e-14;
 /// Its steps at most in a span, half a second of computing: what asks for more is lighter than the air it pushes by far.
 inline constexpr int most_substeps = 200000;
 
-/// Growth of a body's spin energy in the turn of one step that is let pass in contact, which is solved for velocities that do not
-/// change in the step: boxes at 0.1 rad a step stay below.
+/// Growth of a body's spin energy in the turn of one step from which on the change of omega in the step counts: over 1e5 steps nothing
+/// to be seen. What lies in heaps stays below.
+inline constexpr double spin_steady = 1e-9;
+/// And that is let pass in contact.
 inline constexpr double spin_growth = 0.01;
 /// Turns of a step, rad, up to which the mean of omega follows from a series (its error: 1e-5 of the turn), and from which on it is
 /// not looked for: the tangent that gives it gets long.

@@ -280,6 +280,7 @@ void World::State::apply_forces() {
         advance_momenta(body, wrench.force, wrench.torque, h);
         force_steps[i].after = {body.momentum, body.angular_momentum};
         body.derive_velocities();
+        if (body.integrator != IntegratorKind::explicit_euler) body.gyration = gyration(body, h);
     });
 }
 
@@ -288,8 +289,10 @@ void World::State::solve_resting_contacts() {
     pool.for_each(colliding.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
         hold_bounces(colliding[i], contacts, bodies, threshold);
         // What only bounces is not held by a contact: it turns as in flight, which adds nothing to its spin.
-        for (const std::uint32_t k : colliding[i].bodies)
+        for (const std::uint32_t k : colliding[i].bodies) {
             if (!by_whole_state(bodies[k])) force_steps[k].after = {bodies[k].momentum, bodies[k].angular_momentum};
+            if (bodies[k].integrator != IntegratorKind::explicit_euler) bodies[k].gyration = gyration(bodies[k], h);
+        }
     });
     contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold}}, islands, pool);
     forget_blows();
@@ -319,7 +322,8 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
-        if (!before && !flights && body.dynamic())
+        if (flights && body.dynamic()) motions[i].angular_velocity += gyration(body, h);
+        else if (!before && body.dynamic())
             motions[i].angular_velocity = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
                                                      : mean_angular_velocity(body, h, settings.rotation);
         motions[i].angular_velocity += body.push_angular_velocity;

@@ -39,7 +39,7 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
         masses_[k].mass = body.mass;
         masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
         masses_[k].inverse_inertia = body.inverse_inertia * (length_ * length_);
-        put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
+        put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
         speed_scale_ = std::max(speed_scale_, (body.velocity - problem.before[bodies[k]].velocity).norm());
     }

@@ -197,7 +197,8 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
         const auto& [v, w] = problem.before[i];
         const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
         const Mat3 inverse = mass_unit_ * body.inverse_inertia;
-        put_all(state(k + 1), {v.x(), v.y(), v.z(), w.x(), w.y(), w.z(), mass_unit_ * body.inverse_mass});
+        const Vec3 turning = w + body.gyration;
+        put_all(state(k + 1), {v.x(), v.y(), v.z(), turning.x(), turning.y(), turning.z(), mass_unit_ * body.inverse_mass});
         put_all(state(k + 1) + 8, {});
         put_all(forces_.data() + 8 * (k + 1), {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
         put_all(before_.data() + 8 * (k + 1), {});
@@ -423,7 +424,7 @@ void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std:
         body.derive_velocities();
         const float* moved = state(k + 1) + 8;
         body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
-        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity;
+        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity - body.gyration;
         energies_.end(k, body);
     }
 }

@@ -27,7 +27,7 @@ namespace tumble {
 
 /// What both contact solvers work on. Bodies come with the velocities after the step's forces, kinematic ones with the mean of the
 /// step; velocities of the step's start beside them. A solver changes the momenta, derives the velocities, and sets the push velocities so that
-/// h (velocity + push) is the body's way in the step. Bodies that no impulse has reached are left as they are.
+/// h (velocity + push), with the gyration, is the body's way in the step. Bodies that no impulse has reached are left as they are.
 struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
