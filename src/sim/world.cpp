@@ -114,10 +114,12 @@ struct World::State {
         return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
                !body.push_angular_velocity.isZero(0.0);
     }
-    // Whether the body turns farther in flight than one tangent can stand for, by an integrator that knows better.
+    // Whether the body's turn in flight is no even one, or too far for one tangent: where it stops on its way it has turned as in
+    // free rotation, which keeps the energy all along.
     bool turns_freely(std::uint32_t i) const {
         const Body& body = bodies[i];
-        return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && turns_too_far(body, h) && !touched(i);
+        return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && !touched(i) &&
+               (!body.gyration.isZero(0.0) || turns_too_far(body, h));
     }
     const std::vector<BodyVelocity>& step_motions();
     const std::vector<StepLimit>& held_limits();
@@ -404,7 +406,7 @@ void World::State::move() {
         } else {
             const double spin_before = spin(body);
             const Quat orientation = body.orientation;
-            const bool freely = turns_freely(i);
+            const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i);
             advance_pose(body, motions[i].velocity, motions[i].angular_velocity, share * h, settings.rotation);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();

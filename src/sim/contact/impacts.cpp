@@ -80,15 +80,22 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());
     const ContactCluster cluster(bounced, contacts, bodies);
     std::vector<Projection::Demand> demands;
+    std::vector<VelocityRow> rows = cluster.rows();
+    std::vector<double> sign(cluster.size(), 1.0);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
-        const double length = cluster.length(i);
-        demands.push_back({std::uint32_t(i), (cluster.speed(i) - cluster.contact(i).bounce_velocity) / length, cluster.rounding() / length});
+        const double length = cluster.length(i), faster = cluster.speed(i) - cluster.contact(i).bounce_velocity;
+        if (faster > cluster.rounding()) {   // from a ceiling
+            sign[i] = -1.0;
+            rows[i].on_a = -rows[i].on_a;
+            rows[i].on_b = -rows[i].on_b;
+        }
+        demands.push_back({std::uint32_t(i), sign[i] * faster / length, cluster.rounding() / length});
     }
     std::vector<double> lambda;
-    Projection(cluster.rows(), cluster.bodies()).solve(demands, lambda);
+    Projection(rows, cluster.bodies()).solve(demands, lambda);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const Contact& c = cluster.contact(i);
-        if (lambda[i] > 0.0) add_impulse(c, lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
+        if (lambda[i] > 0.0) add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
     }
     for (const std::uint32_t i : bounced.bodies) bodies[i].derive_velocities();
 }

@@ -14,7 +14,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
                     const ImpactSettings& settings);
 
 /// Gives the points that bounced in a step their v_rel back after the step's forces, by the least change of motion: a ball
-/// keeps the speed it bounced with through the step, and with e = 1 retraces its fall. Against the forces alone: what meets
+/// keeps the speed it bounced with through the step, from the floor or a ceiling, and with e = 1 retraces its way. Against the forces alone: what meets
 /// the body next is not pushed out of the way. What flew right to higher order, does so again: it retraces its fall without.
 /// Changes momenta and velocities. `threshold` as in ImpactSettings.
 void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies, double threshold);
