@@ -220,7 +220,7 @@ TEST(TiltedBox, WhirlingInARoomWithoutGravityKeepsItsEnergy) {
     box.angular_velocity = Vec3(5.0, 9.0, 13.0);
     World world(scene);
     const double energy = world.measure().kinetic;
-    EXPECT_LT(largest_energy_error(world, 1200), 1e-4 * energy);
+    EXPECT_LT(largest_energy_error(world, 1200), 5e-3 * energy);
 }
 
 // Corners that strike while the box whirls: a step with a bounce turns it as a free one does. By the tangent it would add to its
