@@ -3,6 +3,7 @@
 #include "sim/tuning.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,17 +13,29 @@ namespace {
 // Which faces meet (feature_contact.cpp): what is left of a feature without its vertex, edge and side.
 std::uint64_t faces_of(const Manifold& m) { return m.points[0].feature >> 42; }
 
-// Of shapes with many corners there may be no room: then for the one that hangs highest.
+// Of shapes with many corners there may be no room: then of the two nearest each other, seen along the normal, the one that hangs
+// higher gives way. Were it the highest of all, the points would gather where the body is deepest: it would tip over to the other
+// side, and back, for ever.
 void add(const ContactPoint& p, Manifold& first, Manifold& more) {
     Manifold& to = first.count < Manifold::capacity ? first : more;
     if (to.count < Manifold::capacity) {
         to.points[std::size_t(to.count++)] = p;
         return;
     }
-    const auto higher = [](const ContactPoint& l, const ContactPoint& r) { return l.separation < r.separation; };
-    ContactPoint* highest[2];
-    for (Manifold* m : {&first, &more}) highest[m == &more] = std::max_element(m->points.begin(), m->points.end(), higher);
-    *(higher(*highest[0], *highest[1]) ? highest[1] : highest[0]) = p;
+    std::array<ContactPoint, 2 * Manifold::capacity + 1> all;
+    std::copy(more.points.begin(), more.points.end(), std::copy(first.points.begin(), first.points.end(), all.begin()));
+    all.back() = p;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t leaves = all.size() - 1;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const double apart = first.normal.cross(all[i].position - all[k].position).squaredNorm();
+            if (!(apart < nearest)) continue;
+            nearest = apart;
+            leaves = all[i].separation > all[k].separation ? i : k;
+        }
+    if (leaves < Manifold::capacity) first.points[leaves] = p;
+    else if (leaves + 1 < all.size()) more.points[leaves - Manifold::capacity] = p;
 }
 
 }  // namespace
