@@ -294,6 +294,9 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);
+    const auto old_ones = std::span(manifolds_).subspan(entry.first, entry.count);
+    for (std::size_t k = begin; remembers_ && !last.sank && k < found.manifolds.size(); ++k)
+        last.sank = missed(old_ones, found.manifolds[k], left_out(found.manifolds[k], found.scratch), radius);
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;

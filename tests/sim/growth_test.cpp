@@ -35,6 +35,17 @@ struct Found {
     std::vector<ContactPoint> left_out;
 };
 
+/// Between neighbours among the points, as seen from the middle, rad.
+double largest_gap(const std::vector<Manifold>& manifolds) {
+    std::vector<double> angles;
+    for (const Manifold& m : manifolds)
+        for (int i = 0; i < m.count; ++i) angles.push_back(std::atan2(m.points[std::size_t(i)].position.z(), m.points[std::size_t(i)].position.x()));
+    std::sort(angles.begin(), angles.end());
+    double gap = angles.front() + 2.0 * std::numbers::pi - angles.back();
+    for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
+    return gap;
+}
+
 }  // namespace
 
 // On one half of its corners, and then tilted towards one that was left out: it is taken in, and none is given up.
@@ -92,8 +103,7 @@ TEST(Growth, IsNeverWithoutAFirstManifold) {
     EXPECT_GT(now.first.count, 0);
 }
 
-// Of sixteen corners eight can be kept: one that sank comes in for a neighbour, not for one on the far side, though that hangs
-// highest.
+// Of sixteen corners eight can be kept: one that sank comes in, and they stay all round, though those on the far side hang higher.
 TEST(Growth, ForANeighbourWhereThereIsNoRoom) {
     std::vector<ContactPoint> points = polygon(16, 0.0);
     std::vector<Manifold> both(2);
@@ -103,14 +113,13 @@ TEST(Growth, ForANeighbourWhereThereIsNoRoom) {
         m.points[std::size_t(m.count++)] = points[2 * i];
     }
     points[5].separation = -2e-3;
-    points[6].separation = -0.9e-3;
     points[12].separation = 1e-3;
     Found now(points);
     const Manifold more = grow(both, 1.0, now.first, now.left_out);
     EXPECT_EQ(now.first.count + more.count, 8);
     EXPECT_TRUE(now.first.has(5) || more.has(5));
-    EXPECT_FALSE(now.first.has(6) || more.has(6));
-    for (const std::uint64_t stays : {0, 2, 4, 8, 10, 12, 14}) EXPECT_TRUE(now.first.has(stays) || more.has(stays)) << stays;
+    both = {now.first, more};
+    EXPECT_LT(largest_gap(both), 2.0);
 }
 
 // Tilted further and further round: the middle always lies between the points.
@@ -126,13 +135,21 @@ TEST(Growth, PointsDoNotGatherOnOneSide) {
         const Manifold more = grow(both, 1.0, now.first, now.left_out);
         both.assign(1, now.first);
         if (more.count > 0) both.push_back(more);
-        std::vector<double> angles;
-        for (const Manifold& m : both)
-            for (int i = 0; i < m.count; ++i) angles.push_back(std::atan2(m.points[std::size_t(i)].position.z(), m.points[std::size_t(i)].position.x()));
-        std::sort(angles.begin(), angles.end());
-        double gap = angles.front() + 2.0 * std::numbers::pi - angles.back();
-        for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
-        EXPECT_LT(gap, 2.0) << k;
+        EXPECT_LT(largest_gap(both), 2.0) << k;
+    }
+}
+
+// Looked at anew, tilted to another side: what was held is not enough, of many corners. Of eight it is not asked.
+TEST(Growth, IsWantedWherePointsWereMissed) {
+    for (const int corners : {8, 64}) {
+        const Found level(polygon(corners, 0.0));
+        for (const bool held : {false, true}) {
+            std::vector<ContactPoint> points = polygon(corners, 0.0);
+            const Vec3 to = held ? level.first.points[0].position : Vec3(std::cos(0.8), 0.0, std::sin(0.8));
+            for (ContactPoint& p : points) p.separation -= 1e-2 * p.position.dot(to);
+            const Found tilted(points);
+            EXPECT_EQ(missed(std::span(&level.first, 1), tilted.first, tilted.left_out, 1.0), corners == 64 && !held) << corners;
+        }
     }
 }
 

@@ -45,6 +45,19 @@ bool sank(double left_out, double deepest, double radius) {
     return left_out < -overlap && left_out < deepest - std::max(overlap, tuning::sunk_share * std::abs(deepest));
 }
 
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius) {
+    if (found.count + left_out.size() <= 2 * Manifold::capacity) return false;
+    double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
+    const auto look_at = [&](const ContactPoint& p) {
+        deepest = std::min(deepest, p.separation);
+        for (const Manifold& m : before)
+            if (m.part == found.part && m.has(p.feature)) deepest_known = std::min(deepest_known, p.separation);
+    };
+    std::for_each(found.points.begin(), found.points.begin() + found.count, look_at);
+    std::for_each(left_out.begin(), left_out.end(), look_at);
+    return std::isfinite(deepest_known) && sank(deepest, deepest_known, radius);
+}
+
 Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& left_out) {
     Manifold first = found, more = found;
     first.count = more.count = 0;
@@ -63,8 +76,10 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     const auto kept = [&](const ContactPoint& p) { return first.has(p.feature) || more.has(p.feature); };
     for (const ContactPoint& p : candidates)
         if (!kept(p) && sank(p.separation, deepest, radius)) add(p, first, more);
-    for (const ContactPoint& p : candidates)   // those of `found` come first
-        if (!kept(p) && first.count < found.count) add(p, first, more);
+    // Those of `found` come first. Of many corners these change all the time, as the body rolls: they are always in it.
+    const std::size_t always = candidates.size() > 2 * Manifold::capacity ? std::size_t(found.count) : 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], first, more);
     if (first.count == 0) {   // all that is left of the first has gone
         std::swap(first.points, more.points);
         std::swap(first.count, more.count);

@@ -14,6 +14,11 @@ namespace tumble {
 /// `radius` the smaller body's.
 bool sank(double left_out, double deepest, double radius);
 
+/// The same of a pair looked at anew, where the bodies have moved too far to follow the points: whether those of `before` were not
+/// enough. Only of shapes with more corners than two manifolds have room for: in heaps of boxes a third more manifolds would come
+/// of it.
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius);
+
 /// Chooses among the points of `found` and those left out of it again: all that the manifolds of `before` (one, or two) had,
 /// those that sank, and others while there is room. Returns the second manifold, without points where one is enough; what
 /// is left out now is appended to `left_out`. Where other faces meet than before, `found` stays as it is.
