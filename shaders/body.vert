@@ -1,6 +1,7 @@
 #version 410 core
-// Compiled for each kind of body: BOX, BALL or MESH is defined; SUNLIT where it may be turned to the sun, and
-// SHADOWED where shadows may fall on it, with WIDE where it is too large to look into one shadow map only.
+// Compiled for each kind of body: BOX, BALL or MESH is defined, with CHARTED for meshes that are darkened by the pixel;
+// SUNLIT where it may be turned to the sun, and SHADOWED where shadows may fall on it, with WIDE where it is too large to
+// look into one shadow map only.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "look.glsl"
@@ -8,7 +9,7 @@
 #include "material.glsl"
 #include "shadow_place.glsl"
 
-#ifdef MESH
+#if defined(MESH) && !defined(CHARTED)
 uniform sampler2D occlusion_atlas;
 #endif
 
@@ -48,7 +49,11 @@ flat out vec4 v_octants;            // what every other octant has more of diffu
 #endif
 #ifdef MESH
 out vec3 v_normal;                  // body axes
+#ifdef CHARTED
+out vec2 v_texel;                   // place in the occlusion atlas
+#else
 out float v_open;                   // share of the sky's light
+#endif
 #endif
 
 void main() {
@@ -115,11 +120,15 @@ void main() {
 #endif
     vec3 lift = rotate(instance_orientation, mesh_normal);
 #endif
-#ifdef MESH
+#ifdef CHARTED
+    v_texel = ((instance_tile.x > 0.0 ? instance_look.zw + mesh_texel : vec2(0.0)) + 0.5) * atlas.xy;
+#elif defined(MESH)
     int width = textureSize(occlusion_atlas, 0).x;
     int probe = int(instance_look.z) + int(mesh_probe);
     ivec2 texel = ivec2(probe % width, int(instance_look.w) + probe / width);
     v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? texel : ivec2(0), 0).r;
+#endif
+#ifdef MESH
     v_normal = normalize(mesh_normal / instance_scale.xyz);
     vec3 lift = rotate(instance_orientation, v_normal);
 #endif

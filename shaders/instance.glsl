@@ -9,6 +9,7 @@ layout(location = 6) in vec4 instance_look;          // metallic, pattern; z, w:
 layout(location = 7) in vec4 instance_tile;          // edge of its tiles there (0: none, it is open); face of a box;
                                                      // its surface's number; 1: looks into the near shadow map
 layout(location = 8) in uint mesh_probe;             // whose sky light a vertex of the scene's own meshes has
+layout(location = 9) in vec2 mesh_texel;             // or where its texel is, from its place in the occlusion atlas on
 
 #include "rotate.glsl"
 

@@ -3,7 +3,11 @@
 
 in vec3 v_local;                    // m
 in vec3 v_normal;
+#ifdef CHARTED
+in vec2 v_texel;
+#else
 in float v_open;
+#endif
 
 void main() {
     vec3 normal = normalize(v_normal);
@@ -12,5 +16,10 @@ void main() {
 #ifdef PATTERNED
     paint = triplanar_paint(v_pattern, v_local, normal);
 #endif
-    pixel = body_pixel(v_local, normal, v_diffuse, paint, v_open);
+#ifdef CHARTED
+    float open = textureLod(occlusion_atlas, v_texel, 0.0).r;
+#else
+    float open = v_open;
+#endif
+    pixel = body_pixel(v_local, normal, v_diffuse, paint, open);
 }

@@ -1,5 +1,7 @@
 #include "render/body_darkening.h"
 
+#include "render/fine_surface.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,15 +9,6 @@ namespace tumble {
 namespace {
 
 constexpr int coarse_ball_tile = 4;   // texels across
-
-// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
-Eigen::Vector3f octahedral(float x, float y) {
-    const float z = 1.0f - std::abs(x) - std::abs(y);
-    if (z >= 0.0f) return Eigen::Vector3f(x, y, z).normalized();
-    return Eigen::Vector3f((1.0f - std::abs(y)) * (x >= 0.0f ? 1.0f : -1.0f),
-                           (1.0f - std::abs(x)) * (y >= 0.0f ? 1.0f : -1.0f), z)
-        .normalized();
-}
 
 // A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
 void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {

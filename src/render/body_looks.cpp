@@ -1,6 +1,7 @@
 #include "render/body_looks.h"
 
 #include "render/far_limit.h"
+#include "render/fine_choice.h"
 #include "render/grounds.h"
 #include "render/mesh_occluders.h"
 #include "render/mesh_probes.h"
@@ -155,6 +156,7 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
     looks.window_cell = window_cell_for(scene, looks);
+    choose_fine_surfaces(scene, looks);
     return looks;
 }
 

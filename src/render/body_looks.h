@@ -3,6 +3,8 @@
 
 #include "core/vector.h"
 #include "render/camera_view.h"
+#include "render/fine_surface.h"
+#include "render/mesh_charts.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
 
@@ -10,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -30,6 +33,7 @@ struct BodyLook {
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
     bool ground = false;               // see grounds.h
+    std::ptrdiff_t fine_surface = -1;  // of SceneLooks::fine_surfaces; -1: none. A mesh that has one has charts
 };
 
 /// A box inside a mesh that stands for it where neighbours are darkened; body frame.
@@ -52,11 +56,13 @@ struct MeshLook {
     std::vector<std::uint32_t> probe_of_vertex;
     std::vector<MeshProbe> coarse_probes;          // for meshes that are small in the picture
     std::vector<std::uint32_t> coarse_of_probe;
+    std::optional<MeshCharts> charts;              // drawn by these, and darkened as its fine surface says
 };
 
 struct SceneLooks {
     std::vector<BodyLook> bodies;  // in scene order
     std::vector<MeshLook> meshes;  // each once, in order of first use
+    std::vector<FineSurface> fine_surfaces;
     std::vector<std::size_t> planes;   // which bodies are planes
     double typical_reach = 1.0;    // m, the median of the bodies', without grounds
     std::size_t mesh_triangles = 0;    // of all bodies together

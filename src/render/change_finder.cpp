@@ -2,6 +2,7 @@
 
 #include "render/frame_uniforms.h"
 #include "render/plane_marks.h"
+#include "render/volume_marks.h"
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,13 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
             // Of several samples the pixel's middle may lie beside the face, and takes its texel from the rim.
             marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high) : face_part(item, part.face));
         }
+        for (const OcclusionChanges::Patch& patch : occlusion.patches) {
+            if (item_moved[patch.body] != 0 || marks.all()) continue;
+            const BodyState& state = now.snapshot.bodies[patch.body];
+            const Vec3 center = view_->relative(state.origin) + state.orientation * patch.bounds.center();
+            marks.mark_hull(now.one_sample ? box_corners(center, state.orientation.toRotationMatrix(), 0.5 * patch.bounds.extent())
+                                           : now.items[patch.body].corners());
+        }
     }
     for (std::size_t i = 0; i < bodies; ++i)
         poses_[i] = {now.snapshot.bodies[i].origin, now.snapshot.bodies[i].orientation};
@@ -161,20 +169,26 @@ void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const Fram
         cells.add(now.items[i]);
     }
     std::vector<FaceMarks> grounds;
+    std::vector<VolumeMarks> volumes;
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] != 0 || !now.items[i].exists()) continue;
         if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
         if (!cells.shadows(now.items[i])) continue;
-        const bool by_faces = i < looks_->bodies.size() && looks_->bodies[i].ground &&
-                              looks_->bodies[i].kind == DrawKind::box && now.one_sample &&
-                              FaceMarks::suits(now.items[i], now.shadows);
-        if (by_faces) grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
-        else marks.mark_hull(now.items[i].corners());
+        const BodyLook* look = i < looks_->bodies.size() ? &looks_->bodies[i] : nullptr;
+        const bool large = look != nullptr && (look->ground || look->fine_surface >= 0) && now.one_sample &&
+                           FaceMarks::suits(now.items[i], now.shadows);
+        if (!large) marks.mark_hull(now.items[i].corners());
+        else if (look->kind == DrawKind::box) grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
+        else volumes.emplace_back(now.items[i], *look, *looks_, now.snapshot.bodies[i], light, *view_);
     }
-    if (grounds.empty()) return;
+    if (grounds.empty() && volumes.empty()) return;
     for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
         for (const FaceMarks& ground : grounds) {
+            ground.mark_shadow(items_[i], marks);
+            ground.mark_shadow(now.items[i], marks);
+        }
+        for (const VolumeMarks& ground : volumes) {
             ground.mark_shadow(items_[i], marks);
             ground.mark_shadow(now.items[i], marks);
         }

@@ -1,8 +1,8 @@
 // Which tiles of the picture the movements since the last frame may have changed. A moved body is drawn anew where it was
 // and where it is; so is the ground under its old and new shadow and within its darkening, every body that lies behind it
-// as the sun sees it, and every surface whose darkening has other values than before. Of grounds made of boxes not the whole,
-// but the shadows on their faces (face_marks.h) and the texels that changed. What holds for the whole picture (the depths'
-// range, the shadow maps' place, a plane that moved) changes everything.
+// as the sun sees it, and every surface whose darkening has other values than before. Of grounds and of what has a fine
+// surface not the whole, but the shadows on them (face_marks.h, volume_marks.h) and the texels that changed. What holds for
+// the whole picture (the depths' range, the shadow maps' place, a plane that moved) changes everything.
 // Only ever too much is marked: the frame has the bytes of a full redraw.
 #pragma once
 

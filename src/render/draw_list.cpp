@@ -33,6 +33,7 @@ struct Item {
     std::uint32_t mesh;
     std::uint8_t face;      // of a box
     bool patterned, lit, wide;
+    bool charted = false;   // follows from the mesh
 };
 
 Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
@@ -128,7 +129,7 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
             batches.back().lit != item.lit || batches.back().wide != item.wide)
-            batches.push_back({item.mesh, item.patterned, item.lit, item.wide, instances.size(), 0});
+            batches.push_back({item.mesh, item.patterned, item.lit, item.wide, item.charted, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -161,6 +162,7 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const bool wide = scene.light.shadows && shadows.spans_maps(ball.center, ball.radius);
         if (look.kind != DrawKind::box) {
             visible.push_back(make_item(mesh_of(look, looks, ball, view), patterned, true, wide, distance, i, 0, true));
+            visible.back().charted = look.kind == DrawKind::mesh && looks.meshes[look.mesh].charts.has_value();
             continue;
         }
         // The faces of a box that can be seen, those in the sun apart from the others.

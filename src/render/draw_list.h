@@ -39,6 +39,7 @@ struct Batch {
     bool patterned = false;
     bool lit = true;                   // false: faces turned away from the sun, which need no look for shadows
     bool wide = false;                 // each pixel finds out which shadow map it lies in
+    bool charted = false;              // a mesh that is darkened by the pixel: see mesh_charts.h
     std::size_t first = 0, count = 0;  // of the instances
 };
 

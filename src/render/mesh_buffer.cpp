@@ -15,6 +15,7 @@ constexpr Attribute instance_attributes[] = {{4, offsetof(Instance, position)}, 
                                              {4, offsetof(Instance, scale)},    {4, offsetof(Instance, color)},
                                              {4, offsetof(Instance, look)},     {4, offsetof(Instance, tile)}};
 constexpr GLuint probe_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
+constexpr GLuint texel_attribute = probe_attribute + 1;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -32,6 +33,7 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
       probes_(gl, GlKind::buffer),
+      texels_(gl, GlKind::buffer),
       index_count_(GLsizei(data.indices.size())),
       closed_(data.closed) {
     using Vertex = MeshAsset::Vertex;
@@ -46,6 +48,11 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
         fill(gl, GL_ARRAY_BUFFER, probes_, data.probe_of_vertex);
         gl.EnableVertexAttribArray(probe_attribute);
         gl.VertexAttribIPointer(probe_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
+    }
+    if (!data.texels.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, texels_, data.texels);
+        gl.EnableVertexAttribArray(texel_attribute);
+        gl.VertexAttribPointer(texel_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(std::array<float, 2>), nullptr);
     }
     for (GLuint i = 0; i < std::size(instance_attributes); ++i) {
         gl.EnableVertexAttribArray(first_instance_attribute + i);

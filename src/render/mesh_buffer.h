@@ -4,6 +4,7 @@
 #include "render/draw_list.h"
 #include "render/gl_object.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -13,6 +14,7 @@ struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only the scene's own meshes have probes
+    std::span<const std::array<float, 2>> texels;    // likewise: those with charts
     bool closed = true;
 };
 
@@ -28,7 +30,7 @@ public:
 
 private:
     const GlFunctions* gl_;
-    GlObject array_, vertices_, indices_, probes_;
+    GlObject array_, vertices_, indices_, probes_, texels_;
     GLsizei index_count_;
     mutable GLuint instances_ = 0;   // the buffer that the array points to
     bool closed_;

@@ -80,7 +80,7 @@ std::size_t level_for(const BodyLook& look, const SceneLooks& looks, double devi
 std::size_t level_in_view(const BodyLook& look, const SceneLooks& looks, const Vec3& center, const CameraView& view) {
     // Beside the picture's middle what is off by so much lies |p| / depth times as far off in it.
     const double depth = center.dot(view.forward()) - look.bound_radius, distance = center.norm() + look.bound_radius;
-    if (!(depth > 0.0)) return 0;
+    if (!(depth > 0.0) || looks.meshes[look.mesh].charts) return 0;
     return level_for(look, looks, most_detail_error * view.pixel_size() * depth * depth / distance);
 }
 

@@ -20,7 +20,7 @@ void MeshLibrary::make_primitive(std::size_t mesh) {
                           : mesh == face_mesh     ? make_face()
                           : mesh == cylinder_mesh ? make_cylinder(cylinder_sides)
                                                   : make_ball(int(mesh - first_ball_mesh));
-    meshes_[mesh].emplace(*gl_, MeshData{made.vertices, made.indices, {}, closed});
+    meshes_[mesh].emplace(*gl_, MeshData{made.vertices, made.indices, {}, {}, closed});
 }
 
 void MeshLibrary::make(std::size_t mesh, MeshDetails& details) {
@@ -29,11 +29,14 @@ void MeshLibrary::make(std::size_t mesh, MeshDetails& details) {
     const MeshLook& look = looks_->meshes[which];
     const Closedness form = closedness(look.asset->surface);
     const bool closed = form.closed() && form.signed_volume > 0.0;
-    if (level == 0) {
-        meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, closed});
+    if (look.charts && level == 0) {
+        const MeshCharts& charts = *look.charts;
+        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, closed});
+    } else if (level == 0) {
+        meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, closed});
     } else {
         const MeshDetail& detail = details.at(which, level);
-        meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, closed});
+        meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, closed});
     }
 }
 

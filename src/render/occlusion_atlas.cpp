@@ -1,12 +1,14 @@
 #include "render/occlusion_atlas.h"
 
 #include "render/body_darkening.h"
+#include "render/fine_darkening.h"
 #include "render/occlusion_places.h"
 #include "render/plane_darkening.h"
 #include "render/plane_patch.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -48,13 +50,15 @@ struct OcclusionMaker::State {
         lay_out_places(looks, atlas);
         body_rows = atlas.height;
         atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
+        fine.resize(looks.fine_surfaces.empty() ? 0 : looks.bodies.size());
     }
 
     void follow(const Snapshot& snapshot);
     void find_planes(const Snapshot& snapshot, const CameraView& view);
-    void forget_touched(const Visibility& visibility);
+    void forget_touched(const Visibility& visibility, const OccluderFinder& movers);
     void update_windows(const Snapshot& snapshot);
     void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
+    void update_fine(std::size_t body, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
     void store_ground(std::size_t body, int x, int y, int size, const float* open);
     Vec3 center_of(std::size_t body) const {   // of the ball around it
@@ -77,6 +81,7 @@ struct OcclusionMaker::State {
     PlaneDarkening plane_darkening;
     BodyDarkening body_darkening{looks};
     std::vector<std::size_t> found;          // what may darken the body at hand
+    std::vector<std::optional<FineDarkening>> fine;   // of fine surfaces, when first seen
 };
 
 // Takes in the new poses: the occluders, and which of them moved.
@@ -133,16 +138,15 @@ void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraVi
 }
 
 // Those that something has moved near to or away from.
-void OcclusionMaker::State::forget_touched(const Visibility& visibility) {
+void OcclusionMaker::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
     if (anew || moved_much) {
         for (Made& body : made) body.faces = 0;
         return;
     }
     if (moved.empty()) return;
-    const OccluderFinder movers(moved);
     for (std::size_t i = 0; i < made.size(); ++i)   // what is out of sight waits until it is seen
         if (made[i].faces != 0 &&
-            (!visibility.bodies[i] || movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius))))
+            (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 && movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
             made[i].faces = 0;
 }
 
@@ -258,6 +262,27 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     if (changed) changes.bodies.push_back({body, faces});
 }
 
+// Only what moved, or all where much did, has been said so by forget_touched().
+void OcclusionMaker::State::update_fine(std::size_t body, const OccluderFinder& movers) {
+    const BodyLook& look = looks.bodies[body];
+    Made& known = made[body];
+    if (known.faces != 0 && moved.empty()) return;
+    std::optional<FineDarkening>& darkening = fine[body];
+    const bool all = known.faces == 0;
+    if (!darkening || all) {
+        const FineBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)], poses[body].origin - reference,
+                             poses[body].orientation.toRotationMatrix(), look.reach};
+        if (!darkening) darkening.emplace();
+        darkening->place(place);
+    }
+    known.faces = 1;
+    const OcclusionPlace& at = atlas.places[body];
+    darkening->update(occluders, finder, all ? nullptr : &movers, planes, [&](const FineSurface::Block& block, const float* open) {
+        if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
+            changes.patches.push_back({body, block.bounds});
+    });
+}
+
 OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)
     : state_(std::make_unique<State>(looks, reference)) {}
 OcclusionMaker::~OcclusionMaker() = default;
@@ -271,10 +296,14 @@ const OcclusionChanges& OcclusionMaker::update(const Snapshot& snapshot, const C
     s.changes.first_row = OcclusionAtlas::most_rows;
     s.follow(snapshot);
     s.find_planes(snapshot, view);
-    s.forget_touched(visibility);
+    const OccluderFinder movers(s.moved);
+    s.forget_touched(visibility, movers);
     s.update_windows(snapshot);
-    for (std::size_t i = 0; i < s.made.size(); ++i)
-        if (visibility.bodies[i] && s.atlas.places[i].size > 0) s.update_body(i, visibility.faces[i], view);
+    for (std::size_t i = 0; i < s.made.size(); ++i) {
+        if (!visibility.bodies[i] || s.atlas.places[i].size == 0) continue;
+        if (s.looks.bodies[i].fine_surface >= 0) s.update_fine(i, movers);
+        else s.update_body(i, visibility.faces[i], view);
+    }
     s.anew = false;
     return s.changes;
 }

@@ -1,6 +1,7 @@
 // One small picture that holds how open to the sky every visible surface is: a tile for each face of a box, one
 // for each ball (octahedral), a run of texels for a mesh's vertices, and a window on each plane around the bodies.
 // Sky light changes slowly, so a few texels a face look like a value for every pixel, at a twentieth of the cost.
+// Large meshes and balls that stand still have texels all over (fine_surface.h).
 // A body's place is the same in every frame, and its texels are worked out anew only when it or a neighbour has moved.
 // Where there are many bodies, what is small in the picture gets a single value a face (a few for a ball, some tens for
 // a mesh); in between the two are mixed, by the size alone, so that nothing jumps. So the work is bounded by the
@@ -59,8 +60,14 @@ struct OcclusionChanges {
         int face;
         Eigen::Vector2d low, high;
     };
-    std::vector<Body> bodies;   // but grounds made of boxes
-    std::vector<Part> parts;    // of those
+    /// What of a body with a fine surface lies within these bounds of its frame.
+    struct Patch {
+        std::size_t body;
+        Bounds bounds;
+    };
+    std::vector<Body> bodies;     // but grounds made of boxes, and those with fine surfaces
+    std::vector<Part> parts;      // of the former
+    std::vector<Patch> patches;   // of the latter
     bool windows_moved = false;   // or appeared, or went: texels of planes are elsewhere
     int first_row = 0, end_row = 0;   // of the texels
 };

@@ -35,7 +35,11 @@ bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& 
         const BodyLook& look = looks.bodies[i];
         OcclusionPlace place;
         bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane;
-        if (look.kind == DrawKind::box) {
+        if (look.fine_surface >= 0) {
+            const FineSurface& surface = looks.fine_surfaces[std::size_t(look.fine_surface)];
+            place.size = look.kind == DrawKind::ball ? surface.width : 1;
+            fits = shelves.take(surface.width, surface.height, place.x, place.y);
+        } else if (look.kind == DrawKind::box) {
             place.size = box_tile(look, looks, fineness);
             fits = shelves.take(6 * place.size, place.size, place.x, place.y);
         } else if (look.kind == DrawKind::ball) {

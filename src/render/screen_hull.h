@@ -18,7 +18,7 @@ inline double turn(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
 /// Some points, without a heap: hulls are made of a body's corners, thousands of them a frame.
 class FewPoints {
 public:
-    static constexpr std::size_t most = 8;
+    static constexpr std::size_t most = 16;
 
     void push_back(const ScreenPoint& p) { points_[count_++] = p; }
     void pop_back() { --count_; }

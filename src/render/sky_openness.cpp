@@ -27,6 +27,19 @@ void SurfacePoints::add(const Eigen::Vector3f& position, const Eigen::Vector3f& 
     open.push_back(1.0f);
 }
 
+void SurfacePoints::add(const SurfacePoints& others, std::size_t first, std::size_t count) {
+    const auto append = [&](std::vector<float>& to, const std::vector<float>& from) {
+        to.insert(to.end(), from.begin() + std::ptrdiff_t(first), from.begin() + std::ptrdiff_t(first + count));
+    };
+    append(x, others.x);
+    append(y, others.y);
+    append(z, others.z);
+    append(nx, others.nx);
+    append(ny, others.ny);
+    append(nz, others.nz);
+    open.insert(open.end(), count, 1.0f);
+}
+
 TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
     const Eigen::Matrix3f& m = occluder.to_local;
     const Eigen::Vector3f c = occluder.center, half = occluder.half_size;

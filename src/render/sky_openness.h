@@ -22,6 +22,8 @@ struct SurfacePoints {
     std::size_t size() const { return x.size(); }
     void clear();
     void add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
+    /// Some of others, as if nothing were near them.
+    void add(const SurfacePoints& others, std::size_t first, std::size_t count);
 };
 
 /// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller

@@ -20,19 +20,23 @@ SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::p
     : gl_(&gl), shaders_(shaders), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
-            for (const bool lit : {true, false}) program({look.kind, look.pattern != Pattern::plain, lit, false});
-    if (has_cords) program({DrawKind::mesh, false, true, false});
+            for (const bool lit : {true, false})
+                program({look.kind, look.pattern != Pattern::plain, lit, false, look.kind == DrawKind::mesh && look.fine_surface >= 0});
+    if (has_cords) program({DrawKind::mesh, false, true, false, false});
 }
 
 SurfacePrograms::Variant SurfacePrograms::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
-    return {kind, batch.patterned, batch.lit, batch.wide};
+    return {kind, batch.patterned, batch.lit, batch.wide, batch.charted};
 }
 
 std::size_t SurfacePrograms::index_of(const Variant& variant) {
-    const std::size_t which = variant.kind == DrawKind::box ? (variant.lit ? 0 : 1) : variant.kind == DrawKind::ball ? 2 : 3;
+    const std::size_t which = variant.kind == DrawKind::box    ? (variant.lit ? 0 : 1)
+                              : variant.kind == DrawKind::ball ? 2
+                              : variant.charted                ? 4
+                                                               : 3;
     return 4 * which + (variant.patterned ? 2 : 0) + (variant.wide ? 1 : 0);
 }
 
@@ -49,6 +53,7 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
     }
     if (variant.patterned) files.defines.emplace_back("PATTERNED");
     if (variant.wide) files.defines.emplace_back("WIDE");
+    if (variant.charted) files.defines.emplace_back("CHARTED");
     made.emplace(*gl_, shaders_, files);
     connect(*made);
     return *made;

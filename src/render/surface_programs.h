@@ -38,7 +38,7 @@ public:
 private:
     struct Variant {
         DrawKind kind;
-        bool patterned, lit, wide;
+        bool patterned, lit, wide, charted;
     };
     static Variant variant_of(const Batch& batch);
     static std::size_t index_of(const Variant& variant);
@@ -47,7 +47,7 @@ private:
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
     bool shadows_;
-    std::array<std::optional<ShaderProgram>, 16> programs_;  // by kind, pattern, light and width
+    std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and width
 };
 
 }  // namespace tumble

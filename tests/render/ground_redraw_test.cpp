@@ -1,10 +1,11 @@
-// On grounds made of boxes, drawing only what changed gives the bytes of drawing everything, and is less.
+// On grounds made of boxes, meshes and balls, drawing only what changed gives the bytes of drawing everything, and is less.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tumble {
@@ -19,6 +20,41 @@ BodyDescription slab(const Vec3& top, const Vec3& size, const Quat& rotation = Q
 }
 
 Quat turned_about(const Vec3& axis, double radians) { return Quat(Eigen::AngleAxisd(radians, axis)); }
+
+// A surface over a square lattice, cells to a side, y as the function says; normals of the triangles around.
+template <class Height>
+std::shared_ptr<const MeshAsset> hills(double size, std::uint32_t cells, Height height) {
+    auto asset = std::make_shared<MeshAsset>(*sheet_asset(size, cells));
+    for (std::size_t i = 0; i < asset->vertices.size(); ++i) {
+        Vec3& p = asset->surface.vertices[i];
+        p.y() = height(p.x(), p.z());
+        const double e = 1e-3 * size;
+        const Vec3 normal = Vec3(height(p.x() - e, p.z()) - height(p.x() + e, p.z()), 2.0 * e,
+                                 height(p.x(), p.z() - e) - height(p.x(), p.z() + e)).normalized();
+        for (int k = 0; k < 3; ++k) {
+            asset->vertices[i].position[k] = float(p[k]);
+            asset->vertices[i].normal[k] = float(normal[k]);
+        }
+    }
+    return asset;
+}
+
+// Hills, a bowl with steep sides, a sheet of few triangles on the slant, a ring to stand in, or a ball to stand on.
+void add_curved_ground(SceneDescription& scene, Random& random, unsigned kind) {
+    const double size = std::pow(10.0, random.between(0.7, 2.0)), high = random.between(0.1, 0.8);
+    const auto cells = std::uint32_t(random.between(4.0, 40.0));
+    BodyDescription body = ball_body(Vec3(0.0, -size, 0.0), size, stone);
+    const auto waves = [&](double x, double z) { return high * (std::sin(x) * std::cos(0.8 * z) - 0.5); };
+    const auto hollow = [&](double x, double z) { return high * (x * x + z * z) / size; };
+    const Quat slant = turned_about(Vec3::UnitX(), random.between(-0.4, 0.4));
+    if (kind == 0) body = mesh_body(Vec3::Zero(), hills(size, cells, waves), stone);
+    if (kind == 1) body = mesh_body(Vec3(0.0, -0.5, 0.0), hills(size, cells, hollow), stone);
+    if (kind == 2) body = mesh_body(Vec3::Zero(), sheet_asset(size, std::max(cells / 8, 1u)), stone, slant);
+    if (kind == 3) body = mesh_body(Vec3(0.0, -0.6, 0.0), torus_asset(0.3 * size, 0.1 * size), stone);
+    body.type = BodyType::fixed;
+    if (random.chance(0.3)) body.surface.pattern = Pattern::grid;
+    scene.bodies.push_back(body);
+}
 
 // A floor, a ramp, a room, or two floors side by side, of 5 to 400 m.
 void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
@@ -44,7 +80,9 @@ void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
         if (random.chance(0.3)) body.surface.pattern = Pattern::grid;
 }
 
-SceneDescription random_scene(unsigned seed) {
+enum class Ground { boxes, curved };
+
+SceneDescription random_scene(unsigned seed, Ground ground) {
     Random random(seed);
     SceneDescription scene = empty_scene();
     scene.output.width = 232;   // not a whole number of tiles
@@ -56,7 +94,8 @@ SceneDescription random_scene(unsigned seed) {
     scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.1, 1.0), random.between(-1.0, 0.6));
     if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);   // shadows without end
     scene.light.shadows = seed % 8 != 6;   // without, nothing hides what darkening alone changes
-    add_ground(scene, random, seed % 4);
+    if (ground == Ground::boxes) add_ground(scene, random, seed % 4);
+    else add_curved_ground(scene, random, seed % 5);
     if (seed % 5 == 4) {
         scene.bodies.push_back(ground_plane(stone, Pattern::checker));
         scene.bodies.back().position.y() = -2.0;
@@ -101,12 +140,12 @@ std::size_t different_pixels(const Image& a, const Image& b) {
 }
 
 // One draws all frames, another every second one, as two workers do. The part of all pictures that was redrawn.
-double draw_partly(unsigned seeds) {
+double draw_partly(unsigned seeds, Ground ground) {
     RenderOptions everything;
     everything.full_redraw = true;
     double redrawn = 0.0, frames = 0.0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
-        const SceneDescription scene = random_scene(seed);
+        const SceneDescription scene = random_scene(seed, ground);
         Renderer partial(scene, {}), second(scene, {}), full(scene, everything);
         Image frame, half, truth;
         Random random(1000 + seed);
@@ -130,11 +169,15 @@ double draw_partly(unsigned seeds) {
 }
 
 TEST(GroundRedraw, HasTheBytesOfAFullRedrawOnBoxes) {
-    EXPECT_LT(draw_partly(24), 0.6) << "of the pictures: the test must have something to leave out";
+    EXPECT_LT(draw_partly(24, Ground::boxes), 0.6) << "of the pictures: the test must have something to leave out";
+}
+
+TEST(GroundRedraw, HasTheBytesOfAFullRedrawOnMeshesAndBalls) {
+    EXPECT_LT(draw_partly(30, Ground::curved), 0.6) << "of the pictures: the test must have something to leave out";
 }
 
 // A small step on a large floor: not more is redrawn than on a plane, wherever the ground's ball and its far corners are.
-TEST(GroundRedraw, RedrawsLittleOnALargeBox) {
+TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
     const auto redrawn = [](const BodyDescription& ground) {
         SceneDescription scene = empty_scene();
         scene.camera.eye = Vec3(6.0, 4.0, 9.0);
@@ -155,6 +198,11 @@ TEST(GroundRedraw, RedrawsLittleOnALargeBox) {
     const double on_plane = redrawn(ground_plane(stone));
     for (const double size : {20.0, 60.0, 200.0})
         EXPECT_LT(redrawn(slab(Vec3::Zero(), Vec3(size, 1.0, size))), 1.2 * on_plane) << size << " m";
+    for (const double size : {20.0, 60.0}) {
+        BodyDescription sheet = mesh_body(Vec3::Zero(), sheet_asset(size, 4), stone);
+        sheet.type = BodyType::fixed;
+        EXPECT_LT(redrawn(sheet), 1.5 * on_plane) << "a sheet of " << size << " m";
+    }
 }
 
 }  // namespace

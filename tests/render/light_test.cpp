@@ -177,6 +177,41 @@ TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
     }
 }
 
+// Nor does it depend on a mesh's triangles, be they few or more than there are values for; nor on a ball's size.
+TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    scene.bodies[1].position.y() = 0.5;
+    std::vector<Vec3> places;
+    for (const double gap : {0.1, 0.3, 0.6, 1.2})
+        for (const Vec3& at : {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
+            places.push_back(at);
+    // What the box takes: the picture without it less that with it.
+    const auto taken = [&] {
+        SceneDescription open = scene;
+        open.bodies[1].surface.visible = false;
+        const Image without = drawn(open), with = drawn(scene);
+        std::vector<double> levels;
+        for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
+        return levels;
+    };
+    const std::vector<double> on_plane = taken();
+    const auto compare = [&](const std::string& what) {
+        scene.bodies[0].type = BodyType::fixed;
+        scene.bodies[0].surface.roughness = 0.8;   // as the plane's
+        const std::vector<double> here = taken();
+        for (std::size_t i = 0; i < places.size(); ++i)
+            EXPECT_NEAR(here[i], on_plane[i], 4.0) << what << ", " << places[i].transpose();
+    };
+    for (const double size : {6.0, 16.0, 60.0})
+        for (const std::uint32_t cells : {1u, 8u, 120u}) {
+            scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(size, cells), {190, 190, 190});
+            compare(std::to_string(size) + " m, " + std::to_string(cells) + " cells");
+        }
+    scene.bodies[0] = ball_body(Vec3(0.0, -10.0, 0.0), 10.0, {190, 190, 190});
+    compare("a ball");   // the box stands in it by 4 cm at its corners
+}
+
 // A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
 // darkness and the haze of the one that is left are the same without it.
 TEST(Light, ALostBodyChangesNothingAroundTheRest) {
