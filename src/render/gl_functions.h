@@ -24,6 +24,7 @@
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                   \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                   \
     X(PFNGLCREATESHADERPROC, CreateShader)                                     \
+    X(PFNGLCULLFACEPROC, CullFace)                                             \
     X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                   \
     X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                         \
     X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                   \
@@ -59,6 +60,7 @@
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                                       \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                                       \
     X(PFNGLREADBUFFERPROC, ReadBuffer)                                         \
+    X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                   \
     X(PFNGLREADPIXELSPROC, ReadPixels)                                         \
     X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
     X(PFNGLSCISSORPROC, Scissor)                                               \

@@ -59,4 +59,17 @@ void MeshLibrary::draw(const Batch& batch) const {
     mesh.draw(instances_.name(), batch.first, batch.count);
 }
 
+void MeshLibrary::draw_in_view(const Batch& batch) const {
+    const MeshBuffer& mesh = *meshes_[batch.mesh];
+    gl_->Enable(GL_CULL_FACE);
+    mesh.draw(instances_.name(), batch.first, batch.count);
+    if (mesh.closed()) return;
+    gl_->CullFace(GL_FRONT);
+    gl_->Enable(GL_POLYGON_OFFSET_FILL);
+    gl_->PolygonOffset(1.0f, 8.0f);   // by what their depth changes over a pixel, and eight of the steps that depths have there
+    mesh.draw(instances_.name(), batch.first, batch.count);
+    gl_->Disable(GL_POLYGON_OFFSET_FILL);
+    gl_->CullFace(GL_BACK);
+}
+
 }  // namespace tumble

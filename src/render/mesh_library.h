@@ -18,6 +18,10 @@ public:
     /// Draws a batch; back faces of closed meshes are left out.
     void draw(const Batch& batch) const;
 
+    /// The same into the picture. Of open meshes back faces lie a little farther away than they are: where the surface is seen
+    /// edge-on, in folds finer than a pixel, depths round to either side, and specks of the underside would show.
+    void draw_in_view(const Batch& batch) const;
+
 private:
     void make(std::size_t mesh, MeshDetails& details);
     void make_primitive(std::size_t mesh);

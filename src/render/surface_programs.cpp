@@ -62,7 +62,7 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
 void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) {
     for (const Batch& batch : batches) {
         program(variant_of(batch)).use();
-        meshes.draw(batch);
+        meshes.draw_in_view(batch);
     }
 }
 

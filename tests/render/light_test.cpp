@@ -131,6 +131,31 @@ TEST(Light, ALargeGroundCatchesFarShadowsToo) {
     EXPECT_GT(brightness_at(on_box, scene, Vec3(-1.81, 0.0, 0.0)), 0.97 * bright);
 }
 
+// A sheet with waves lower than a pixel far away, seen from above: depths round, and specks of its underside must not show.
+TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
+    SceneDescription scene = shadow_scene();
+    scene.camera.eye = Vec3(0.0, 1.5, 9.0);
+    scene.camera.target = Vec3::Zero();
+    scene.light.shadows = false;
+    auto sheet = std::make_shared<MeshAsset>(*sheet_asset(60.0, 300));
+    for (MeshAsset::Vertex& v : sheet->vertices) {
+        const double a = 9.0 * double(v.position[0]), b = 7.0 * double(v.position[2]) + double(v.position[0]);
+        v.position[1] = float(0.03 * (std::sin(a) + std::sin(b)));
+        const Vec3 normal = Vec3(-0.27 * std::cos(a) - 0.03 * std::cos(b), 1.0, -0.21 * std::cos(b)).normalized();
+        for (int k = 0; k < 3; ++k) v.normal[k] = float(normal[k]);
+    }
+    scene.bodies = {mesh_body(Vec3::Zero(), sheet, {190, 190, 190})};
+    const Image image = drawn(scene);
+    int specks = 0;   // darker than all four neighbours, by 15 levels on average
+    for (int y = 1; y < image.height - 1; ++y)
+        for (int x = 1; x < image.width - 1; ++x) {
+            const double most = 2.0 * brightness(image, {x, y}) + 30.0;
+            specks += most < brightness(image, {x - 1, y}) + brightness(image, {x + 1, y}) &&
+                      most < brightness(image, {x, y - 1}) + brightness(image, {x, y + 1}) ? 1 : 0;
+        }
+    EXPECT_EQ(specks, 0);
+}
+
 // No acne: a ball and a box in full sun have no dark speckles on the sides turned to it.
 TEST(Light, LitFacesAreNotShadowedByThemselves) {
     SceneDescription scene = shadow_scene();
