@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -56,7 +57,8 @@ void BodyDarkening::darken_part(const Occluder& occluder, const Eigen::Vector3f&
 std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
                                      const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
     const int size = place.size;
-    const float reach = float(look.reach);
+    // What stands on a ground darkens it as far as a plane, however thin it is.
+    const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
     std::uint8_t faces = 0;
     for (int face = 0; face < 6; ++face) {
         if ((wanted >> face & 1) == 0) continue;
@@ -73,13 +75,13 @@ std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace&
                 if (look.ground) darken_part(around.occluders[i], corner, across, along, outward, size, reach);
                 else face_.darken(around.occluders[i], reach);
             }
-            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, reach);
+            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, own);
         }
         if (detail < 1.0f) {
             float open = 1.0f;
             for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
             for (const PlaneInView& plane : around.planes)
-                open *= share_left(at, outward, plane.normal, plane.height, reach);
+                open *= share_left(at, outward, plane.normal, plane.height, own);
             for (float& value : face_.open()) value = open + (value - open) * detail;
         }
         if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <tuple>
 
 namespace tumble {
 namespace {
+
+constexpr std::uint32_t none = ~0u;
 
 // Texels along the mesh's longest side, at most: charts must fit into the atlas.
 constexpr double most_along = 1000.0;
@@ -101,27 +102,34 @@ private:
 
     // By edges between equal points.
     void find_neighbours() {
-        std::map<std::array<float, 3>, std::uint32_t> points;
-        std::vector<std::uint32_t> point;
-        for (const MeshAsset::Vertex& v : asset_.vertices)
-            point.push_back(points.try_emplace({v.position[0], v.position[1], v.position[2]}, std::uint32_t(points.size())).first->second);
+        const auto place = [&](std::uint32_t vertex) {
+            const float (&p)[3] = asset_.vertices[vertex].position;
+            return std::tie(p[0], p[1], p[2]);
+        };
+        std::vector<std::uint32_t> order(asset_.vertices.size()), point(order.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+        for (std::size_t i = 0; i < order.size(); ++i)   // equal ones are the first of them
+            point[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? point[order[i - 1]] : order[i];
         struct Edge {
-            std::uint32_t low, high, triangle;
+            std::uint64_t points;
+            std::uint32_t side;   // of a triangle: three times its number, and which of three
         };
         std::vector<Edge> edges;
+        edges.reserve(asset_.indices.size());
         for (std::size_t i = 0; i < asset_.indices.size(); ++i) {
             const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-            const std::uint32_t a = point[asset_.indices[i]], b = point[asset_.indices[next]];
-            edges.push_back({std::min(a, b), std::max(a, b), std::uint32_t(i / 3)});
+            const auto [low, high] = std::minmax({point[asset_.indices[i]], point[asset_.indices[next]]});
+            edges.push_back({std::uint64_t(low) << 32 | high, std::uint32_t(i)});
         }
         std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+            return std::tie(a.points, a.side) < std::tie(b.points, b.side);
         });
-        neighbours_.resize(triangles_.size());
-        for (std::size_t i = 1; i < edges.size(); ++i)
-            if (edges[i].low == edges[i - 1].low && edges[i].high == edges[i - 1].high) {
-                neighbours_[edges[i].triangle].push_back(edges[i - 1].triangle);
-                neighbours_[edges[i - 1].triangle].push_back(edges[i].triangle);
+        neighbours_.assign(asset_.indices.size(), none);
+        for (std::size_t i = 1; i < edges.size(); ++i)   // where more than two meet, one of them goes another way
+            if (edges[i].points == edges[i - 1].points) {
+                neighbours_[edges[i].side] = edges[i - 1].side / 3;
+                neighbours_[edges[i - 1].side] = edges[i].side / 3;
             }
     }
 
@@ -154,8 +162,10 @@ private:
             if (!fits) continue;
             t.chart = chart;
             visit(t, 0.5, [&](int a, int b, double) { place(a, b) = {chart, float(t.height(a, b))}; });
-            for (const std::uint32_t n : neighbours_[open[next]])
-                if (triangles_[n].chart < 0 && triangles_[n].side == side) open.push_back(n);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t n = neighbours_[3 * open[next] + k];
+                if (n != none && triangles_[n].chart < 0 && triangles_[n].side == side) open.push_back(n);
+            }
         }
     }
 
@@ -206,12 +216,21 @@ private:
     }
 
     void place_vertices() {
-        std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
+        std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;   // of what a vertex has become
+        std::vector<int> chart;                                                   // of each that it has
         for (std::size_t i = 0; i < asset_.indices.size(); ++i) {
             const Triangle& t = triangles_[i / 3];
-            const auto [place, is_new] = known.try_emplace({asset_.indices[i], t.chart}, std::uint32_t(result_.vertices.size()));
-            result_.indices.push_back(place->second);
-            if (!is_new) continue;
+            std::uint32_t& last = latest[asset_.indices[i]];
+            std::uint32_t known = last;
+            while (known != none && chart[known] != t.chart) known = before[known];
+            if (known != none) {
+                result_.indices.push_back(known);
+                continue;
+            }
+            before.push_back(last);
+            chart.push_back(t.chart);
+            last = std::uint32_t(result_.vertices.size());
+            result_.indices.push_back(last);
             const MeshCharts::Chart& c = result_.charts[std::size_t(t.chart)];
             const auto& from = first_[std::size_t(t.chart)];
             result_.vertices.push_back(asset_.vertices[asset_.indices[i]]);
@@ -276,7 +295,7 @@ private:
     Vec3 low_ = Vec3::Zero();
     std::array<int, 3> count_{};   // texels along each axis
     std::vector<Triangle> triangles_;
-    std::vector<std::vector<std::uint32_t>> neighbours_;
+    std::vector<std::uint32_t> neighbours_;   // of each triangle three
     std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was seen there last
     std::vector<int> sides_;                  // of each chart
     std::vector<std::array<int, 2>> first_;   // texel of each chart, before it is laid out

@@ -192,13 +192,15 @@ TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
     scene.light.shadows = false;
     scene.bodies[1].position.y() = 0.5;
     const Image on_plane = drawn(scene);
-    for (const double size : {16.0, 40.0, 60.0}) {
+    for (const auto& [size, thick] : {std::pair{16.0, 1.0}, {40.0, 1.0}, {60.0, 1.0}, {16.0, 0.02}}) {
         scene.bodies[0] = wide_ground("box", size);
+        scene.bodies[0].shape = BoxShape{Vec3(size, thick, size)};
+        scene.bodies[0].position.y() = -0.5 * thick;
         const Image on_box = drawn(scene);
         for (const double gap : {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2})
             for (const Vec3& at : {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
                 EXPECT_NEAR(brightness_at(on_box, scene, at), brightness_at(on_plane, scene, at), 4.0)
-                    << size << " m, " << at.transpose();
+                    << size << " m, " << thick << " thick, " << at.transpose();
     }
 }
 
