@@ -31,5 +31,5 @@ void main() {
     diffuse += octants * v_octants.rgb;
     float paint = 1.0 - octants * v_octants.w;
 #endif
-    pixel = body_pixel(v_local, direction, diffuse, paint, open);
+    pixel = body_pixel(v_local, direction, diffuse, paint, open, vec2(0.0));
 }

@@ -29,8 +29,8 @@ layout(location = 0) out vec4 pixel;
 // The share of the sky's light at a place in the atlas, in texture coordinates.
 uniform sampler2D occlusion_atlas;
 
-// `paint`: what a pattern leaves of all its light.
-vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) {
+// `paint`: what a pattern leaves of all its light; `spread`: see bevel_lobe(), unused elsewhere.
+vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, vec2 spread) {
     vec3 to_eye = v_eye.xyz - place;
     float squared = max(dot(to_eye, to_eye), 1e-30);
     float air = haze_share(squared, v_eye.w);   // here: a large face's corners are far away
@@ -57,6 +57,10 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open) 
     surface.f0 = v_f0;
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
+#ifdef FILTERED
+    surface.lobe = bevel_lobe(v_rough.x, normal, normalize(to_eye + v_to_light), spread, clamp(surface.n_l, 0.0, 1.0),
+                              clamp(surface.n_v, 1e-3, 1.0));
+#endif
     surface.open = open;
     return vec4(displayed(mix(shade(surface) * paint, v_air, air)), v_rough.w);
 }

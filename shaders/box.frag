@@ -23,6 +23,16 @@ void main() {
     vec2 on_face = clamp(v_on_face, -v_face.xy, v_face.xy);
     // A rounded box's normal: away from the box that is smaller by the bevel.
     vec3 normal = vec3(max(on_face - v_face.zw, 0.0) + min(on_face + v_face.zw, 0.0), v_edges.x);
+    vec2 spread = vec2(0.0);
+#ifdef FILTERED
+    // Variance of how far the normal is bent, over the pixel: the mean of its square less the square of its mean. GGX's squared
+    // width is twice the variance of slopes.
+    vec2 footprint = 0.5 * max(fwidth(v_on_face), 1e-4 * v_edges.xx), bent = abs(on_face) - v_face.zw;
+    vec2 low = max(bent - footprint, 0.0), high = max(bent + footprint, 0.0);
+    vec2 mean = (high * high - low * low) / (4.0 * footprint);
+    vec2 squares = (high * high * high - low * low * low) / (6.0 * footprint);
+    spread = bevel_blur * 2.0 * max(squares - mean * mean, 0.0) / dot(normal, normal);
+#endif
     normal *= inversesqrt(dot(normal, normal));
 #ifdef PATTERNED
     float paint = pattern_paint(v_pattern.x, on_face / v_pattern.y, fwidth(v_on_face) / v_pattern.y);
@@ -30,5 +40,5 @@ void main() {
     float paint = 1.0 - crate_groove_depth * groove(v_on_face);
 #endif
     float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
-    pixel = body_pixel(vec3(on_face, 0.0), normal, v_diffuse, paint, open);
+    pixel = body_pixel(vec3(on_face, 0.0), normal, v_diffuse, paint, open, spread);
 }

@@ -19,6 +19,9 @@ struct Surface {
     float veil;
     float open;         // share of the sky's light that other bodies leave
     float sun;          // share of the sun's light that shadows leave
+#ifdef FILTERED
+    float lobe;         // see bevel_lobe()
+#endif
 };
 
 float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
@@ -30,6 +33,25 @@ float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
     // D V without 1/pi: the sun's light here is irradiance over pi
     return 0.5 * a2 / (d * d * mix(2.0 * n_l * n_v, n_l + n_v, a));
 }
+
+#ifdef FILTERED
+// The same where the normal turns within the pixel, of a box's face: `to_half` the way between sun and eye, `spread` what that
+// adds to the lobe's squared width along both axes.
+float bevel_lobe(float roughness, vec3 normal, vec3 to_half, vec2 spread, float n_l, float n_v) {
+    // Tokuyoshi and Kaplanyan 2019, Improved Geometric Specular Antialiasing: the lobe (GGX with two widths) is as much wider
+    float a = roughness * roughness, a2 = a * a;
+    vec2 wide = a2 + spread;
+    vec2 across = (to_half.xy * normal.z - normal.xy * to_half.z) * inversesqrt(normal.z * normal.z + normal.xy * normal.xy);
+    vec2 shares = across * across / wide;
+    float n_h = dot(normal, to_half);
+    float q = shares.x + shares.y + n_h * n_h;
+    // What was cut off at the brightest was no wider than this; spread out, it is as much darker.
+    float cut = max(a2, 0.5 * a / sqrt(brightest_highlight));
+    vec2 kept = cut / (cut + spread);
+    float left = kept.x * kept.y;
+    return min(0.5 / (sqrt(wide.x * wide.y) * q * q * mix(2.0 * n_l * n_v, n_l + n_v, a)), brightest_highlight * left * left);
+}
+#endif
 
 vec2 environment_scale(float roughness, float n_v) {
     // Karis 2014, Physically Based Shading on Mobile: the integral of the specular lobe, as scale and offset of F0
@@ -58,7 +80,12 @@ vec3 shade(Surface s) {
     float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
     vec3 fresnel = s.f0 + (1.0 - s.f0) * (grazing2 * grazing2 * grazing);
     float sun = n_l * (1.0 - occlusion_of_sun + occlusion_of_sun * s.open) * s.sun;
-    light += (s.diffuse + fresnel * min(specular_lobe(s.rough.x, n_h, n_l, n_v), 16.0)) * (sun_light * sun);
+#ifdef FILTERED
+    float lobe = s.lobe;
+#else
+    float lobe = min(specular_lobe(s.rough.x, n_h, n_l, n_v), brightest_highlight);
+#endif
+    light += (s.diffuse + fresnel * lobe) * (sun_light * sun);
 #endif
 
     vec2 environment = environment_scale(s.rough.x, n_v);

@@ -18,6 +18,9 @@ const float veil_of_rough = 0.2;                          // what is left of the
 const float corner_darkness = 0.5;                        // sky light lost where two planes meet
 const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels
 
+const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's colour
+const float bevel_blur = 0.25;                            // of the spread that linear light has on bevels: light is averaged
+                                                          // as it is shown, where highlights weigh less
 const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 
 const float ground_contrast = 0.13;                       // of a checker's fields and a body's pattern

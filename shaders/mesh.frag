@@ -21,5 +21,5 @@ void main() {
 #else
     float open = v_open;
 #endif
-    pixel = body_pixel(v_local, normal, v_diffuse, paint, open);
+    pixel = body_pixel(v_local, normal, v_diffuse, paint, open, vec2(0.0));
 }

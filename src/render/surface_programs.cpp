@@ -19,6 +19,8 @@ SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::p
                                  bool has_cords, bool shadows)
     : gl_(&gl), shaders_(shaders), shadows_(shadows) {
     for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
+    for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
             for (const bool lit : {true, false})
                 program({look.kind, look.pattern != Pattern::plain, lit, false, look.kind == DrawKind::mesh && look.fine_surface >= 0});
@@ -51,6 +53,7 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
         files.defines.emplace_back("SUNLIT");
         if (shadows_) files.defines.emplace_back("SHADOWED");
     }
+    if (variant.kind == DrawKind::box && variant.lit && metal_boxes_) files.defines.emplace_back("FILTERED");
     if (variant.patterned) files.defines.emplace_back("PATTERNED");
     if (variant.wide) files.defines.emplace_back("WIDE");
     if (variant.charted) files.defines.emplace_back("CHARTED");

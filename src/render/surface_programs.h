@@ -47,6 +47,7 @@ private:
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
     bool shadows_;
+    bool metal_boxes_ = false;   // highlights on bevels glitter where they are not filtered
     std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and width
 };
 

@@ -1,6 +1,7 @@
 // Light: colours come out as they were given, shadows lie where geometry puts them, contact is dark.
 #include "drawing.h"
 #include "example_scenes.h"
+#include "random.h"
 
 #include <gtest/gtest.h>
 
@@ -154,6 +155,45 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
                       most < brightness(image, {x, y - 1}) + brightness(image, {x, y + 1}) ? 1 : 0;
         }
     EXPECT_EQ(specks, 0);
+}
+
+// The sun on metal's rounded edges: dots along them, others in every frame. Where the picture is moved by parts of a pixel, few
+// pixels are much brighter in one than on average, but those that are so on wood as well, for there something ends.
+TEST(Light, MetalEdgesDoNotGlitter) {
+    SceneDescription scene = shadow_scene();
+    scene.bodies.clear();
+    Random random(4);
+    for (int i = 0; i < 24; ++i)
+        scene.bodies.push_back(box_body(Vec3(1.6 * (i % 6) - 4.0, 1.6 * (i / 6) - 2.0, 0.0), Vec3::Ones(), {200, 160, 60}, random.turn()));
+    const auto brightest = [&] {   // of each pixel: how much above the mean
+        std::vector<Image> images;
+        for (int i = 0; i < 16; ++i) {
+            RenderOptions options;
+            options.shift_x = (i % 4) / 4.0;
+            options.shift_y = (i / 4) / 4.0;
+            images.push_back(drawn(scene, options));
+        }
+        std::vector<double> above;
+        for (int y = 0; y < scene.output.height; ++y)
+            for (int x = 0; x < scene.output.width; ++x) {
+                double mean = 0.0, most = 0.0;
+                for (const Image& image : images) {
+                    mean += brightness(image, {x, y}) / 16.0;
+                    most = std::max(most, brightness(image, {x, y}));
+                }
+                above.push_back(most - mean);
+            }
+        return above;
+    };
+    const std::vector<double> wood = brightest();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        scene.bodies[i].surface.metallic = 1.0;
+        scene.bodies[i].surface.roughness = 0.1 + 0.1 * double(i % 3);
+    }
+    const std::vector<double> metal = brightest();
+    int glitter = 0;
+    for (std::size_t i = 0; i < wood.size(); ++i) glitter += wood[i] < 40.0 && metal[i] > 80.0 ? 1 : 0;
+    EXPECT_LT(glitter, 10) << "pixels";
 }
 
 // No acne: a ball and a box in full sun have no dark speckles on the sides turned to it.
