@@ -73,7 +73,10 @@ void choose_fine_surfaces(const SceneDescription& scene, SceneLooks& looks) {
             const MeshAsset* asset = looks.meshes[look.mesh].asset;
             auto known = std::find_if(charted.begin(), charted.end(), [&](const Charted& c) { return c.asset == asset; });
             if (known == charted.end()) {
-                if (!chart(looks, look, cell, reach / fewest_per_reach, charted)) continue;
+                if (!chart(looks, look, cell, reach / fewest_per_reach, charted)) {
+                    look.undarkened = true;   // its values would lie many times as far apart as what moves darkens
+                    continue;
+                }
                 known = charted.end() - 1;
             }
             if (!take(known->surface)) continue;

@@ -34,8 +34,10 @@ bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& 
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const BodyLook& look = looks.bodies[i];
         OcclusionPlace place;
-        bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane;
-        if (look.fine_surface >= 0) {
+        bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.undarkened;
+        if (fits) {
+            // stays open
+        } else if (look.fine_surface >= 0) {
             const FineSurface& surface = looks.fine_surfaces[std::size_t(look.fine_surface)];
             place.size = look.kind == DrawKind::ball ? surface.width : 1;
             fits = shelves.take(surface.width, surface.height, place.x, place.y);

@@ -279,6 +279,21 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     compare("a ball");   // the box stands in it by 4 cm at its corners
 }
 
+// However large a mesh is and whatever its vertices share: what is not near a body is not darkened by it.
+TEST(Light, ContactIsNotDarkFarAway) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    scene.bodies[1].position.y() = 0.5;
+    for (const double size : {30.0, 300.0, 3000.0})
+        for (const std::uint32_t cells : {30u, 150u}) {
+            scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(size, cells), {190, 190, 190});
+            scene.bodies[0].type = BodyType::fixed;
+            SceneDescription alone = scene;
+            alone.bodies[1].surface.visible = false;
+            EXPECT_LE(most_difference(drawn(scene), drawn(alone), scene, Vec3(3.0, 0.0, 0.0), 1.2), 1) << size << " m, " << cells;
+        }
+}
+
 // A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
 // darkness and the haze of the one that is left are the same without it.
 TEST(Light, ALostBodyChangesNothingAroundTheRest) {
