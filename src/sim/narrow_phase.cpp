@@ -233,7 +233,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
                                                         h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
-    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, found);
+    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, found);
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
     const double travel = a.travel + b.travel;
@@ -248,8 +248,9 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     if (now == Standing::out_of_date) now = standing(entry, a, b, reach, last, double(last.spent));
     if (now == Standing::holds) return;
     last.sank = last.sank || now == Standing::sank;
+    const double moved = last.spent;
     last.spent = 0.0f;
-    search(index, a, b, reach, found);
+    search(index, a, b, reach, moved, found);
 }
 
 // Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
@@ -281,7 +282,7 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
     return missed ? Standing::sank : told(stands);
 }
 
-void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, Found& found) {
+void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, Found& found) {
     const Entry& entry = entries_[index];
     Search& last = searches_[entry.search];
     const double radius = std::min(a.radius, b.radius);
@@ -294,9 +295,12 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);
-    const auto old_ones = std::span(manifolds_).subspan(entry.first, entry.count);
-    for (std::size_t k = begin; remembers_ && !last.sank && k < found.manifolds.size(); ++k)
-        last.sank = missed(old_ones, found.manifolds[k], left_out(found.manifolds[k], found.scratch), radius);
+    for (std::size_t k = begin; k < found.manifolds.size(); ++k) {
+        const Manifold& m = found.manifolds[k];
+        if (!remembers_ || m.count + m.left_out <= 2 * Manifold::capacity) continue;
+        last.sank = moved < tuning::missed_motion * radius &&
+                    (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m, left_out(m, found.scratch), radius));
+    }
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;

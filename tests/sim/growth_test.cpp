@@ -139,17 +139,15 @@ TEST(Growth, PointsDoNotGatherOnOneSide) {
     }
 }
 
-// Looked at anew, tilted to another side: what was held is not enough, of many corners. Of eight it is not asked.
+// Looked at anew, tilted to another side: what was held is not enough.
 TEST(Growth, IsWantedWherePointsWereMissed) {
-    for (const int corners : {8, 64}) {
-        const Found level(polygon(corners, 0.0));
-        for (const bool held : {false, true}) {
-            std::vector<ContactPoint> points = polygon(corners, 0.0);
-            const Vec3 to = held ? level.first.points[0].position : Vec3(std::cos(0.8), 0.0, std::sin(0.8));
-            for (ContactPoint& p : points) p.separation -= 1e-2 * p.position.dot(to);
-            const Found tilted(points);
-            EXPECT_EQ(missed(std::span(&level.first, 1), tilted.first, tilted.left_out, 1.0), corners == 64 && !held) << corners;
-        }
+    const Found level(polygon(64, 0.0));
+    for (const bool held : {false, true}) {
+        std::vector<ContactPoint> points = polygon(64, 0.0);
+        const Vec3 to = held ? level.first.points[0].position : Vec3(std::cos(0.8), 0.0, std::sin(0.8));
+        for (ContactPoint& p : points) p.separation -= 1e-2 * p.position.dot(to);
+        const Found tilted(points);
+        EXPECT_EQ(missed(std::span(&level.first, 1), tilted.first, tilted.left_out, 1.0), !held);
     }
 }
 

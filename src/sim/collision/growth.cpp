@@ -46,7 +46,6 @@ bool sank(double left_out, double deepest, double radius) {
 }
 
 bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius) {
-    if (found.count + left_out.size() <= 2 * Manifold::capacity) return false;
     double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
     const auto look_at = [&](const ContactPoint& p) {
         deepest = std::min(deepest, p.separation);

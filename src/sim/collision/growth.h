@@ -15,8 +15,8 @@ namespace tumble {
 bool sank(double left_out, double deepest, double radius);
 
 /// The same of a pair looked at anew, where the bodies have moved too far to follow the points: whether those of `before` were not
-/// enough. Only of shapes with more corners than two manifolds have room for: in heaps of boxes a third more manifolds would come
-/// of it.
+/// enough. To be asked of shapes with more corners than two manifolds have room for: in heaps of boxes a third more manifolds would
+/// come of it.
 bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius);
 
 /// Chooses among the points of `found` and those left out of it again: all that the manifolds of `before` (one, or two) had,
