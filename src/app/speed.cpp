@@ -1,6 +1,7 @@
 #include "app/speed.h"
 
 #include "core/error.h"
+#include "core/whole_number.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 
 /// Steps of at most the scene's length in a frame that lasts so many of the scene's frames.
 double steps_in(const SceneDescription& scene, double frames) {
-    return std::max(1.0, std::ceil(scene.simulation.steps_per_frame * frames * (1.0 - 1e-12)));
+    return std::max(1.0, std::ceil(whole_where_meant(scene.simulation.steps_per_frame * frames)));
 }
 
 }  // namespace
