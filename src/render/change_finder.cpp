@@ -30,7 +30,7 @@ public:
         const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
         // of the map that the receiver looks into
-        const bool far = light_.fit.has_far && !light_.fit.near_holds(receiver.center, receiver.radius);
+        const bool far = light_.fit.may_look_far(receiver.center, receiver.radius);
         const double margin = shadow_filter_texels * (far ? light_.fit.far_texel : light_.fit.near_texel);
         visit(receiver, margin, [&](const double& cell) { found = found || cell < depth; });
         return found;

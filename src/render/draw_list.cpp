@@ -112,8 +112,8 @@ std::size_t mesh_of(const BodyLook& look, const SceneLooks& looks, const Boundin
 // As fine as the shadow map that it is drawn into.
 std::size_t caster_mesh(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const CameraView& view,
                         const ShadowFit& shadows) {
-    const double texel = !shadows.has_far || shadows.near_holds(ball.center, ball.radius) ? shadows.near_texel
-                         : std::min(shadows.near_texel, shadows.far_texel);
+    const double texel = shadows.may_look_far(ball.center, ball.radius) ? std::min(shadows.near_texel, shadows.far_texel)
+                                                                        : shadows.near_texel;
     if (look.kind == DrawKind::ball)
         return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view) : ball_mesh_for(ball.radius, outline_error * texel);
     return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));

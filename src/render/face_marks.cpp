@@ -50,7 +50,7 @@ std::array<Vec3, 4> FaceMarks::Face::corners() const {
 
 FaceMarks::FaceMarks(const DrawnItem& box, std::uint8_t faces, const ShadowLight& light, const CameraView& view)
     : light_(light), view_(&view),
-      two_maps_(light.fit.has_far && !light.fit.near_holds(box.center, box.radius)) {
+      two_maps_(light.fit.may_look_far(box.center, box.radius)) {
     for (int face = 0; face < 6; ++face) {
         if ((faces >> face & 1) == 0) continue;
         const int axis = face / 2;

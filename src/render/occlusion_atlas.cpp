@@ -248,9 +248,8 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     bool changed = false;
     switch (look.kind) {
         case DrawKind::box:
-            faces = look.ground
-                        ? body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep_ground)
-                        : body_darkening.make_box(look, atlas.places[body], place, around, missing, detail, keep);
+            faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
+                                            look.ground ? BodyDarkening::Store(keep_ground) : BodyDarkening::Store(keep));
             changed = faces != 0;
             break;
         case DrawKind::ball:

@@ -40,7 +40,7 @@ ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_
 
 double ShadowLight::margin(const DrawnItem& item) const {
     const double near = shadow_filter_texels * fit.near_texel;
-    if (!fit.has_far || fit.near_holds(item.center, item.radius + near)) return near;   // so is its shadow
+    if (!fit.may_look_far(item.center, item.radius + near)) return near;   // so is its shadow
     return shadow_filter_texels * fit.far_texel;
 }
 

@@ -21,6 +21,8 @@ struct ShadowFit {
     double near_texel = 0.0, far_texel = 0.0;  // m
     /// Is a ball (relative to the eye) within the near map, so that nothing of it has to look into the far one?
     bool near_holds(const Vec3& center, double radius) const;
+    /// May some of it look into the far one?
+    bool may_look_far(const Vec3& center, double radius) const { return has_far && !near_holds(center, radius); }
     /// Is it so large, and not within the near map, that each of its pixels has to find out which map it lies in?
     bool spans_maps(const Vec3& center, double radius) const;
 

@@ -9,7 +9,7 @@ namespace tumble {
 VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const SceneLooks& looks, const BodyState& state,
                          const ShadowLight& light, const CameraView& view)
     : light_(light), view_(&view), axes_(state.orientation.toRotationMatrix()),
-      two_maps_(light.fit.has_far && !light.fit.near_holds(item.center, item.radius)) {
+      two_maps_(light.fit.may_look_far(item.center, item.radius)) {
     if (look.fine_surface < 0) {
         boxes_.push_back({item.center, item.half_axes.colwise().norm()});
         return;
