@@ -122,4 +122,12 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     return body;
 }
 
+std::vector<Body> build_bodies(const SceneDescription& scene) {
+    BodyBuilder builder;
+    std::vector<Body> bodies;
+    bodies.reserve(scene.bodies.size());
+    for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, scene.simulation.integrator));
+    return bodies;
+}
+
 }  // namespace tumble

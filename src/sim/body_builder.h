@@ -36,4 +36,7 @@ private:
     std::map<const void*, KnownCompound> compounds_;
 };
 
+/// All of a scene's bodies, in its order.
+std::vector<Body> build_bodies(const SceneDescription& scene);
+
 }  // namespace tumble

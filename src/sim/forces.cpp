@@ -5,9 +5,11 @@
 
 namespace tumble {
 
-ForceField::ForceField(const SceneDescription& scene)
+ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order)
     : gravity_(scene.simulation.gravity), wind_(scene.wind), at_points_(scene.bodies.size()) {
-    for (const ForceDescription& f : scene.forces) at_points_[f.body].push_back(f);
+    std::vector<std::size_t> places(scene.bodies.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[order.empty() ? i : order[i]] = i;
+    for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
     changes_ = !scene.forces.empty();
 }
 

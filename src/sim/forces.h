@@ -5,13 +5,16 @@
 #include "sim/body.h"
 #include "sim/wrench.h"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
 
 class ForceField {
 public:
-    explicit ForceField(const SceneDescription& scene);
+    /// `order`: which of the scene's bodies each index stands for; without, the same one.
+    explicit ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order = {});
 
     /// The sum of all that acts on the body at time t (s), for its present state.
     Wrench at(std::size_t index, const Body& body, double time) const {

@@ -300,6 +300,10 @@ inline constexpr double sleep_drift(double span) { return 0.5 * sleep_accelerati
 inline constexpr double seam_probe = 1e-3;
 inline constexpr double seam_tolerance = 1e-5;
 
+/// Moving bodies from which on they lie in memory by where they are (memory_order.h), and how many of them lie there by height.
+inline constexpr std::size_t ordered_bodies = 512;
+inline constexpr std::size_t ordered_column = 32;
+
 /// Fewer pairs or islands than this are not worth waking the other threads for.
 inline constexpr std::size_t parallel_grain = 64;
 /// Fewer bodies whose pairs are looked for: some microseconds each.

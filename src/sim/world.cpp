@@ -15,6 +15,7 @@
 #include "sim/integrator/advance.h"
 #include "sim/integrator/rigid_state.h"
 #include "sim/measurement.h"
+#include "sim/memory_order.h"
 #include "sim/narrow_phase.h"
 #include "sim/spin_limit.h"
 #include "sim/thread_pool.h"
@@ -42,8 +43,9 @@ struct World::State {
     double fps;
     double h;                         // s
     std::int64_t steps = 0;           // time is counted in these, never summed up
-    ForceField forces;
     std::vector<Body> bodies;
+    std::vector<std::uint32_t> order;   // which of the scene's bodies each of them is
+    ForceField forces;
     BroadPhase broad_phase;
     NarrowPhase narrow_phase;
     std::vector<Manifold>* manifolds = nullptr;   // of this step; the narrow phase's
@@ -76,16 +78,14 @@ struct World::State {
     std::vector<ForceStep> force_steps;
 
     State(const SceneDescription& scene, int threads)
-        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), forces(scene),
+        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), bodies(build_bodies(scene)),
+          order(put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
-        BodyBuilder builder;
-        bodies.reserve(scene.bodies.size());
-        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, settings.integrator));
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);
         motions.resize(bodies.size());
@@ -463,15 +463,16 @@ Snapshot World::snapshot() const {
     Snapshot snapshot;
     snapshot.frame = s.steps / s.settings.steps_per_frame;
     snapshot.time = s.time(s.steps);
-    snapshot.bodies.reserve(s.bodies.size());
-    for (const Body& body : s.bodies) {
+    snapshot.bodies.resize(s.bodies.size());
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        const Body& body = s.bodies[i];
         BodyState state{body.origin(), body.position, body.orientation, body.velocity, body.angular_velocity};
         if (body.track) {   // the path's own velocity at this moment, not the mean over the coming step
             const auto motion = body.track->at(snapshot.time);
             state.angular_velocity = motion.angular_velocity;
             state.velocity = motion.velocity + motion.angular_velocity.cross(body.position - motion.position);
         }
-        snapshot.bodies.push_back(state);
+        snapshot.bodies[s.order[i]] = state;
     }
     return snapshot;
 }
@@ -486,6 +487,9 @@ Measurement World::measure() const {
     return m;
 }
 
-BodyReport World::report(std::size_t index) const { return describe(state_->bodies[index]); }
+BodyReport World::report(std::size_t index) const {
+    const auto place = std::find(state_->order.begin(), state_->order.end(), index) - state_->order.begin();
+    return describe(state_->bodies[std::size_t(place)]);
+}
 
 }  // namespace tumble
