@@ -198,7 +198,9 @@ void NarrowPhase::view(View& v, const Body& body) const {
         v.spin = body.angular_velocity.norm() * body.radius;
         v.speculative = tuning::speculative * body.radius;
     }
-    v.bounds = world_bounds(body.collider, v.pose);
+    const Bounds bounds = world_bounds(body.collider, v.pose);
+    v.bounds.min = bounds.min;
+    v.bounds.max = bounds.max;
     v.collider = &body.collider;
     v.awake = awake(body);
     v.flying = body.flying;

@@ -23,6 +23,11 @@ Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form);
 /// no more than tuning::spin_steady to the spin, or turns too far. What contact holds in a step is held for the mean: held for
 /// omega, a top would slip by as much on its tip, or wobble more and more.
 Vec3 gyration(const Body& body, double h);
+/// Into the body. By way of a name: Eigen moves an unnamed vector by sixteen bytes, which wait for those just written by eight.
+inline void find_gyration(Body& body, double h) {
+    const Vec3 found = body.spherical_top ? Vec3(Vec3::Zero()) : gyration(body, h);
+    body.gyration = found;
+}
 
 /// omega and its gyration, for advance_pose().
 Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form);

@@ -280,9 +280,10 @@ void World::State::apply_forces() {
         const Wrench wrench = forces.at(i, body, now);
         force_steps[i].before = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
-        force_steps[i].after = {body.momentum, body.angular_momentum};
+        force_steps[i].after.momentum = body.momentum;
+        force_steps[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
-        if (body.integrator != IntegratorKind::explicit_euler) body.gyration = gyration(body, h);
+        if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
 }
 
@@ -293,7 +294,7 @@ void World::State::solve_resting_contacts() {
         // What only bounces is not held by a contact: it turns as in flight, which adds nothing to its spin.
         for (const std::uint32_t k : colliding[i].bodies) {
             if (!by_whole_state(bodies[k])) force_steps[k].after = {bodies[k].momentum, bodies[k].angular_momentum};
-            if (bodies[k].integrator != IntegratorKind::explicit_euler) bodies[k].gyration = gyration(bodies[k], h);
+            if (bodies[k].integrator != IntegratorKind::explicit_euler) find_gyration(bodies[k], h);
         }
     });
     contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold}}, islands, pool);
@@ -325,9 +326,11 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
         if (flights && body.dynamic()) motions[i].angular_velocity += gyration(body, h);
-        else if (!before && body.dynamic())
-            motions[i].angular_velocity = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
-                                                     : mean_angular_velocity(body, h, settings.rotation);
+        else if (!before && body.dynamic()) {
+            const Vec3 mean = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
+                                         : mean_angular_velocity(body, h, settings.rotation);
+            motions[i].angular_velocity = mean;
+        }
         motions[i].angular_velocity += body.push_angular_velocity;
     });
     stop_if_not_finite();
@@ -397,7 +400,8 @@ void World::State::move() {
         const double share = limits[i].share;
         // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
         const bool in_contact = touched(i);
-        body.flew = by_whole_state(body) && !in_contact;
+        const bool flies = by_whole_state(body) && !in_contact;
+        if (body.flew != flies) body.flew = flies;   // all threads read what lies beside it: written to only where it changes
         if (body.flew) {
             body.momentum = force_steps[i].before.momentum;
             body.angular_momentum = force_steps[i].before.angular_momentum;

@@ -22,6 +22,8 @@ public:
     void find(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
 
     std::size_t size() const { return first_body_.size() - 1; }
+    /// Of all islands, one after the other.
+    std::span<const std::uint32_t> bodies() const { return bodies_; }
     std::span<const std::uint32_t> bodies(std::size_t island) const {
         return std::span(bodies_).subspan(first_body_[island], first_body_[island + 1] - first_body_[island]);
     }

@@ -8,15 +8,6 @@
 namespace tumble {
 namespace {
 
-// One solve for a whole step is right to first order in the angles: corners that swing round during it are for substeps.
-bool turns_fast(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
-    const double most = tuning::direct_turn / problem.patches.h;
-    return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
-        const Body& body = problem.bodies[i];
-        return body.angular_velocity.squaredNorm() > most * most && !std::holds_alternative<Ball>(body.collider);
-    });
-}
-
 bool floats(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
     return std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
         return problem.bodies[problem.manifolds[k].a].dynamic() && problem.bodies[problem.manifolds[k].b].dynamic();
@@ -37,7 +28,21 @@ std::size_t pairs(const ContactProblem& problem, std::span<const std::uint32_t> 
 }  // namespace
 
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
-    : choice_(choice), effort_(effort), memory_(bodies), loads_(bodies), soft_(bodies) {}
+    : choice_(choice), effort_(effort), memory_(bodies), gains_(bodies), turns_fast_(bodies), loads_(bodies), soft_(bodies) {}
+
+void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
+    const double most = tuning::direct_turn / problem.patches.h;
+    pool.for_bodies(islands.bodies(), tuning::parallel_bodies, [&](std::uint32_t i) {
+        const Body& body = problem.bodies[i];
+        gains_[i] = (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius);
+        turns_fast_[i] = body.angular_velocity.squaredNorm() > most * most && !std::holds_alternative<Ball>(body.collider);
+    });
+}
+
+// One solve for a whole step is right to first order in the angles: corners that swing round during it are for substeps.
+bool ContactSolver::turns_fast(std::span<const std::uint32_t> bodies) const {
+    return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) { return turns_fast_[i] != 0; });
+}
 
 // As it was up to `holds` steps ago; not looked at where no body can carry `enough` times its mass.
 PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
@@ -84,7 +89,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             continue;
         }
         const bool free = floats(problem, manifolds);
-        if (!free && turns_fast(problem, bodies)) {
+        if (!free && turns_fast(bodies)) {
             softly_.push_back(k);
             continue;
         }
@@ -133,10 +138,7 @@ int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& is
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.patches.h, n = substeps_of(h);
     double square = 0.0;   // of the sag of the least body, in its radii, over the step
-    for (const std::uint32_t i : islands.bodies(island)) {
-        const Body& body = problem.bodies[i];
-        square = std::max(square, (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius));
-    }
+    for (const std::uint32_t i : islands.bodies(island)) square = std::max(square, gains_[i]);
     const double sag = h / (n * n) * std::sqrt(square);
     if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
     return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
@@ -170,6 +172,7 @@ void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& pr
 }
 
 void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
+    look_at_bodies(problem, islands, pool);
     choose(problem, islands);
     failed_.assign(direct_.size(), 0);
     pool.for_each(direct_.size(), tuning::direct_parallel_grain, [&](std::size_t k, std::size_t) {

@@ -42,6 +42,8 @@ private:
         double load_ratio;
         std::size_t work;
     };
+    void look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
+    bool turns_fast(std::span<const std::uint32_t> bodies) const;
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
@@ -50,6 +52,10 @@ private:
     Choice choice_;
     Effort effort_;
     std::vector<Memory> memory_;          // by body
+    // Of each body in contact, what is asked of islands: looked at by the thread it belongs to, and kept close together, for bodies
+    // that one thread writes to and another reads are slow for both.
+    std::vector<double> gains_;           // 1/s^2, the square of the speed that the step's forces add, in radii a second
+    std::vector<char> turns_fast_;
     PileLoads loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;

@@ -17,16 +17,15 @@ double work_on(const ForceAccount& forces, const Body& solved) {
 
 }  // namespace
 
-ForceAccount force_account(const Body& body, const BodyVelocity& before) {
+void open_account(ForceAccount& account, const Body& body, const BodyVelocity& before) {
     const Vec3 spun_up = body.angular_velocity - before.angular_velocity;
-    ForceAccount account;
     account.impulse = body.mass * (body.velocity - before.velocity);
     account.turn = Vec3::Zero();
     if (!spun_up.isZero(0.0)) account.turn = body.rotation * (body.inertia_body * (body.rotation.transpose() * spun_up));
     account.with_forces = body.kinetic_energy();
     account.start = 0.5 * ((body.momentum - account.impulse).dot(before.velocity) +
                            (body.angular_momentum - account.turn).dot(before.angular_velocity));
-    return account;
+    account.gain = 0.0;
 }
 
 void EnergyAccount::add(ForceAccount& forces, const Body& solved) {

@@ -20,7 +20,7 @@ struct ForceAccount {
     double start, with_forces;         // J, kinetic: before and after
     double gain = 0.0;                 // J, what the contacts have added since; no more than the body has
 };
-ForceAccount force_account(const Body& body, const BodyVelocity& before);
+void open_account(ForceAccount& account, const Body& body, const BodyVelocity& before);
 
 /// Sums over bodies that contacts have reached, J.
 struct EnergyAccount {

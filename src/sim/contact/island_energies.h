@@ -27,7 +27,7 @@ public:
     void lies_deep(std::size_t place);
 
     /// Before the solve, and after it, if contacts have reached the body; each place by one thread.
-    void begin(std::size_t place, const Body& body, const BodyVelocity& before) { forces_[place] = force_account(body, before); }
+    void begin(std::size_t place, const Body& body, const BodyVelocity& before) { open_account(forces_[place], body, before); }
     void end(std::size_t place, const Body& body);
 
     /// Once all have ended: takes back what is too much from the bodies at the places first to last, which begin and end with

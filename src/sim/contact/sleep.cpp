@@ -12,6 +12,7 @@ void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
     const auto group = watches_[body].group;
     if (!group) return;
     ++changes_;
+    sleepers_ -= group->size();
     for (const std::uint32_t i : *group) {
         bodies[i].asleep = false;
         watches_[i] = Watch{};
@@ -39,6 +40,7 @@ bool stands(const Body& body) {
 }  // namespace
 
 bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
+    if (sleepers_ == 0) return false;
     bool woken = false;
     // A woken group may touch another sleeping one: repeat until nobody wakes.
     for (bool again = true; again;) {
@@ -90,6 +92,7 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
         }
         if (!leans) continue;
         ++changes_;
+        sleepers_ += islands.bodies(island).size();
         const auto members = islands.bodies(island);
         const auto group = std::make_shared<const std::vector<std::uint32_t>>(members.begin(), members.end());
         for (const std::uint32_t i : members) {

@@ -46,6 +46,7 @@ private:
 
     std::vector<Watch> watches_;
     std::uint64_t changes_ = 0;
+    std::size_t sleepers_ = 0;
 };
 
 }  // namespace tumble
