@@ -235,7 +235,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
                                                         h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
-    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, found);
+    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, h, found);
 
     // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
     const double travel = a.travel + b.travel;
@@ -252,7 +252,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     last.sank = last.sank || now == Standing::sank;
     const double moved = last.spent;
     last.spent = 0.0f;
-    search(index, a, b, reach, moved, found);
+    search(index, a, b, reach, moved, h, found);
 }
 
 // Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
@@ -284,7 +284,7 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
     return missed ? Standing::sank : told(stands);
 }
 
-void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, Found& found) {
+void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, double h, Found& found) {
     const Entry& entry = entries_[index];
     Search& last = searches_[entry.search];
     const double radius = std::min(a.radius, b.radius);
@@ -294,6 +294,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.on_ball = false;
     found.scratch.left_out.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
+    found.scratch.way = h * (b.velocity - a.velocity);
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);

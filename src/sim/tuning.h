@@ -27,6 +27,10 @@ inline constexpr double carry_reach = 0.1;
 inline constexpr double sunk_overlap = 1e-5;
 inline constexpr double sunk_share = 0.1;
 
+/// What passes an edge on a curve may overlap by this part of the smaller radius on its way: as far as tiles may have sunk into what
+/// they lie on. More is a hit.
+inline constexpr double passing_overlap = 2e-3;
+
 /// Two bodies that moved by less than this part of the smaller one's radius against each other keep their manifold: points
 /// may lie that far from where a search would put them, separations are exact all the same.
 inline constexpr double reuse_motion = 2e-3;

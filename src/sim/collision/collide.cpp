@@ -133,7 +133,7 @@ void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pos
                 Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
             } else {   // the same pair the other way round: swap, collide, turn the normals
                 Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
-                for (std::size_t i = first; i < out.size(); ++i) out[i].normal = -out[i].normal;
+                for (std::size_t i = first; i < out.size(); ++i) out[i].swap();
             }
             if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>) scratch.on_ball = scratch.on_ball || out.size() > first;
         },

@@ -18,6 +18,7 @@ void add_point(const Vec3& normal, const Vec3& position, double separation, std:
 struct Nearest {
     Vec3 point = Vec3::Zero();
     bool inside = false;   // the face; else on its border
+    Vec3 edge = Vec3::Zero();   // its direction, where that is nearest; none at a corner
 };
 
 // The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
@@ -35,7 +36,7 @@ Nearest nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, c
         const double d = (candidate - p).squaredNorm();
         if (d < best) {
             best = d;
-            nearest = {candidate, false};
+            nearest = {candidate, false, t > 0.0 && t < 1.0 ? Vec3(edge.normalized()) : Vec3(Vec3::Zero())};
         }
     }
     return nearest;
@@ -62,6 +63,7 @@ void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose&
     const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
     add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
+    out.back().set_curve({distance, Vec3::Zero(), pose_a.position, pose_b.position});
 }
 
 void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
@@ -105,7 +107,9 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     const bool of_face = nearest.inside || distance <= 1e-12 * a.radius;
     const Vec3 normal = pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
     const double separation = distance - b.radius;
-    add_point(normal, pose_a.to_world(nearest.point) + 0.5 * separation * normal, separation, out);
+    const Vec3 point = pose_a.to_world(nearest.point);
+    add_point(normal, point + 0.5 * separation * normal, separation, out);
+    if (!of_face) out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,

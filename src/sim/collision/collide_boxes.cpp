@@ -222,15 +222,17 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         speak = !given_up;
     }
     const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
-    const bool must_touch = axis.separation < 0.0 && !given_up;
-    if (axis.separation > 0.0) {
-        double most = lowest;
+    bool must_touch = axis.separation < 0.0 && !given_up;
+    if (may_slide_past(axis.separation, scratch.way, smaller)) {
+        Vec3 way = Vec3::Zero();   // asked for only where both graze
+        if (axis.separation < preference) way = pose_a.rotation.transpose() * scratch.way;
+        double most = -preference;   // lower ones are no faces that are grazed
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
                 const double s = (on_b ? faces_b : faces_a)[k];
-                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, smaller, scratch.choice)) continue;
+                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, way, smaller, scratch.choice)) continue;
                 most = s;
-                speak = given_up = false;
+                speak = given_up = must_touch = false;
                 of_b = on_b;
                 face = k;
             }

@@ -68,7 +68,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     const std::size_t first = out.size();
     const auto add = [&](EdgeSearch search) {   // whether the shapes seem to overlap
         SeparatingAxis edges;
-        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, scratch, &edges);
+        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, pose_a.rotation.transpose() * scratch.way, scratch, &edges);
         const bool preferred = edges.kind == SeparatingAxis::Kind::edges, overlapping = axis.separation < 0.0 && !axis.grazed;
         add_manifold(a, pose_a, b, b_in_a, axis, overlapping && !preferred, margin, scratch, out);
         if (!preferred || !misses_edges(std::span(out).subspan(first), edges.separation, std::min(a.radius, b.radius))) return overlapping;

@@ -74,7 +74,14 @@ void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ba
         m.part = hit.triangle;
         m.normal = pose_a.rotation * normal;
         m.count = 1;
-        m.points[0] = {pose_a.to_world(hit.point) + 0.5 * separation * m.normal, separation, std::uint64_t(hit.feature)};
+        const Vec3 point = pose_a.to_world(hit.point);
+        m.points[0] = {point + 0.5 * separation * m.normal, separation, std::uint64_t(hit.feature)};
+        if (hit.feature != 0) {
+            const auto corner = [&](int k) { return a.corner(hit.triangle, k); };
+            const int k = hit.feature - 1;
+            const Vec3 edge = hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
+            m.set_curve({hit.distance, pose_a.rotation * edge, point, pose_b.position});
+        }
         out.push_back(m);
     }
 }

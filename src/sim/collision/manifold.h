@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -14,6 +15,14 @@ struct ContactPoint {
     double separation = 0.0;        // m along the normal; negative: overlap
     std::uint64_t feature = 0;      // the features that meet (vertex and face, edge and edge); the same from step to step
     double impulse = 0.0;           // N s along the normal: the last step's, then this step's
+};
+
+/// How the gap at a point grows as the bodies pass each other: it is that of two places, one on each body, that keep their
+/// distance, or of a place and a straight line. A ball's centre and a corner, an edge, another ball's centre.
+struct Curve {
+    double distance = 0.0;             // m, of the places
+    Vec3 straight = Vec3::Zero();      // world: the line's direction; none for a place
+    Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();   // the places, world
 };
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
@@ -40,6 +49,21 @@ struct Manifold {
         for (int i = 0; i < count; ++i)
             if (points[std::size_t(i)].feature == feature) return true;
         return false;
+    }
+
+    /// Of one on a ball, which has one point: kept where further ones would be.
+    void set_curve(const Curve& c) {
+        points[1] = {c.straight, c.distance, 1};
+        points[2].position = c.on_a;
+        points[3].position = c.on_b;
+    }
+    bool curved() const { return count == 1 && points[1].feature != 0; }
+    Curve curve() const { return {points[1].separation, points[1].position, points[2].position, points[3].position}; }
+
+    /// The same, seen from the other body.
+    void swap() {
+        normal = -normal;
+        if (curved()) std::swap(points[2].position, points[3].position);
     }
 
     /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).

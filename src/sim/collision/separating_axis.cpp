@@ -126,7 +126,7 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
 
 // The face that shapes apart along `axis` slide past, if there is one: the one that separates most; else `axis`.
 SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, const SeparatingAxis& axis,
-                           double smaller_radius, AxisChoice choice) {
+                           const Vec3& way, double smaller_radius, AxisChoice choice) {
     SeparatingAxis grazed = axis;
     const auto look = [&](const Polyhedron& shape, const Polyhedron& other, const Pose& pose, bool of_b) {
         for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
@@ -138,7 +138,7 @@ SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose&
             SeparatingAxis candidate{.kind = of_b ? SeparatingAxis::Kind::face_b : SeparatingAxis::Kind::face_a,
                                      .separation = height - reach, .feature_a = of_b ? 0 : f, .feature_b = of_b ? f : 0,
                                      .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal, .grazed = true};
-            if (slides_past(axis, candidate, smaller_radius, choice) &&
+            if (slides_past(axis, candidate, way, smaller_radius, choice) &&
                 (!grazed.grazed || candidate.separation > grazed.separation))
                 grazed = candidate;
         }
@@ -172,9 +172,21 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
     });
 }
 
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
-    return choice == AxisChoice::steady && apart.separation > 0.0 && face.separation < apart.separation &&
-           face.separation > -axis_preference(smaller_radius) && std::abs(face.normal.dot(apart.normal)) < across_face;
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius, AxisChoice choice) {
+    const double grazing = axis_preference(smaller_radius);
+    if (choice != AxisChoice::steady || apart.separation < -grazing || face.separation <= -grazing) return false;
+    if (std::abs(face.normal.dot(apart.normal)) >= across_face) return false;
+    if (apart.separation < grazing) {
+        const double along_apart = std::abs(way.dot(apart.normal)), along_face = std::abs(way.dot(face.normal));
+        if (along_apart > grazing && along_face < 0.5 * along_apart) return true;
+        if (along_face > grazing && along_apart < 0.5 * along_face) return false;
+    }
+    return apart.separation > 0.0 && face.separation < apart.separation;
+}
+
+bool may_slide_past(double separation, const Vec3& way, double smaller_radius) {
+    const double grazing = axis_preference(smaller_radius);
+    return separation > 0.0 || (separation > -grazing && way.squaredNorm() > grazing * grazing);
 }
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
@@ -183,7 +195,7 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
 }
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up) {
+                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch, SeparatingAxis* given_up) {
     const auto apart = [&](double separation) {
         if (separation <= margin) return false;
         scratch.gap = separation;
@@ -210,8 +222,8 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     const SeparatingAxis edges = axis;
     const bool prefers_face = edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
     if (prefers_face) axis = face;
-    if (axis.separation > 0.0) {
-        const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, smaller, scratch.choice);
+    if (may_slide_past(axis.separation, way, smaller)) {
+        const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, way, smaller, scratch.choice);
         if (grazed.grazed) return grazed;
     }
     if (prefers_face && given_up) *given_up = edges;

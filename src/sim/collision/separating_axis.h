@@ -29,10 +29,10 @@ enum class EdgeSearch { nearby, all };
 /// bounds s from below, the margin from above.
 double edge_reach(EdgeSearch search, double margin, double best_separation);
 
-/// `b_in_a` is B's pose in A's frame. given_up: the edges that a face was preferred to (edges_along_face); left as
+/// `b_in_a` is B's pose in A's frame, and so is the way. given_up: the edges that a face was preferred to (edges_along_face); left as
 /// it is where there were none.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, CollisionScratch& scratch, SeparatingAxis* given_up = nullptr);
+                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch, SeparatingAxis* given_up = nullptr);
 
 /// How much better (m) an edge pair must separate than a face for being chosen, and B's face than A's, for shapes of this
 /// size.
@@ -52,8 +52,12 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
 
 /// Whether shapes that are `apart` along one axis pass each other along another face: they graze its plane, and what
 /// comes nearer would meet nothing but a corner's height of it. Then the face says more: a box that slides from tile to tile
-/// does not run into the next tile's side. `face`: separation and normal. Not for AxisChoice::nearest.
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
+/// does not run into the next tile's side. `face`: separation and normal. Where they graze along both, the way (m) of the step
+/// tells which of the two they slide over, if it is longer than what counts as grazing. Not for AxisChoice::nearest.
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius, AxisChoice choice);
+
+/// Whether it can be so for a best axis that separates so far (m): most pairs need not look.
+bool may_slide_past(double separation, const Vec3& way, double smaller_radius);
 
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);

@@ -56,7 +56,25 @@ Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal
     return change - normal.dot(change) * normal;
 }
 
-ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const PatchSettings& settings) {
+// With d the places' distance vector across the line, d0 n at first, and u the velocity of one against the other across the line,
+//     |d0 n + u t|  is least at  t = -d0 n.u / u^2,  or at the step's end.
+// Where that is an overlap the bodies do meet.
+double passing_gap(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+    const double gap = m.points[0].separation;
+    if (!(gap > 0.0)) return gap;
+    const Curve curve = m.curve();
+    const auto velocity = [](const BodyVelocity& v, const Vec3& arm) { return Vec3(v.velocity + v.angular_velocity.cross(arm)); };
+    Vec3 u = velocity(before_b, curve.on_b - b.position) - velocity(before_a, curve.on_a - a.position);
+    u -= curve.straight.dot(u) * curve.straight;
+    const double closing = -m.normal.dot(u), d = curve.distance, square = u.squaredNorm();
+    if (!(closing * h > gap)) return gap;
+    const double t = std::min(h, d * closing / square);
+    const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
+    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap : std::max(gap, nearest + h * closing);
+}
+
+ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+                        const PatchSettings& settings) {
     ContactPatch patch;
     patch.size = std::min(a.radius, b.radius);
     const double near = tuning::friction_near * patch.size;
@@ -69,7 +87,7 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const P
         ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
         to.arm_a = arm_a;
         to.arm_b = arm_b;
-        to.separation = from.separation;
+        to.separation = m.curved() ? passing_gap(m, a, b, before_a, before_b, settings.h) : from.separation;
         to.impulse = from.impulse;
         to.source = i;
         const double weight = from.separation < near ? 1.0 : tuning::friction_far_weight;

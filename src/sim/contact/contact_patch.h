@@ -39,8 +39,16 @@ double relative_velocity(const ContactPoint& point, const Vec3& normal, const Bo
 /// must come back with.
 bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings);
 
+/// A point that does not touch is held from closing its gap within a time h (s) at an even speed along the normal. Where the gap
+/// is one of curves (Manifold::curved), what passes comes less near than that: a ball that rolls to a flush edge would run
+/// against the edge ahead of it. Returns the gap (m) for which the even approach, at the velocities before the step's forces, ends
+/// where the passing bodies come nearest.
+double passing_gap(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+                   double h);
+
 /// Returns a patch without points when there is nothing to hold.
-ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const PatchSettings& settings);
+ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
+                        const BodyVelocity& before_b, const PatchSettings& settings);
 
 /// What a turning kinematic body carries goes round an arc, but the velocity of its point at the step's start points along the
 /// tangent: by that alone riders would creep outward. Friction takes the velocity where the rider, which moves by `motion` (m/s)

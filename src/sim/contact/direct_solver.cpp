@@ -54,7 +54,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         const Manifold& m = problem.manifolds[k];
         const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         Patch patch;
-        patch.geometry = make_patch(m, a, b, problem.patches);
+        patch.geometry = make_patch(m, a, b, problem.before[m.a], problem.before[m.b], problem.patches);
         const ContactPatch& geometry = patch.geometry;
         if (geometry.count == 0) continue;
         patch.a = place_of(bodies, m.a);

@@ -248,6 +248,12 @@ const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t 
     return made = place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
 }
 
+// For a substep more than the step: the last sweep looks as far ahead.
+double SoftBatch::gap_of_curves(const Manifold& m, const ContactProblem& problem) const {
+    const auto& [bodies, manifolds, before, patches] = problem;
+    return passing_gap(m, bodies[m.a], bodies[m.b], before[m.a], before[m.b], patches.h + d_);
+}
+
 // Lane l of group g.
 void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t g, std::size_t l,
                           const std::vector<std::uint32_t>& slot) {
@@ -271,6 +277,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     float* const head = row(g, 0) + l;
     float* point = head + soft::head_rows * stride;
     int count = 0;
+    const bool curved = m.curved();
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
@@ -278,7 +285,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
         put(point + soft::turn * stride, stride, p.position - a.position);
         point[soft::normal_mass * stride] = 1.0f;
-        point[soft::separation * stride] = float(p.separation);
+        point[soft::separation * stride] = float(curved ? gap_of_curves(m, problem) : p.separation);
         point[soft::impulse * stride] = float(share * p.impulse);
         point += soft::point_rows * stride;
     }

@@ -75,6 +75,7 @@ private:
     static Mover mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem);
     const Place& find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
                             const std::vector<std::uint32_t>& slot, Place& made) const;
+    double gap_of_curves(const Manifold& m, const ContactProblem& problem) const;
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t group, std::size_t l,
                    const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);

@@ -303,7 +303,7 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)), *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
     if (hull_a && hull_b) {   // an edge along the rim of a face: touching, and yet no contact point lies on the face
         const Pose at = pose_of(pair.a, a), b_in_a = seen_from(at, pose_of(pair.b, b));
-        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, scratch_).normal);
+        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, Vec3::Zero(), scratch_).normal);
         return;
     }
     const Vec3 from = pair.a.part ? pose_of(pair.a, a).position : a_.center;
