@@ -86,6 +86,12 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.friction[0].estimate = m.friction[0];
         patch.friction[1].estimate = m.friction[1];
         patch.twist.estimate = m.twist;
+        const Vec3& n = geometry.normal;
+        const double gives = n.dot((a.inverse_inertia + b.inverse_inertia) * n);   // zero for what no impulse moves
+        patch.free_slip = std::hypot(patch.friction[0].offset + dot(patch, patch.friction[0], free_),
+                                     patch.friction[1].offset + dot(patch, patch.friction[1], free_));
+        patch.free_spin = std::abs(patch.twist.offset + dot(patch, patch.twist, free_));
+        patch.twist_mass = 1.0 / gives;
         patches_.push_back(patch);
     }
 }
@@ -134,6 +140,8 @@ void DirectSolver::set_limits(Patch& patch) {
     }
     patch.limit = patch.coefficient * load;
     patch.twist_limit = patch.coefficient * levers;
+    patch.spins = patch.twist_limit > 0.0 && patch.twist_mass * patch.free_spin > patch.twist_limit &&
+                  patch.twist_limit * patch.free_spin > tuning::spin_share * patch.limit * patch.free_slip;
 }
 
 void DirectSolver::evaluate_speeds() {
@@ -150,28 +158,30 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
         row.impulse = std::max(0.0, y);
         if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack is all ties
     }
-    Row &f1 = patch.friction[0], &f2 = patch.friction[1];
-    const double y1 = f1.estimate - (f1.speed + along * f1.change) / friction_compliance_;
-    const double y2 = f2.estimate - (f2.speed + along * f2.change) / friction_compliance_;
-    const double size = std::sqrt(y1 * y1 + y2 * y2);
-    if (size <= patch.limit) {
-        f1.impulse = y1;
-        f2.impulse = y2;
-        if (weights) weights->f11 = weights->f22 = 1.0 / friction_compliance_;
-    } else {
-        const double scale = patch.limit / size, c = y1 / size, s = y2 / size;
-        f1.impulse = scale * y1;
-        f2.impulse = scale * y2;
-        if (weights) {
-            weights->f11 = scale / friction_compliance_ * (1.0 - c * c);
-            weights->f12 = -scale / friction_compliance_ * c * s;
-            weights->f22 = scale / friction_compliance_ * (1.0 - s * s);
+    // Both directions of friction and, where it shares their limit, the twist over its lever: a ball of the radius mu f_n.
+    Row* const rows[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
+    const double levers[3] = {1.0, 1.0, patch.twist_limit / patch.limit};
+    const int count = patch.spins ? 3 : 2;
+    double y[3] = {}, square = 0.0;
+    for (int i = 0; i < count; ++i) {
+        const Row& row = *rows[i];
+        y[i] = row.estimate / levers[i] - levers[i] * (row.speed + along * row.change) / friction_compliance_;
+        square += y[i] * y[i];
+    }
+    const double size = std::sqrt(square);
+    const bool slides = size > patch.limit;
+    const double scale = slides ? patch.limit / size : 1.0;
+    for (int i = 0; i < count; ++i) {
+        rows[i]->impulse = levers[i] * scale * y[i];
+        for (int k = 0; weights && k < count; ++k) {
+            const double along_it = slides ? y[i] * y[k] / square : 0.0;
+            weights->friction[i][k] = levers[i] * levers[k] * scale / friction_compliance_ * ((i == k) - along_it);
         }
     }
-    if (patch.count < 2) return;
-    const double y = patch.twist.estimate - (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
-    patch.twist.impulse = std::clamp(y, -patch.twist_limit, patch.twist_limit);
-    if (weights) weights->twist = std::abs(y) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
+    if (patch.count < 2 || patch.spins) return;
+    const double turning = patch.twist.estimate - (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
+    patch.twist.impulse = std::clamp(turning, -patch.twist_limit, patch.twist_limit);
+    if (weights) weights->friction[2][2] = std::abs(turning) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
 }
 
 // M (u - u*) - J^T f; returns its size as an energy: sum g^2 / m.
@@ -215,8 +225,9 @@ bool DirectSolver::factor(bool pushing) {
                 w.normal[i] = on ? stiffness : 0.0;
             }
             // Pushed apart, not aside.
-            w.f11 = w.f22 = active ? tuning::direct_push_across * stiffness : 0.0;
-            w.twist = w.f11 * length_ * length_;
+            const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
+            w.friction[0][0] = w.friction[1][1] = aside;
+            w.friction[2][2] = patch.count > 1 ? aside * length_ * length_ : 0.0;
         } else {
             evaluate(patch, 0.0, &w);
         }
@@ -239,12 +250,9 @@ bool DirectSolver::factor(bool pushing) {
             else add_outer(*across, left.on_a, rb);
         };
         for (int i = 0; i < patch.count; ++i) add_row(patch.normal[i], patch.normal[i], w.normal[i]);
-        const Row &f1 = patch.friction[0], &f2 = patch.friction[1];
-        add_row(f1, f1, w.f11);
-        add_row(f1, f2, w.f12);
-        add_row(f2, f1, w.f12);
-        add_row(f2, f2, w.f22);
-        if (patch.count > 1) add_row(patch.twist, patch.twist, w.twist);
+        const Row* const friction[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
     }
     return matrix_.factor();
 }

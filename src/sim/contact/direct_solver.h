@@ -2,11 +2,11 @@
 // stacks, heavy on light, and the few bodies of a simple scene.
 //
 // With u the velocities at the step's end, u* those with the forces alone, and M the masses, contact asks for
-//     M (u - u*) = J^T f,   0 <= f_n  perp  J_n u >= b,   friction against the slip within Coulomb's disc mu f_n,
+//     M (u - u*) = J^T f,   0 <= f_n  perp  J_n u >= b,   friction against the slip within mu f_n (with the twist: soft_solver.h),
 // b = -s/h for points s > 0 apart, 0 at the surface. Solved as an augmented Lagrangian: with
 // an estimate e of the impulses and a compliance R, u is the minimum of the convex function
 //     (u - u*)^T M (u - u*)/2 + sum R/2 [e + (b - J u)/R]^2  over the contacts where the bracket is positive
-// with, for friction, the bracket's distance kept inside the disc; f = bracket is the next estimate, and friction's limits
+// with, for friction, the bracket's distance kept inside the limit; f = bracket is the next estimate, and friction's limits
 // follow f_n from round to round (Alart and Curnier 1991). Each minimum is found by Newton's method with line search
 // (semismooth; its matrix M + J^T J/R over the active rows is factored by block_cholesky.h). The estimates of the last
 // step make most solves of a resting island one evaluation.
@@ -41,7 +41,7 @@ private:
     using Row = contact_rows::Row;
     using Patch = contact_rows::Patch;
     struct Weights {                    // second derivatives of a patch's terms
-        double normal[4] = {}, f11 = 0.0, f12 = 0.0, f22 = 0.0, twist = 0.0;
+        double normal[4] = {}, friction[3][3] = {};   // friction: both directions and the twist
     };
 
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);

@@ -2,6 +2,7 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
+constexpr float spin_share = float(tuning::spin_share);
 constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stiff = float(tuning::soft_twice_as_stiff);
 constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
@@ -349,7 +350,8 @@ inline Speeds<points> speeds_of(const Group& g, const Motion& a, const Motion& b
     return speeds;
 }
 
-// Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now.
+// Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now; what
+// spins in spite of its twist shares it (soft_solver.h).
 template <int points>
 inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes<points>& changes) {
     Lanes load_all = Lanes{}, load_levers = Lanes{};
@@ -359,17 +361,28 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
         load_levers += g.at(i, impulse) * g.at(i, lever);
     }
     const Lanes limit = g[friction_coefficient] * load_all, twist_limit = g[friction_coefficient] * load_levers;
-    const Lanes v1 = speeds.friction.x, v2 = speeds.friction.y;
-    // What stops the slip altogether, if the disc allows it. Else one mass for both directions: friction then ends up
-    // against the slip, from where each direction's own mass would turn it aside.
-    const Lanes stick_1 = g[friction_1] - (g[stick_mass] * v1 + g[stick_mass + 1] * v2);
-    const Lanes stick_2 = g[friction_2] - (g[stick_mass + 1] * v1 + g[stick_mass + 2] * v2);
-    const Lanes slide_1 = g[friction_1] - g[slide_mass] * v1, slide_2 = g[friction_2] - g[slide_mass] * v2;
-    const Lanes size = root(slide_1 * slide_1 + slide_2 * slide_2);
-    const Lanes scale = size > limit ? limit / size : all(1.0f);
-    const auto sticks = stick_1 * stick_1 + stick_2 * stick_2 <= limit * limit;
-    const Lanes j1 = sticks ? stick_1 : scale * slide_1, j2 = sticks ? stick_2 : scale * slide_2;
-    const Lanes j3 = larger(-twist_limit, smaller(twist_limit, g[twist] - g[twist_mass] * speeds.friction.z));
+    const Lanes v1 = speeds.friction.x, v2 = speeds.friction.y, v3 = speeds.friction.z;
+    // What stops the slip and the twist altogether, if that is allowed.
+    Lanes j1 = g[friction_1] - (g[stick_mass] * v1 + g[stick_mass + 1] * v2);
+    Lanes j2 = g[friction_2] - (g[stick_mass + 1] * v1 + g[stick_mass + 2] * v2);
+    const Lanes still = g[twist] - g[twist_mass] * v3;
+    Lanes j3 = larger(-twist_limit, smaller(twist_limit, still));
+    const auto slips = j1 * j1 + j2 * j2 > limit * limit, turns = j3 != still;
+    if (any(Lanes(slips | turns))) {   // the bits of what is true are no zero
+        const Lanes lever_slip = load_levers * v3, slip_1 = load_all * v1, slip_2 = load_all * v2;
+        const auto spins = turns && twist_limit > 0.0f && lever_slip * lever_slip > spin_share * spin_share * (slip_1 * slip_1 + slip_2 * slip_2);
+        const auto slides = spins || slips;
+        // Else one mass for all directions: friction then ends up against the slip, from where each direction's own mass would turn it
+        // aside.
+        const Lanes arm = spins ? load_levers / load_all : Lanes{}, per_arm = spins ? load_all / load_levers : Lanes{};
+        const Lanes mass = spins ? smaller(g[slide_mass], g[twist_mass] * per_arm * per_arm) : g[slide_mass];
+        const Lanes s1 = g[friction_1] - mass * v1, s2 = g[friction_2] - mass * v2, s3 = per_arm * g[twist] - mass * arm * v3;
+        const Lanes size = root(s1 * s1 + s2 * s2 + s3 * s3);
+        const Lanes scale = size > limit ? limit / size : all(1.0f);
+        j1 = slides ? scale * s1 : j1;
+        j2 = slides ? scale * s2 : j2;
+        j3 = spins ? scale * s3 * arm : j3;
+    }
     changes.friction = {j1 - g[friction_1], j2 - g[friction_2], j3 - g[twist]};
     g[friction_1] = j1;
     g[friction_2] = j2;
