@@ -39,12 +39,14 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
 CameraView CameraView::from(const CameraDescription& camera) const {
     CameraView view(camera, width_, height_, shift_);
     view.viewing_distance_ = viewing_distance_;
+    view.haze_distance_ = haze_distance_;
     return view;
 }
 
-CameraView CameraView::with_viewing_distance(double distance) const {
+CameraView CameraView::with_distances(double viewing, double haze) const {
     CameraView view = *this;
-    view.viewing_distance_ = distance;
+    view.viewing_distance_ = viewing;
+    view.haze_distance_ = haze;
     return view;
 }
 

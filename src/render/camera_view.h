@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 
 #include <array>
+#include <limits>
 
 namespace tumble {
 
@@ -33,9 +34,11 @@ public:
     /// Distance from eye to target, m: the scale of what is looked at.
     double target_distance() const { return target_distance_; }
 
-    /// What patterns and haze fit, m: the same for a whole clip. Until told otherwise the distance to the target.
+    /// What patterns fit, and where half of a thing's light is haze, m: the same for a whole clip. Until told otherwise the
+    /// distance to the target and no haze.
     double viewing_distance() const { return viewing_distance_; }
-    CameraView with_viewing_distance(double distance) const;
+    double haze_distance() const { return haze_distance_; }
+    CameraView with_distances(double viewing, double haze) const;
 
     /// The width of a pixel at distance 1 along the axis.
     double pixel_size() const { return 2.0 * tan_y_ / height_; }
@@ -64,6 +67,7 @@ public:
 private:
     Vec3 eye_, right_, up_, forward_;
     double target_distance_, viewing_distance_;
+    double haze_distance_ = std::numeric_limits<double>::infinity();
     int width_, height_;
     double tan_x_, tan_y_;
     Eigen::Vector2d shift_;  // pixels

@@ -9,9 +9,6 @@
 namespace tumble {
 namespace {
 
-// Half of a thing's light is haze at this many viewing distances: the ground ends softly, the bodies stay clear.
-constexpr double haze_distance = 5.0;
-
 // The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
 constexpr double nearest_part = 1e-4;
 
@@ -57,8 +54,7 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraVie
     u.shadow_z = shadows.z;
     u.shadow_far = shadows.far;
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels), 0.0f);
-    const double half_haze = haze_distance * view.viewing_distance();
-    u.haze = glm::vec4(float(1.0 / (half_haze * half_haze)), float(view.pixel_size()), 0.0f, 0.0f);
+    u.haze = glm::vec4(float(1.0 / (view.haze_distance() * view.haze_distance())), float(view.pixel_size()), 0.0f, 0.0f);
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;
 }

@@ -38,6 +38,12 @@ std::string words(const GlFunctions& gl, GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
+CameraView first_view(const SceneDescription& scene, const SceneLooks& looks, const RenderOptions& options) {
+    const double viewing = viewing_distance(scene, looks);
+    return CameraView(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
+        .with_distances(viewing, haze_distance(scene, looks, viewing));
+}
+
 std::vector<Rectangle> whole_picture(const CameraView& view) { return {{0, 0, view.width(), view.height()}}; }
 
 }  // namespace
@@ -49,8 +55,7 @@ struct Renderer::State {
           looks(make_scene_looks(scene)),
           path(description.camera),
           camera(scene.camera),
-          view(CameraView(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
-                   .with_viewing_distance(viewing_distance(scene, looks))),
+          view(first_view(scene, looks, options)),
           stage(scene, looks, view, shadow_map_texels),
           occlusion(looks, view.eye()),
           changes(scene, looks, view),

@@ -256,5 +256,46 @@ TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
     EXPECT_EQ(viewing_distance(scene, make_scene_looks(scene)), 4.0);
 }
 
+// A tower behind marbles was nowhere in the picture: half of the light was haze at five times their distance.
+TEST(HazeDistance, LeavesWhatIsLargeInThePicture) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(0.0, 0.0, 10.0);
+    scene.camera.target = Vec3::Zero();
+    for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
+    scene.bodies.push_back(box_body(Vec3::Zero(), Vec3::Ones(), {90, 90, 90}));
+    const auto with_box = [&](const Vec3& position, double size) {
+        scene.bodies[3].position = position;
+        scene.bodies[3].shape = BoxShape{Vec3::Constant(size)};
+        return haze_distance(scene, make_scene_looks(scene), 10.0);
+    };
+    EXPECT_EQ(with_box(Vec3(1.0, 1.0, -1.0), 1.0), 50.0);        // near
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -190.5), 0.5), 50.0);      // a dot
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 400.0);    // its near side is 200 m away
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 50.0);      // behind the eye
+    EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // what the others stand on: a metre below the eye
+    scene.camera.orbit = 10.0;
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);     // in view later
+    scene.camera.orbit = 0.0;
+    scene.bodies[3].keyframes = {{0.0, Vec3(0.0, 0.0, -1.0), Quat::Identity()}, {1.0, Vec3(0.0, 0.0, -195.0), Quat::Identity()}};
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -1.0), 10.0), 400.0);      // where it goes
+    scene.bodies[3].keyframes.clear();
+    scene.camera.keyframes = {{0.0, {0, 0, 10}, {0, 0, 0}, 40.0}, {1.0, {0, 0, 20}, {0, 0, 0}, 40.0}};
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 420.0);    // the farthest
+}
+
+TEST(HazeDistance, ATowerBehindMarblesIsInThePicture) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(0.0, 0.2, 0.5);
+    scene.camera.target = Vec3(0.0, 0.2, 0.0);
+    scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::grid));
+    scene.bodies.push_back(box_body(Vec3(0.0, 10.0, -60.0), Vec3(8.0, 20.0, 8.0), {200, 40, 30}));
+    const Image alone = drawn(scene);
+    for (const double x : {-0.1, 0.0, 0.1}) scene.bodies.push_back(ball_body(Vec3(x, 0.02, 0.0), 0.02, {90, 90, 90}));
+    const Image image = drawn(scene);
+    const Pixel at = pixel_of(scene, Vec3(0.0, 6.0, -56.0));
+    for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(image.at(at.x, at.y)[channel], alone.at(at.x, at.y)[channel], 30) << "channel " << channel;
+}
+
 }  // namespace
 }  // namespace tumble
