@@ -17,12 +17,20 @@ constexpr double near_margin = 1.3;
 // scissors: a texel is at least this part of the bodies' typical reach (their half edge).
 constexpr double least_texel_of_reach = 0.02;
 
+// Bodies may lie so far apart that one map around all has texels wider than so many pixels where the nearest eighth of them
+// ends: their shadows would be lost. Then the near map holds the nearest ones only, as many as leave it so fine.
+constexpr double lost_pixels = 8.0, fine_pixels = 3.0;
+
 // A ball of more than this part of the near map across that reaches out of it has sharp shadows within and coarse ones
 // beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
 constexpr double least_span = 0.5;
 
 // Lost bodies must not blur what is left: the far map grows to this many times the near one.
 constexpr double most_growth = 64.0;
+
+// The near map is at least this part of what all bodies take up, so that they lie within the far one, wherever in it the near
+// one lies.
+constexpr double least_of_all = 2.2 / most_growth;
 
 struct Extent {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -33,6 +41,34 @@ struct Extent {
     bool empty() const { return low > high; }
     double size() const { return high - low; }
 };
+
+/// Where a body starts, or lands.
+struct Place {
+    Vec3 center;
+    double radius, distance;   // m; from the eye
+};
+
+struct Held {
+    std::size_t count;
+    double size_of_all;   // m, across the light
+};
+
+/// How many of the places, which are in the order of their distance, the near map is made for.
+Held places_to_hold(const std::vector<Place>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
+    Extent x, y;
+    std::size_t fine = 0, finest = 0;
+    double blur = 0.0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        x.add(x_axis.dot(places[i].center), places[i].radius);
+        y.add(y_axis.dot(places[i].center), places[i].radius);
+        blur = near_margin * std::max(x.size(), y.size()) / texels / (pixel_size * places[i / 8].distance);   // pixels
+        if (blur <= fine_pixels) fine = i + 1;
+        if (blur < least) least = blur, finest = i + 1;
+    }
+    const double size = places.empty() ? 0.0 : std::max(x.size(), y.size());
+    if (blur <= lost_pixels) return {places.size(), size};
+    return {fine > 0 ? fine : finest, size};
+}
 
 double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
@@ -61,10 +97,6 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
     const Landing landing(scene, looks);
-    struct Place {
-        Vec3 center;
-        double radius, distance;
-    };
     std::vector<Place> places;
     const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
     const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
@@ -86,19 +118,29 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     std::vector<double> distances;
     for (const Place& p : places) distances.push_back(p.distance);
     const double limit = far_limit(distances);
+    std::erase_if(places, [&](const Place& p) { return p.distance + p.radius > limit; });
+    double least = 0.0;   // of the near map: what it leaves out must lie within the far one
+    if (!turns) {
+        std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.distance < b.distance; });
+        const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
+        places.resize(held.count);
+        least = least_of_all * held.size_of_all;
+    }
     Extent x, y;
+    distances.clear();
     for (const Place& p : places) {
-        if (p.distance + p.radius > limit) continue;
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
+        distances.push_back(p.distance);
     }
     if (x.empty()) {  // nothing in view at first: what the camera looks at
         const Vec3 target = view.eye() + view.forward() * view.target_distance();
         x.add(x_axis_.dot(target), 0.5 * view.target_distance());
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
     }
-    const double softest = least_texel_of_reach * looks.typical_reach * texels;
-    size_ = std::max(near_margin * std::max(x.size(), y.size()), softest);
+    const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
+    const double softest = texels * std::min(least_texel_of_reach * looks.typical_reach, fine_pixels * pixel);
+    size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least});
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }

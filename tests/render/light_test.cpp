@@ -80,6 +80,24 @@ TEST(Light, AFlyingBodyKeepsItsShadow) {
     EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
 }
 
+// One shadow map around bodies hundreds of metres apart had texels of a metre: those near the eye threw no shadows.
+TEST(Light, BodiesNearTheEyeKeepTheirShadowsWhereOthersAreFar) {
+    SceneDescription scene = shadow_scene();
+    scene.camera.target = Vec3(0.0, 0.5, -4.0);
+    for (const double z : {-100.0, -110.0, -120.0})
+        scene.bodies.push_back(box_body(Vec3(40.0, 2.0, z), Vec3::Ones(), {200, 133, 60}));
+    scene.bodies.push_back(box_body(Vec3(0.0, 30.0, -300.0), Vec3::Constant(20.0), {200, 133, 60}));
+    scene.bodies.push_back(box_body(Vec3(-80.0, 15.0, -300.0), Vec3::Constant(30.0), {200, 133, 60}));
+    const Image image = drawn(scene);
+    const double bright = brightness_at(image, scene, Vec3(1.5, 0.0, 1.5));
+    for (const Vec3& inside : {Vec3(-1.0, 0.0, 0.0), Vec3(-1.6, 0.0, 0.0), Vec3(-0.4, 0.0, 0.0), Vec3(-1.0, 0.0, 0.4)})
+        EXPECT_LT(brightness_at(image, scene, inside), 0.78 * bright) << inside.transpose();
+    for (const Vec3& outside : {Vec3(-1.9, 0.0, 0.0), Vec3(-0.1, 0.0, 0.0), Vec3(-1.0, 0.0, 0.65), Vec3(-1.0, 0.0, -0.65)})
+        EXPECT_GT(brightness_at(image, scene, outside), 0.95 * bright) << outside.transpose();
+    EXPECT_LT(brightness_at(image, scene, Vec3(-15.0, 0.0, -300.0)), 0.9 * brightness_at(image, scene, Vec3(40.0, 0.0, -300.0)))
+        << "nor are those far away without";
+}
+
 // A body of any kind that reaches y = 0 from below and is `size` wide.
 BodyDescription wide_ground(const std::string& kind, double size) {
     constexpr Color color{190, 190, 190};
