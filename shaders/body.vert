@@ -105,6 +105,8 @@ void main() {
     float pixel = haze.y * length(instance_position.xyz);
     float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
     float bevel = min(max(instance_position.w, pixel), 0.5 * thinnest);
+    // The sides of a box of a few pixels would be all bevel, seen here and there at pixels' middles: beads. They are flat.
+    bevel *= max(smoothstep(flat_box * pixel, round_box * pixel, thinnest), 1e-3);
     v_face = vec4(half_size, half_size - bevel);
     v_edges = vec3(bevel, vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest));
     vec3 lift = rotate(instance_orientation, outward);

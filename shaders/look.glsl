@@ -21,6 +21,8 @@ const float occlusion_of_sun = 0.25;                      // share of that loss 
 const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's colour
 const float bevel_blur = 0.25;                            // of the spread that linear light has on bevels: light is averaged
                                                           // as it is shown, where highlights weigh less
+const float flat_box = 4.0;                               // pixels: thinner boxes have no rounded edges,
+const float round_box = 12.0;                             // thicker ones whole ones
 const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 
 const float ground_contrast = 0.13;                       // of a checker's fields and a body's pattern

@@ -16,8 +16,17 @@ constexpr double circle_error = 0.03;   // pixels
 // A box that is smaller shows a step between its own faces in a pixel or two, which no one sees.
 constexpr double inner_edge_pixels = 3.0;   // of its longest edge
 
+// A face that is seen narrower than this may show at no pixel's middle along a part of its edge.
+constexpr double narrow_pixels = 1.0;
+
 // A mesh's edge is a crease when its faces' normals differ by more than this.
 constexpr double crease_cosine = 0.9;
+
+// Is a point nearer than so much to the line through two others?
+bool within(double distance, const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& point) {
+    const double area = turn(a, b, point);
+    return area * area < distance * distance * (b - a).squaredNorm();
+}
 
 bool before_eye(const Vec3& point, const CameraView& view) { return point.dot(view.forward()) > 1e-3 * point.norm(); }
 
@@ -83,9 +92,10 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
 void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces) {
     const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        if (!before_eye(places[i], *view_)) return;
-        corners[i] = view_->pixel(places[i]);
+    bool before = true;   // all of it
+    for (std::size_t i = 0; i < 8 && before; ++i) {
+        before = before_eye(places[i], *view_);
+        if (before) corners[i] = view_->pixel(places[i]);
     }
     const double depth = item.center.dot(view_->forward());
     const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
@@ -95,6 +105,8 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
         const Vec3& on_face = places[face % 2 == 1 ? bit : 0];
         front[face] = (places[bit] - places[0]).dot(on_face) * (face % 2 == 1 ? 1.0 : -1.0) < 0.0;
     }
+    const std::size_t first = found_.size();
+    bool narrow = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::size_t along = std::size_t(1) << axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
         for (std::size_t sides = 0; sides < 4; ++sides) {
@@ -109,10 +121,21 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
             if (both && !inner_edges) continue;
             if ((faces >> face & 1) == 0 && !(both && (faces >> other & 1) != 0)) continue;
             const std::size_t corner = (sides & 1) << a | (sides >> 1) << b;
-            found_.push_back(directed(corners[corner], corners[corner | along], corners[corner ^ bit],
-                                      surface_id(body, face), both ? surface_id(body, other) : 0));
+            const std::uint8_t inner = surface_id(body, face), outer = both ? surface_id(body, other) : 0;
+            if (!before) {
+                add_clipped(places[corner], places[corner | along], places[corner ^ bit], inner, outer);
+                continue;
+            }
+            const ScreenPoint &from = corners[corner], &to = corners[corner | along];
+            found_.push_back(directed(from, to, corners[corner ^ bit], inner, outer));
+            if (both || !within(narrow_pixels, from, to, corners[corner ^ bit])) continue;
+            found_.back().whole_box = narrow = true;
+            found_.back().face = std::uint8_t(face);
         }
     }
+    // What a pixel shows of a box is put together first, and then how much of it.
+    if (narrow)
+        std::stable_partition(found_.begin() + std::ptrdiff_t(first), found_.end(), [](const ScreenEdge& e) { return e.outer != 0; });
 }
 
 // The outline of a ball is a circle in space: where rays from the eye graze it.
@@ -125,15 +148,17 @@ void EdgeFinder::add_ball(std::size_t body, const DrawnItem& item) {
     const Vec3 u = axis.unitOrthogonal() * circle, v = axis.cross(u);
     const double pixels = circle / (middle.norm() * view_->pixel_size());
     const int count = std::clamp(int(std::numbers::pi * std::sqrt(0.5 * pixels / circle_error)) + 1, 8, 1000);
+    const bool before = before_eye(item.center, *view_);
     const ScreenPoint inside = view_->pixel(item.center);
-    ScreenPoint last;
+    Vec3 last;
     for (int i = 0; i <= count; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i % count) / count;
         const Vec3 point = middle + u * std::cos(angle) + v * std::sin(angle);
-        if (!before_eye(point, *view_)) return;
-        const ScreenPoint at = view_->pixel(point);
-        if (i > 0) found_.push_back(directed(last, at, inside, surface_id(body, 0), 0));
-        last = at;
+        if (i > 0 && before && before_eye(last, *view_) && before_eye(point, *view_))
+            found_.push_back(directed(view_->pixel(last), view_->pixel(point), inside, surface_id(body, 0), 0));
+        else if (i > 0)
+            add_clipped(last, point, item.center, surface_id(body, 0), 0);
+        last = point;
     }
 }
 
@@ -143,22 +168,34 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawnI
     const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
     const TriangleMesh& surface =
         level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
+    const auto is_as_before = [&](const Seen& seen) {
+        return seen.level == level && seen.origin == state.origin && seen.orientation.coeffs() == state.orientation.coeffs() &&
+               seen.eye == view_->eye() && seen.forward == view_->forward() && seen.right == view_->right() &&
+               seen.pixel_size == view_->pixel_size();
+    };
+    const auto seen = seen_.find(body);
+    if (seen != seen_.end() && is_as_before(seen->second)) {
+        found_.insert(found_.end(), seen->second.edges.begin(), seen->second.edges.end());
+        return;
+    }
+    const std::size_t first = found_.size();
     const std::pair key(look.mesh, level);
     auto edges = meshes_.find(key);
     if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
     add_outline(body, state, surface, edges->second);
+    seen_[body] = {state.origin, view_->eye(), view_->forward(), view_->right(), state.orientation, view_->pixel_size(), level,
+                   {found_.begin() + std::ptrdiff_t(first), found_.end()}};
 }
 
 void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges) {
     const Vec3 origin = view_->relative(state.origin);
     const Vec3 eye = state.orientation.conjugate() * -origin;   // in the mesh's frame
     const Mat3 axes = state.orientation.toRotationMatrix();
+    const auto place = [&](std::uint32_t vertex) -> Vec3 { return origin + axes * surface.vertices[vertex]; };
     std::vector<ScreenPoint> points;
-    for (const Vec3& vertex : surface.vertices) {
-        const Vec3 at = origin + axes * vertex;
-        if (!before_eye(at, *view_)) return;
-        points.push_back(view_->pixel(at));
-    }
+    for (std::uint32_t i = 0; i < surface.vertices.size() && points.size() == i; ++i)
+        if (const Vec3 at = place(i); before_eye(at, *view_)) points.push_back(view_->pixel(at));
+    const bool before = points.size() == surface.vertices.size();
     std::vector<char> front;
     for (const auto& t : surface.triangles) {
         const Vec3& a = surface.vertices[t[0]];
@@ -172,11 +209,30 @@ void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const Tri
         const bool outline = open || left != right;
         if (!outline && !(edge.crease && left)) continue;
         const auto& t = surface.triangles[std::size_t(left || open ? edge.left : edge.right)];
+        if (!before) {
+            const std::uint32_t third = t[0] + t[1] + t[2] - edge.from - edge.to;
+            add_clipped(place(edge.from), place(edge.to), place(third), id, id);
+            if (outline) add_clipped(place(edge.from), place(edge.to), place(third), id, 0);
+            continue;
+        }
         const ScreenPoint inside = (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
         // The mesh before itself has one number on both sides, as at a crease; where both are in sight they are blended.
         found_.push_back(directed(points[edge.from], points[edge.to], inside, id, id));
         if (outline) found_.push_back(directed(points[edge.from], points[edge.to], inside, id, 0));
     }
+}
+
+void EdgeFinder::add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer) {
+    for (const Vec3& side : view_->sides()) {
+        const double at_a = side.dot(a), at_b = side.dot(b);
+        if (at_a < 0.0 && at_b < 0.0) return;
+        if (at_a < 0.0) a += (b - a) * (at_a / (at_a - at_b));
+        else if (at_b < 0.0) b += (a - b) * (at_b / (at_b - at_a));
+    }
+    constexpr double inward = 1e-3;   // of the way to c, which may lie behind the eye
+    const Vec3 middle = 0.5 * (a + b), inside = middle + inward * (c - middle);
+    if (!before_eye(a, *view_) || !before_eye(b, *view_) || !before_eye(inside, *view_)) return;
+    found_.push_back(directed(view_->pixel(a), view_->pixel(b), view_->pixel(inside), inner, outer));
 }
 
 // Where two planes meet: the part of the line before the eye.

@@ -18,6 +18,8 @@ struct ScreenEdge {
     float x0, y0, x1, y1;    // pixels from the top left corner
     std::uint8_t inner;      // the surface (surface_ids.h) on the side to which the way from 0 to 1 turns from x to y
     std::uint8_t outer;      // the one on the other side; 0: anything that is not `inner`
+    bool whole_box = false;  // the inner side is any face of the box that `inner` is one of: it may show in no pixel itself
+    std::uint8_t face = 0;   // which of them it is
 };
 
 /// A mesh's edges with the triangles on both sides; made once.
@@ -36,7 +38,7 @@ public:
     /// All of them must outlive it.
     EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details);
 
-    /// Of the items that are wanted, in scene order. Valid until the next call. What comes beside the eye has none.
+    /// Of the items that are wanted, in scene order. Valid until the next call.
     const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
                                         const std::vector<char>& wanted, const Visibility& visibility,
                                         const std::vector<PlanePatch>& planes);
@@ -47,11 +49,23 @@ private:
     void add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item);
     void add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges);
     void add_corner(const PlanePatch& a, const PlanePatch& b);
+    /// What is in view of the edge from a to b of a body that comes beside the eye, all relative to it; c lies on the inner side.
+    void add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer);
 
     const SceneLooks* looks_;
     const CameraView* view_;
     MeshDetails* details_;
+    /// A mesh's edges in the picture, and from where it was seen so.
+    struct Seen {
+        Vec3 origin, eye, forward, right;
+        Quat orientation;
+        double pixel_size = 0.0;
+        std::size_t level = 0;
+        std::vector<ScreenEdge> edges;
+    };
+
     std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;   // by mesh and level; made when needed
+    std::map<std::size_t, Seen> seen_;   // by body: a hill of 40,000 vertices that lies still is looked at once
     std::vector<ScreenEdge> found_;
 };
 

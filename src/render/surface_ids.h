@@ -7,8 +7,20 @@
 
 namespace tumble {
 
-/// Of a drawn body's face (0 for what has only one surface): 1 .. 253. The sky has 255.
-inline std::uint8_t surface_id(std::size_t body, std::size_t face) { return std::uint8_t(1 + (6 * body + face) % 253); }
+/// Numbers from 1 on; the sky has 255.
+inline constexpr int surface_id_count = 253;
+
+/// Of a drawn body's face (0 for what has only one surface).
+inline std::uint8_t surface_id(std::size_t body, std::size_t face) {
+    return std::uint8_t(1 + (6 * body + face) % std::size_t(surface_id_count));
+}
+
+/// Does a number belong to the same box as that of one of its faces?
+inline bool of_same_box(std::uint8_t id, std::uint8_t of_face, std::uint8_t face) {
+    int from_first = id - of_face + face;   // where the numbers began anew between the two, off by their count
+    from_first += from_first < 0 ? surface_id_count : from_first >= surface_id_count ? -surface_id_count : 0;
+    return from_first < 6 && id <= surface_id_count;
+}
 
 /// The same as the shaders write it.
 inline float surface_alpha(std::size_t body, std::size_t face) { return float(surface_id(body, face)) / 255.0f; }

@@ -223,5 +223,98 @@ TEST(SmoothEdges, ThatAMeshHidesItselfAreNotSeen) {
     }
 }
 
+// Grounds that reach behind the eye had no smooth edges at all: hills and floors ended in steps before the sky.
+TEST(SmoothEdges, OfGroundsThatReachBehindTheEye) {
+    const Silhouettes silhouettes;
+    SceneDescription scene = empty_scene();
+    scene.light.shadows = false;
+    scene.camera.eye = Vec3(1.0, 2.0, 3.0);
+    scene.camera.target = Vec3(0.0, 1.5, -7.0);
+    scene.camera.up = Vec3(0.3, 1.0, 0.0);
+    const CameraView view(scene.camera, 320, 180);
+    const Vec3 half_size(30.0, 0.5, 30.0), low(-30.0, -1.0, -30.0), high(30.0, 0.0, 30.0);
+    const auto on_box = [&](const ScreenPoint& p) {
+        const Vec3 ray = view.ray(p.x(), p.y());
+        double enter = 0.0, leave = 1e9;
+        for (int k = 0; k < 3; ++k) {
+            const double a = (low[k] - view.eye()[k]) / ray[k], b = (high[k] - view.eye()[k]) / ray[k];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        return enter < leave;
+    };
+    scene.bodies = {box_body(Vec3(0.0, -0.5, 0.0), 2.0 * half_size, {255, 255, 255})};
+    EXPECT_LT(silhouettes.error(scene, false, on_box), 0.03);
+    const auto on_sheet = [&](const ScreenPoint& p) {
+        const Vec3 ray = view.ray(p.x(), p.y()), at = view.eye() + ray * (view.eye().y() / -ray.y());
+        return ray.y() < 0.0 && std::abs(at.x()) < 30.0 && std::abs(at.z()) < 30.0;
+    };
+    scene.bodies = {mesh_body(Vec3::Zero(), sheet_asset(60.0, 12), {255, 255, 255})};
+    EXPECT_LT(silhouettes.error(scene, false, on_sheet), 0.03);
+    const Vec3 center = view.relative(Vec3(0.0, -20.0, 0.0));
+    const auto on_ball = [&](const ScreenPoint& p) {
+        const Vec3 ray = view.ray(p.x(), p.y()).normalized();
+        return center.cross(ray).norm() < 20.0 && center.dot(ray) > 0.0;
+    };
+    scene.bodies = {ball_body(Vec3(0.0, -20.0, 0.0), 20.0, {255, 255, 255})};
+    EXPECT_LT(silhouettes.error(scene, false, on_ball), 0.06);   // it is drawn as a mesh within 0.15 pixels
+}
+
+// A rod of three pixels or less: its narrow sides show at no pixel's middle for a while, and there its outline had steps.
+TEST(SmoothEdges, OfThinBoxesAreStraight) {
+    const Silhouettes silhouettes;
+    SceneDescription scene = empty_scene();
+    scene.light.shadows = false;
+    const CameraView view(scene.camera, 320, 180);
+    for (double angle = 0.07; angle < 1.5; angle += 0.3) {
+        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
+        const Vec3 half_size(1.5, 0.03, 0.03);
+        scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), 2.0 * half_size, {255, 255, 255}, turned)};
+        FewPoints corners;
+        for (const Vec3& p : box_corners(view.relative(scene.bodies[0].position), turned.toRotationMatrix(), half_size))
+            corners.push_back(view.pixel(p));
+        corners = convex_hull(corners);
+        const auto inside = [&](const ScreenPoint& p) {
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
+            return true;
+        };
+        EXPECT_LT(silhouettes.error(scene, false, inside), 0.04) << angle;
+    }
+}
+
+// Its rounded edges were as wide as a pixel, all of its sides, and pixels' middles lay here and there on them: a string of beads.
+TEST(SmoothEdges, ThinBoxesLookAsInALargerPicture) {
+    SceneDescription scene = empty_scene();
+    scene.light.shadows = false;
+    for (double angle = 0.37; angle < 1.5; angle += 0.3) {
+        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
+        scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3(3.0, 0.06, 0.06), {216, 192, 112}, turned)};
+        constexpr int times = 8;
+        SceneDescription larger = scene;
+        larger.output.width *= times;
+        larger.output.height *= times;
+        const Image image = drawn(scene), large = drawn(larger);
+        scene.bodies.clear();
+        const Image sky = drawn(scene);
+        double sum = 0.0;
+        int count = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                if (std::equal(image.at(x, y), image.at(x, y) + 3, sky.at(x, y))) continue;
+                for (int channel = 0; channel < 3; ++channel) {
+                    double mean = 0.0;
+                    for (int i = 0; i < times * times; ++i)
+                        mean += large.at(times * x + i % times, times * y + i / times)[channel];
+                    const double off = image.at(x, y)[channel] - mean / (times * times);
+                    sum += off * off;
+                    ++count;
+                }
+            }
+        EXPECT_GT(count, 500);
+        EXPECT_LT(std::sqrt(sum / count), 2.05) << "levels, " << angle;
+    }
+}
+
 }  // namespace
 }  // namespace tumble
