@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -70,7 +71,7 @@ bool DrawnPoses::settle(std::size_t body, BodyState& state) {
 
 bool DrawnPoses::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
-    bool moved = drawn_.empty();
+    bool moved = std::exchange(first_, false);
     if (moved)
         for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
     if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;

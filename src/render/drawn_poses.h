@@ -48,6 +48,7 @@ private:
     CameraView view_;
     std::vector<double> radii_;   // m, of each body around its origin; 0 where nothing of it is drawn; infinite: a plane
     std::vector<Pose> drawn_;     // empty before the first call
+    bool first_ = true;           // no call yet; a scene may have no bodies
 };
 
 }  // namespace tumble

@@ -35,6 +35,15 @@ TEST(DrawnPoses, FollowsWhatMovesByMoreThanTheTolerance) {
     }
 }
 
+// Every frame of it was drawn.
+TEST(DrawnPoses, ASceneWithoutBodiesIsDrawnOnce) {
+    const SceneDescription scene = empty_scene();
+    DrawnPoses poses(scene);
+    Snapshot snapshot = first_snapshot(scene);
+    EXPECT_TRUE(poses.follow(snapshot));
+    EXPECT_FALSE(poses.follow(snapshot));
+}
+
 TEST(DrawnPoses, CountsTurnsByTheWayOfTheFarthestPoint) {
     const SceneDescription scene = one_box();
     const double reach = 2.0 * std::sqrt(0.75);
