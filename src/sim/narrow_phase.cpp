@@ -199,8 +199,7 @@ void NarrowPhase::view(View& v, const Body& body) const {
         v.speculative = tuning::speculative * body.radius;
     }
     const Bounds bounds = world_bounds(body.collider, v.pose);
-    v.bounds.min = bounds.min;
-    v.bounds.max = bounds.max;
+    v.bounds = bounds;   // by way of a name: find_gyration()
     v.collider = &body.collider;
     v.awake = awake(body);
     v.flying = body.flying;

@@ -25,7 +25,7 @@ Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form);
 Vec3 gyration(const Body& body, double h);
 /// Into the body. By way of a name: Eigen moves an unnamed vector by sixteen bytes, which wait for those just written by eight.
 inline void find_gyration(Body& body, double h) {
-    const Vec3 found = body.spherical_top ? Vec3(Vec3::Zero()) : gyration(body, h);
+    const Vec3 found = gyration(body, h);
     body.gyration = found;
 }
 

@@ -329,7 +329,7 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
         else if (!before && body.dynamic()) {
             const Vec3 mean = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
                                          : mean_angular_velocity(body, h, settings.rotation);
-            motions[i].angular_velocity = mean;
+            motions[i].angular_velocity = mean;   // by way of a name: find_gyration()
         }
         motions[i].angular_velocity += body.push_angular_velocity;
     });

@@ -194,9 +194,7 @@ TEST(Sleep, SleepersAreNotLookedAt) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     add_sphere(scene, 0.5, {3.0, 1.6, 3.0});
     for (int i = 0; i < 10000; ++i) add_box(scene, {1.0, 1.0, 1.0}, {1.01 * (i % 100), 0.5, 1.01 * (i / 100)});
-    std::vector<Body> bodies;
-    BodyBuilder builder;
-    for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, IntegratorKind::symplectic_euler));
+    std::vector<Body> bodies = build_bodies(scene);
     BroadPhase broad_phase;
     broad_phase.update(bodies, 1.0 / 60.0);
     EXPECT_EQ(broad_phase.awake().size(), 10001u);

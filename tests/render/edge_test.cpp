@@ -157,6 +157,17 @@ private:
     ShaderCopy shaders_;
 };
 
+// Whether a point of the screen lies on the box.
+auto shown_box(const CameraView& view, const BodyDescription& box, const Vec3& half_size) {
+    FewPoints corners;
+    for (const Vec3& p : box_corners(view.relative(box.position), box.rotation.toRotationMatrix(), half_size)) corners.push_back(view.pixel(p));
+    return [corners = convex_hull(corners)](const ScreenPoint& p) {
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
+        return true;
+    };
+}
+
 TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
@@ -165,16 +176,7 @@ TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     for (double angle = 0.1; angle < 1.5; angle += 0.45) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, 0.5).normalized()));
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), Vec3(2.0, 1.4, 1.0), {255, 255, 255}, turned)};
-        FewPoints corners;
-        for (const Vec3& p : box_corners(view.relative(scene.bodies[0].position), turned.toRotationMatrix(),
-                                         Vec3(1.0, 0.7, 0.5)))
-            corners.push_back(view.pixel(p));
-        corners = convex_hull(corners);
-        const auto inside = [&](const ScreenPoint& p) {
-            for (std::size_t i = 0; i < corners.size(); ++i)
-                if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
-            return true;
-        };
+        const auto inside = shown_box(view, scene.bodies[0], Vec3(1.0, 0.7, 0.5));
         EXPECT_LT(silhouettes.error(scene, false, inside), 0.055);   // corners have several edges
         EXPECT_GT(silhouettes.error(scene, true, inside), 0.06) << "four samples know five shades";
     }
@@ -270,15 +272,7 @@ TEST(SmoothEdges, OfThinBoxesAreStraight) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
         const Vec3 half_size(1.5, 0.03, 0.03);
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), 2.0 * half_size, {255, 255, 255}, turned)};
-        FewPoints corners;
-        for (const Vec3& p : box_corners(view.relative(scene.bodies[0].position), turned.toRotationMatrix(), half_size))
-            corners.push_back(view.pixel(p));
-        corners = convex_hull(corners);
-        const auto inside = [&](const ScreenPoint& p) {
-            for (std::size_t i = 0; i < corners.size(); ++i)
-                if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
-            return true;
-        };
+        const auto inside = shown_box(view, scene.bodies[0], half_size);
         EXPECT_LT(silhouettes.error(scene, false, inside), 0.04) << angle;
     }
 }

@@ -31,8 +31,7 @@ public:
     explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1)
         : gravity_(scene.simulation.gravity), h_(scene.step()), pool_(threads), narrow_phase_(threads), islands_(scene.bodies.size()),
           solver_(scene.bodies.size(), choice), awake_() {
-        BodyBuilder builder;
-        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, IntegratorKind::symplectic_euler));
+        bodies = build_bodies(scene);
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].dynamic()) awake_.push_back(i);
     }

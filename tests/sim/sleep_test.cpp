@@ -24,8 +24,7 @@ struct Yard {
         SceneDescription scene = ground_scene(0.0, 0.5);
         for (const double y : {0.5, 1.5}) add_box(scene, {1.0, 1.0, 1.0}, {0.0, y, 0.0});
         add_box(scene, {1.0, 1.0, 1.0}, {5.0, 0.5, 0.0});
-        BodyBuilder builder;
-        for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, IntegratorKind::symplectic_euler));
+        bodies = build_bodies(scene);
         for (Manifold& m : manifolds) m.points[0].impulse = 1.0;
     }
     void observe(int steps = 1) {

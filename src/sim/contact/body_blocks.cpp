@@ -24,22 +24,15 @@ void BodyBlocks::add(std::span<const std::uint32_t> island, const std::vector<Bo
     open_ = false;
 }
 
-void BodyBlocks::cut(std::span<Item> items) {
+void BodyBlocks::cut(std::span<PlacedBody> items) {
     if (items.size() <= most_) {
         const std::size_t first = order_.size();
-        for (const Item& item : items) order_.push_back(item.body);
+        for (const PlacedBody& item : items) order_.push_back(item.body);
         std::sort(order_.begin() + std::ptrdiff_t(first), order_.end());
         first_.push_back(order_.size());
         return;
     }
-    Bounds box;
-    for (const Item& item : items) box.add(item.position);
-    int axis = 0;
-    box.extent().maxCoeff(&axis);
-    const std::size_t half = items.size() / 2;
-    std::nth_element(items.begin(), items.begin() + std::ptrdiff_t(half), items.end(), [axis](const Item& l, const Item& r) {
-        return l.position[axis] != r.position[axis] ? l.position[axis] < r.position[axis] : l.body < r.body;
-    });
+    const std::size_t half = cut_at_median(items, longest_side(items));
     cut(items.first(half));
     cut(items.subspan(half));
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim/body.h"
+#include "sim/median_cut.h"
 
 #include <cstdint>
 #include <span>
@@ -27,17 +28,13 @@ public:
     std::size_t first(std::size_t block) const { return first_[block]; }
 
 private:
-    struct Item {
-        Vec3 position;
-        std::uint32_t body;
-    };
-    void cut(std::span<Item> items);
+    void cut(std::span<PlacedBody> items);
 
     std::size_t most_;
     std::vector<std::uint32_t> order_;
     std::vector<std::size_t> first_{0};
     bool open_ = false;          // the last block takes further small islands
-    std::vector<Item> items_;
+    std::vector<PlacedBody> items_;
 };
 
 }  // namespace tumble
