@@ -8,6 +8,7 @@
 #pragma once
 
 #include "sim/body.h"
+#include "sim/body_pair.h"
 #include "sim/collision/bounds_tree.h"
 #include "sim/collision/dynamic_tree.h"
 #include "sim/thread_pool.h"
@@ -19,12 +20,7 @@ namespace tumble {
 
 class BroadPhase {
 public:
-    struct Pair {
-        std::uint32_t a, b;   // a < b; at least one is dynamic
-        friend bool operator==(const Pair&, const Pair&) = default;
-        friend auto operator<=>(const Pair& l, const Pair& r) { return l.key() <=> r.key(); }
-        std::uint64_t key() const { return std::uint64_t(a) << 32 | b; }   // compared at once: lists of them are sorted
-    };
+    using Pair = BodyPair;   // at least one is dynamic
     /// awake: pairs of which one body is awake, for the step. all: sleepers among themselves as well.
     enum class Pairs { awake, all };
 

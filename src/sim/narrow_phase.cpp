@@ -85,11 +85,9 @@ void NarrowPhase::each_share(ThreadPool& pool, Work&& work) {
 
 std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies,
                                          double h, ThreadPool& pool) {
-    match(pairs, bodies);
-    ++call_;
+    const bool changed = match(pairs, bodies);
     views_.resize(bodies.size());
-    seen_.resize(bodies.size(), 0);
-    share_out(pool);
+    share_out(pool, changed);
     each_share(pool, [&](Found& found) {
         for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
     });
@@ -105,12 +103,18 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
 
 // Which thread looks at which bodies and pairs. Of the bodies in the list only: those that sleep far from all others are not
 // even looked at.
-void NarrowPhase::share_out(const ThreadPool& pool) {
+void NarrowPhase::share_out(const ThreadPool& pool, bool pairs_changed) {
     const bool alone = found_.size() == 1;
     for (Found& found : found_) {
         found.manifolds.clear();
         found.anchors.clear();
         found.changes.clear();
+    }
+    if (!pairs_changed && seen_owners_ == pool.owner_changes()) return;
+    seen_owners_ = pool.owner_changes();
+    ++call_;
+    seen_.resize(views_.size(), 0);
+    for (Found& found : found_) {
         found.bodies.clear();
         if (!alone) found.entries.clear();
     }
@@ -130,10 +134,10 @@ void NarrowPhase::share_out(const ThreadPool& pool) {
     }
 }
 
-// The entries for the new list of pairs.
-void NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies) {
+// The entries for the new list of pairs; whether it is another one.
+bool NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies) {
     const auto same = [](const Entry& entry, const BroadPhase::Pair& pair) { return entry.pair == pair; };
-    if (std::equal(entries_.begin(), entries_.end(), pairs.begin(), pairs.end(), same)) return;
+    if (std::equal(entries_.begin(), entries_.end(), pairs.begin(), pairs.end(), same)) return false;
     spare_entries_.clear();
     auto old = entries_.begin();
     const auto leave = [&](const Entry& entry) {
@@ -163,6 +167,7 @@ void NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::v
     }
     for (; old != entries_.end(); ++old) leave(*old);
     entries_.swap(spare_entries_);
+    return true;
 }
 
 void NarrowPhase::park(const Entry& entry) {
@@ -407,10 +412,13 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
         }
         flush();
     });
+    touching_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
         entries_[i].first = new_first_[i];
         entries_[i].count = new_count_[i];
+        touching_.insert(touching_.end(), new_count_[i], entries_[i].pair);
     }
+    ++changes_;
     manifolds_.swap(spare_manifolds_);
     anchors_.swap(spare_anchors_);
     moved_ = false;

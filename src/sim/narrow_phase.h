@@ -31,6 +31,11 @@ public:
     std::vector<Manifold>& find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies, double h,
                                 ThreadPool& pool);
 
+    /// Whose these manifolds are, one by one: without having to fetch them from memory.
+    const std::vector<BodyPair>& touching() const { return touching_; }
+    /// Grows whenever that list changes.
+    std::uint64_t changes() const { return changes_; }
+
 private:
     // What the pairs need of a body, close together: most look at the first two cache lines only.
     struct alignas(64) View {
@@ -84,12 +89,12 @@ private:
         std::vector<Anchors> anchors;
     };
 
-    void match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
+    bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);
     void unpark(Entry& entry);
     template <class Work>
     void each_share(ThreadPool& pool, Work&& work);
-    void share_out(const ThreadPool& pool);
+    void share_out(const ThreadPool& pool, bool pairs_changed);
     static Placement placement(const View& small, const View& large);
     static double motion(const Placement& from, const Placement& to, double radius);
     void view(View& v, const Body& body) const;
@@ -113,7 +118,10 @@ private:
     std::vector<View> views_;                     // one a body
     std::vector<std::uint64_t> seen_;             // by body: the call that its view was brought up to date in
     std::uint64_t call_ = 0;
+    std::uint64_t seen_owners_ = UINT64_MAX;      // of the bodies, when the pairs were shared out last
     bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
+    std::vector<BodyPair> touching_;
+    std::uint64_t changes_ = 0;
     std::vector<Manifold> manifolds_, spare_manifolds_;
     std::vector<Anchors> anchors_, spare_anchors_;
 };

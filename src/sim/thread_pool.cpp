@@ -53,7 +53,10 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::give(std::uint32_t body, std::size_t thread) {
     if (body >= owner_.size()) owner_.resize(body + 1, nobody);
-    owner_[body] = std::uint8_t(std::min<std::size_t>(thread, nobody));
+    const auto owner = std::uint8_t(std::min<std::size_t>(thread, nobody));
+    if (owner_[body] == owner) return;
+    owner_[body] = owner;
+    ++owner_changes_;
 }
 
 void ThreadPool::call(std::size_t item, std::size_t thread) {

@@ -41,6 +41,8 @@ public:
         return body < owner_.size() && owner_[body] != nobody ? owner_[body] : body / 64 % std::size_t(size());
     }
     void give(std::uint32_t body, std::size_t thread);
+    /// Grows whenever a body is given to another thread.
+    std::uint64_t owner_changes() const { return owner_changes_; }
 
     /// Calls visit(body) for all of them, each on its thread; below `grain` bodies all on the caller's.
     template <class Visit>
@@ -64,6 +66,7 @@ private:
 
     std::vector<std::jthread> workers_;
     std::vector<std::uint8_t> owner_;   // by body
+    std::uint64_t owner_changes_ = 0;
     std::mutex mutex_;
     std::condition_variable start_, done_;
     const std::function<void(std::size_t, std::size_t)>* body_ = nullptr;

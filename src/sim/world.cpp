@@ -51,6 +51,7 @@ struct World::State {
     std::vector<Manifold>* manifolds = nullptr;   // of this step; the narrow phase's
     std::vector<Contact> contacts;    // their points, where impulses are resolved one by one
     ContactIslands islands;           // of the awake bodies
+    std::pair<std::uint64_t, std::uint64_t> seen_by_islands{UINT64_MAX, UINT64_MAX};   // changes of manifolds, of who sleeps
     std::vector<Island> colliding;    // in this step
     std::vector<std::uint32_t> struck;   // and their manifolds
     std::vector<double> struck_impulses;   // N s, of these before the step
@@ -217,7 +218,11 @@ void World::State::find_contacts() {
         make_contacts(*manifolds, bodies, contacts);
         flights->take_off(contacts, bodies, forces, steps);
     }
-    islands.find(*manifolds, bodies, awake_bodies);
+    // The same pairs and the same bodies awake: the same islands. What flies takes part again at any moment.
+    const std::pair now(narrow_phase.changes(), sleep.changes());
+    if (!flights && now == seen_by_islands) return;
+    seen_by_islands = now;
+    islands.find(narrow_phase.touching(), bodies, awake_bodies);
 }
 
 // Whether points that touch come nearer, faster than resting contact does, with restitution to answer it.

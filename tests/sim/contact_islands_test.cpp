@@ -61,7 +61,7 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
             const auto a = std::uint32_t(random.below(n)), b = std::uint32_t(random.below(n));
             if (a != b && (bodies[a].dynamic() || bodies[b].dynamic())) manifolds.push_back(touch(std::min(a, b), std::max(a, b)));
         }
-        islands.find(manifolds, bodies, awake);
+        islands.find(body_pairs(manifolds), bodies, awake);
         const Flood expected = flood(manifolds, bodies);
         std::size_t in_islands = 0, manifolds_in_islands = 0;
         int last = -1;
@@ -92,7 +92,7 @@ TEST(ContactIslands, FixedAndKinematicBodiesJoinNothing) {
     bodies[0].type = BodyType::fixed;
     bodies[1].type = BodyType::kinematic;
     ContactIslands islands(4);
-    islands.find({touch(0, 2), touch(0, 3), touch(1, 2), touch(1, 3)}, bodies, std::vector<std::uint32_t>{2, 3});
+    islands.find(body_pairs({touch(0, 2), touch(0, 3), touch(1, 2), touch(1, 3)}), bodies, std::vector<std::uint32_t>{2, 3});
     ASSERT_EQ(islands.size(), 2u);
     EXPECT_EQ(islands.manifolds(0).size(), 2u);
     EXPECT_EQ(islands.manifolds(1).size(), 2u);

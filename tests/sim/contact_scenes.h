@@ -38,7 +38,7 @@ public:
 
     void step() {
         manifolds = &narrow_phase_.find(broad_phase_.update(bodies, h_), bodies, h_, pool_);
-        islands_.find(*manifolds, bodies, awake_);
+        islands_.find(narrow_phase_.touching(), bodies, awake_);
         std::vector<BodyVelocity> before(bodies.size());
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];

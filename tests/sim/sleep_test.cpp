@@ -29,7 +29,7 @@ struct Yard {
     }
     void observe(int steps = 1) {
         for (int k = 0; k < steps; ++k) {
-            islands.find(manifolds, bodies, awake);
+            islands.find(body_pairs(manifolds), bodies, awake);
             sleep.observe(islands, manifolds, bodies, h);
         }
     }

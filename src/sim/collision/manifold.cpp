@@ -36,6 +36,12 @@ double gain(const Manifold& chosen, const Vec3& p) {
 
 }  // namespace
 
+std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
+    std::vector<BodyPair> pairs;
+    for (const Manifold& m : manifolds) pairs.push_back({m.a, m.b});
+    return pairs;
+}
+
 void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out) {
     if (candidates.size() <= Manifold::capacity) {
         manifold.count = int(candidates.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "sim/body_pair.h"
 
 #include <array>
 #include <cstdint>
@@ -69,6 +70,9 @@ struct Manifold {
     /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).
     bool on_b() const { return (points[0].feature >> 63) != 0; }
 };
+
+/// Whose the manifolds are, one by one.
+std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds);
 
 /// Fills `manifold.points` with the candidates, or, when there are more than four, with the deepest and three that span a
 /// large area with it: of those that touch before the others. The rest is appended to `left_out`.

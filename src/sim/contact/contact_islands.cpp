@@ -28,12 +28,12 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
     return i;
 }
 
-void ContactIslands::find(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
                           std::span<const std::uint32_t> awake) {
     ++round_;
-    held_.assign(manifolds.size(), none);
-    for (std::size_t k = 0; k < manifolds.size(); ++k) {
-        const std::uint32_t a = manifolds[k].a, b = manifolds[k].b;
+    held_.assign(touching.size(), none);
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        const auto [a, b] = touching[k];
         const Role role_a = look(a, bodies), role_b = look(b, bodies);
         if (role_a == Role::aside || role_b == Role::aside) continue;
         for (const std::uint32_t i : {a, b}) {
@@ -61,7 +61,7 @@ void ContactIslands::find(const std::vector<Manifold>& manifolds, const std::vec
         ++first_body_[number + 1];
     }
     const auto island_of = [&](std::size_t k) { return held_[k] == none ? none : members_[held_[k]].island; };
-    for (std::size_t k = 0; k < manifolds.size(); ++k)
+    for (std::size_t k = 0; k < touching.size(); ++k)
         if (const std::uint32_t number = island_of(k); number != none) ++first_manifold_[number + 1];
     for (std::size_t k = 1; k < first_body_.size(); ++k) {
         first_body_[k] += first_body_[k - 1];
@@ -72,7 +72,7 @@ void ContactIslands::find(const std::vector<Manifold>& manifolds, const std::vec
     std::vector<std::uint32_t> next_body = first_body_, next_manifold = first_manifold_;
     for (const std::uint32_t i : awake)
         if (touched(i)) bodies_[next_body[members_[i].island]++] = i;
-    for (std::uint32_t k = 0; k < manifolds.size(); ++k)
+    for (std::uint32_t k = 0; k < touching.size(); ++k)
         if (const std::uint32_t number = island_of(k); number != none) manifolds_[next_manifold[number]++] = k;
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "sim/body.h"
-#include "sim/collision/manifold.h"
+#include "sim/body_pair.h"
 
 #include <cstdint>
 #include <span>
@@ -16,10 +16,10 @@ class ContactIslands {
 public:
     explicit ContactIslands(std::size_t bodies);
 
-    /// Islands of the manifolds, ordered by their lowest body. `awake`: the bodies that take part, ascending. Fixed,
-    /// kinematic and sleeping bodies belong to none and join nothing; manifolds without a body that takes part, and
-    /// bodies without manifolds, are left out.
-    void find(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
+    /// Islands of the manifolds, ordered by their lowest body. `touching`: whose the manifolds are. `awake`: the bodies that take
+    /// part, ascending. Fixed, kinematic and sleeping bodies belong to none and join nothing; manifolds without a body that
+    /// takes part, and bodies without manifolds, are left out. The same lists and the same bodies awake give the same islands.
+    void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
 
     std::size_t size() const { return first_body_.size() - 1; }
     /// Of all islands, one after the other.

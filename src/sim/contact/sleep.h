@@ -4,6 +4,7 @@
 // leans on something that stands, fixed or kinematic. Bodies in free flight never sleep, however slow.
 #pragma once
 
+#include "sim/collision/manifold.h"
 #include "sim/contact/contact_islands.h"
 #include "sim/tuning.h"
 

@@ -141,7 +141,7 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
         advance_momenta(body, wrench.force, wrench.torque, rest);
         body.derive();
     }
-    islands_.find(landing_manifolds_, bodies, touched);
+    islands_.find(body_pairs(landing_manifolds_), bodies, touched);
     contact_solver_.solve({bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}},
                           islands_, alone_);
     for (const std::uint32_t k : touched) {

@@ -1,0 +1,16 @@
+// Two bodies by their indices, the lower one first.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+namespace tumble {
+
+struct BodyPair {
+    std::uint32_t a, b;   // a < b
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend auto operator<=>(const BodyPair& l, const BodyPair& r) { return l.key() <=> r.key(); }
+    std::uint64_t key() const { return std::uint64_t(a) << 32 | b; }   // compared at once: lists of them are sorted
+};
+
+}  // namespace tumble
