@@ -5,9 +5,10 @@
 namespace tumble {
 namespace {
 
-// Looks of a waiting thread before it goes to sleep: some 30 microseconds by itself, then some 300 more, in which whoever
-// else wants the core gets it. To wake a sleeper takes as long as many a stage of a step.
-constexpr int patience = 1000, yielding_patience = 600;
+// Looks of a waiting thread before it goes to sleep: some 3 microseconds by itself, then some 300 more, in which whoever
+// else wants the core gets it: the other thread, perhaps, where both have come to stand on one. To wake a sleeper takes as long as
+// many a stage of a step.
+constexpr int patience = 100, yielding_patience = 600;
 
 template <class Ready>
 bool look_for(Ready&& ready) {

@@ -63,6 +63,7 @@ struct World::State {
     FreeFlights free_flights;           // with exact motion between stepped ones
     MotionLimit motion_limit;
     std::vector<BodyVelocity> motions;
+    std::atomic<bool> any_fast{false};   // of the motions: each body's own thread tells
     std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // body
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
@@ -85,7 +86,7 @@ struct World::State {
           narrow_phase(threads, NarrowPhase::Mode::step,
                        scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
-          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), pool(threads),
+          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), motion_limit(bodies), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);
@@ -122,7 +123,7 @@ struct World::State {
         return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && !touched(i) &&
                (!body.gyration.isZero(0.0) || turns_too_far(body, h));
     }
-    const std::vector<BodyVelocity>& step_motions();
+    void step_motions();
     const std::vector<StepLimit>& held_limits();
     void turn_freely(Body& body, const Quat& from, double share) const;
     void lose_time(std::uint32_t i, double share, bool in_contact);
@@ -229,9 +230,10 @@ void World::State::find_contacts() {
 bool World::State::collides(std::size_t island) const {
     const double threshold = tuning::restitution_threshold * gravity_step();
     for (const std::uint32_t k : islands.manifolds(island)) {
-        const Manifold& m = (*manifolds)[k];
-        const Body &a = bodies[m.a], &b = bodies[m.b];
+        const auto& pair = narrow_phase.touching()[k];
+        const Body &a = bodies[pair.a], &b = bodies[pair.b];
         if (pair_restitution(a, b) <= 0.0) continue;
+        const Manifold& m = (*manifolds)[k];
         const double touch = touch_distance(a.radius, b.radius);
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];
@@ -320,7 +322,8 @@ void World::State::forget_blows() {
 }
 
 // The velocities that poses are moved with: numbers, or nothing may be looked for on the way.
-const std::vector<BodyVelocity>& World::State::step_motions() {
+void World::State::step_motions() {
+    any_fast = false;
     pool.for_bodies(moving_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = bodies[i];
         motions[i] = {};
@@ -337,9 +340,9 @@ const std::vector<BodyVelocity>& World::State::step_motions() {
             motions[i].angular_velocity = mean;   // by way of a name: find_gyration()
         }
         motions[i].angular_velocity += body.push_angular_velocity;
+        if (motion_limit.fast(i, motions[i], h) && !any_fast) any_fast = true;
     });
     stop_if_not_finite();
-    return motions;
 }
 
 // Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
@@ -350,7 +353,8 @@ const std::vector<StepLimit>& World::State::held_limits() {
         std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
         return pairs;
     };
-    return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h);
+    step_motions();
+    return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast);
 }
 
 // Where a turn in flight is too large for one tangent (spin_limit.h), it is made again in closed form.
@@ -399,7 +403,8 @@ void World::State::move() {
     }
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h, &pool); };
     const auto in_free_rotation = [&](std::uint32_t i) { return turns_freely(i); };
-    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, moving_bodies, step_motions(), h, in_free_rotation);
+    step_motions();
+    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast, in_free_rotation);
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         const double share = limits[i].share;

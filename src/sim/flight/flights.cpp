@@ -24,6 +24,7 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       grounds_(bodies.size()),
       neighbourhood_(bodies),
       queue_(bodies.size()),
+      motion_limit_(bodies),
       islands_(bodies.size()),
       contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
       velocities_before_(bodies.size()) {

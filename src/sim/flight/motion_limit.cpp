@@ -57,11 +57,19 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
-// Told without looking at any pair: nothing goes as far in the step as the thinnest body is thin.
-bool MotionLimit::all_slow(std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions, double h) const {
-    double farthest = 0.0;
-    for (const std::uint32_t i : moving) farthest = std::max(farthest, h * (motions[i].velocity.norm() + turning(arm_[i], motions[i])));
-    return 2.0 * farthest <= least_thin_;
+MotionLimit::MotionLimit(const std::vector<Body>& bodies)
+    : limits_(bodies.size()), least_thin_(std::numeric_limits<double>::infinity()) {
+    const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
+    for (const Body& body : bodies) {
+        arm_.push_back(ball(body) ? 0.0 : body.radius);
+        const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
+        least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
+    }
+}
+
+// Told without looking at any pair: two of them go no farther than the thinnest body is thin.
+bool MotionLimit::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
+    return 2.0 * h * (motion.velocity.norm() + turning(arm_[body], motion)) > least_thin_;
 }
 
 StepLimit& MotionLimit::shorten(std::uint32_t body) {
@@ -86,22 +94,12 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 }
 
 const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                                  const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                                  const std::vector<BodyVelocity>& motions, double h, const TurnsFreely& turns_freely) {
-    if (limits_.empty()) {
-        limits_.resize(bodies.size());
-        least_thin_ = std::numeric_limits<double>::infinity();
-        const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
-        for (const Body& body : bodies) {
-            arm_.push_back(ball(body) ? 0.0 : body.radius);
-            const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
-            least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
-        }
-    }
+                                                  const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
+                                                  double h, bool any_fast, const TurnsFreely& turns_freely) {
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
     fast_.clear();
-    if (all_slow(moving, motions, h)) return limits_;
+    if (!any_fast) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];

@@ -10,7 +10,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace tumble {
@@ -41,11 +40,16 @@ void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share
 
 class MotionLimit {
 public:
-    /// By body; `motions` too, bodies that do not move have zero. `moving`: those that may. What touches already is the
-    /// contact solver's, and may come a little deeper into each other: no more.
+    explicit MotionLimit(const std::vector<Body>& bodies);
+
+    /// Whether the body goes so far in h seconds that it might pass something unseen. Where none does, there are no limits.
+    bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;
+
+    /// By body; `motions` too, bodies that do not move have zero. `any_fast`: whether any of those is. What touches already is
+    /// the contact solver's, and may come a little deeper into each other: no more.
     const std::vector<StepLimit>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                         const std::vector<Body>& bodies, std::span<const std::uint32_t> moving,
-                                         const std::vector<BodyVelocity>& motions, double h, const TurnsFreely& turns_freely = nullptr);
+                                         const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, double h,
+                                         bool any_fast, const TurnsFreely& turns_freely = nullptr);
 
 private:
     struct FastPair {
@@ -58,7 +62,6 @@ private:
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
-    bool all_slow(std::span<const std::uint32_t> moving, const std::vector<BodyVelocity>& motions, double h) const;
     StepLimit& shorten(std::uint32_t body);
 
     ImpactSearch search_;
