@@ -229,11 +229,11 @@ void World::State::find_contacts() {
 // Whether points that touch come nearer, faster than resting contact does, with restitution to answer it.
 bool World::State::collides(std::size_t island) const {
     const double threshold = tuning::restitution_threshold * gravity_step();
-    for (const std::uint32_t k : islands.manifolds(island)) {
-        const auto& pair = narrow_phase.touching()[k];
-        const Body &a = bodies[pair.a], &b = bodies[pair.b];
+    const auto touching = islands.pairs(island);
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        const Body &a = bodies[touching[k].a], &b = bodies[touching[k].b];
         if (pair_restitution(a, b) <= 0.0) continue;
-        const Manifold& m = (*manifolds)[k];
+        const Manifold& m = (*manifolds)[islands.manifolds(island)[k]];
         const double touch = touch_distance(a.radius, b.radius);
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];

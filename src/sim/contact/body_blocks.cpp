@@ -24,15 +24,20 @@ void BodyBlocks::add(std::span<const std::uint32_t> island, const std::vector<Bo
     open_ = false;
 }
 
+// The items ascend by body, and so do those of each half.
 void BodyBlocks::cut(std::span<PlacedBody> items) {
     if (items.size() <= most_) {
-        const std::size_t first = order_.size();
         for (const PlacedBody& item : items) order_.push_back(item.body);
-        std::sort(order_.begin() + std::ptrdiff_t(first), order_.end());
         first_.push_back(order_.size());
         return;
     }
-    const std::size_t half = cut_at_median(items, longest_side(items));
+    const int axis = longest_side(items);
+    halves_.assign(items.begin(), items.end());
+    const std::size_t half = cut_at_median(halves_, axis);
+    const auto lower = [before = PlacedBody::before(axis), median = halves_[half]](const PlacedBody& item) { return before(item, median); };
+    const auto upper_half = std::copy_if(items.begin(), items.end(), halves_.begin(), lower);
+    std::remove_copy_if(items.begin(), items.end(), upper_half, lower);
+    std::copy(halves_.begin(), halves_.end(), items.begin());
     cut(items.first(half));
     cut(items.subspan(half));
 }

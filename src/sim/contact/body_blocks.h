@@ -18,7 +18,7 @@ public:
     explicit BodyBlocks(std::size_t most) : most_(most) {}
 
     void clear();
-    /// One more island's bodies.
+    /// One more island's bodies, ascending.
     void add(std::span<const std::uint32_t> island, const std::vector<Body>& bodies);
 
     /// All bodies, block by block.
@@ -34,7 +34,7 @@ private:
     std::vector<std::uint32_t> order_;
     std::vector<std::size_t> first_{0};
     bool open_ = false;          // the last block takes further small islands
-    std::vector<PlacedBody> items_;
+    std::vector<PlacedBody> items_, halves_;
 };
 
 }  // namespace tumble

@@ -72,8 +72,18 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     std::vector<std::uint32_t> next_body = first_body_, next_manifold = first_manifold_;
     for (const std::uint32_t i : awake)
         if (touched(i)) bodies_[next_body[members_[i].island]++] = i;
-    for (std::uint32_t k = 0; k < touching.size(); ++k)
-        if (const std::uint32_t number = island_of(k); number != none) manifolds_[next_manifold[number]++] = k;
+    pairs_.resize(manifolds_.size());
+    touching_pairs_.assign(size(), 0);
+    floats_.assign(size(), 1);
+    for (std::uint32_t k = 0; k < touching.size(); ++k) {
+        const std::uint32_t number = island_of(k);
+        if (number == none) continue;
+        const std::uint32_t place = next_manifold[number]++;
+        manifolds_[place] = k;
+        pairs_[place] = touching[k];
+        if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
+        if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still) floats_[number] = 0;
+    }
 }
 
 }  // namespace tumble

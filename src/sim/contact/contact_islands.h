@@ -30,6 +30,14 @@ public:
     std::span<const std::uint32_t> manifolds(std::size_t island) const {
         return std::span(manifolds_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
     }
+    /// Whose its manifolds are, one by one.
+    std::span<const BodyPair> pairs(std::size_t island) const {
+        return std::span(pairs_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
+    }
+    /// How many pairs of bodies touch: parts and triangles may in many manifolds.
+    std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
+    /// Whether it touches nothing but its own bodies.
+    bool floats(std::size_t island) const { return floats_[island] != 0; }
 
 private:
     // still: neither held nor moved by contacts. aside: asleep or in exact flight, not held by this step's contacts.
@@ -49,6 +57,9 @@ private:
     std::vector<std::uint32_t> held_;              // by manifold: a body of it that takes part
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
+    std::vector<BodyPair> pairs_;                  // beside manifolds_
+    std::vector<std::uint32_t> touching_pairs_;    // by island
+    std::vector<std::uint8_t> floats_;
 };
 
 }  // namespace tumble

@@ -6,27 +6,6 @@
 #include <cmath>
 
 namespace tumble {
-namespace {
-
-bool floats(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
-    return std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
-        return problem.bodies[problem.manifolds[k].a].dynamic() && problem.bodies[problem.manifolds[k].b].dynamic();
-    });
-}
-
-// Of bodies: parts and triangles may touch in many manifolds, but what is factored are bodies and pairs.
-std::size_t pairs(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < manifolds.size(); ++k) {
-        const Manifold& m = problem.manifolds[manifolds[k]];
-        const Manifold* before = k > 0 ? &problem.manifolds[manifolds[k - 1]] : nullptr;
-        if (!before || before->a != m.a || before->b != m.b) ++count;
-    }
-    return count;
-}
-
-}  // namespace
-
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
     : choice_(choice), effort_(effort), memory_(bodies), gains_(bodies), turns_fast_(bodies), loads_(bodies), soft_(bodies) {}
 
@@ -71,7 +50,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     // What is solved directly stays so a little beyond where it would begin: from one solver to the other the bodies are
     // lifted out of their soft contacts and sink back in, and in between the two a heap would rock for ever.
     const std::size_t few = few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs;
-    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += pairs(problem, islands.manifolds(k));
+    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);   // what is factored
     few_ = all_pairs <= few;
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
@@ -88,7 +67,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        const bool free = floats(problem, manifolds);
+        const bool free = islands.floats(k);
         if (!free && turns_fast(bodies)) {
             softly_.push_back(k);
             continue;
@@ -161,11 +140,13 @@ void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& pr
                 part = &parts_[parts_used_++];
                 part->bodies.clear();
                 part->manifolds.clear();
+                part->pairs.clear();
                 part->island_ends.clear();
                 part->finer = wanted;
             }
             part->bodies.insert(part->bodies.end(), bodies.begin(), bodies.end());
             part->manifolds.insert(part->manifolds.end(), manifolds.begin(), manifolds.end());
+            part->pairs.insert(part->pairs.end(), islands.pairs(softly_[s]).begin(), islands.pairs(softly_[s]).end());
             part->island_ends.push_back(part->bodies.size());
         }
     }

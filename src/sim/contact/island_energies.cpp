@@ -26,7 +26,11 @@ void IslandEnergies::open(const BodyBlocks& blocks, std::size_t first, std::size
     reached_.assign(end, 0);
 }
 
-void IslandEnergies::lies_deep(std::size_t place) { std::atomic_ref(island(place).deep).store(1, std::memory_order_relaxed); }
+// Written to only where it changes: all threads read what lies beside it.
+void IslandEnergies::set(std::uint8_t& flag) {
+    const std::atomic_ref shared(flag);
+    if (shared.load(std::memory_order_relaxed) == 0) shared.store(1, std::memory_order_relaxed);
+}
 
 void IslandEnergies::end(std::size_t place, const Body& body) {
     Account& account = accounts_[account_of_[place]];

@@ -21,10 +21,10 @@ public:
     void open(const BodyBlocks& blocks, std::size_t first, std::size_t end, std::size_t first_block, const std::vector<Body>& bodies);
 
     /// Of the island of the body at a place: leans on what stands; is driven by a kinematic body, which may give it energy; has bodies
-    /// that lie deep in each other (this by any thread).
-    void leans(std::size_t place) { island(place).leans = true; }
-    void is_driven(std::size_t place) { island(place).driven = true; }
-    void lies_deep(std::size_t place);
+    /// that lie deep in each other (by any thread).
+    void leans(std::size_t place) { set(island(place).leans); }
+    void is_driven(std::size_t place) { set(island(place).driven); }
+    void lies_deep(std::size_t place) { set(island(place).deep); }
 
     /// Before the solve, and after it, if contacts have reached the body; each place by one thread.
     void begin(std::size_t place, const Body& body, const BodyVelocity& before) { open_account(forces_[place], body, before); }
@@ -45,9 +45,9 @@ private:
     struct Island {
         std::size_t first_account, end_account;
         Vec3 origin;              // m, one of its bodies
-        bool leans = false, driven = false;
-        std::uint8_t deep = 0;
+        std::uint8_t leans = 0, driven = 0, deep = 0;
     };
+    static void set(std::uint8_t& flag);
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
     void hold_floating(const Account& account, const EnergyAccount& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const;
 

@@ -62,7 +62,8 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
-void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot) {
+void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot,
+                        std::size_t team) {
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.patches.h) * part.finer;
     d_ = problem.patches.h / substeps_;
@@ -87,11 +88,11 @@ void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& p
             slot[blocks_.order()[k]] = std::uint32_t(k + 1);
             block_of_[k + 1] = std::uint32_t(b);
         }
-    color(problem, part, slot);
-    deal_lanes(part);
-    slots_ = dynamic + movers_.size();
-    state_.resize(slots_ * soft::body_floats);
-    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
+    taken_.assign(dynamic, {});
+    class_size_.assign((blocks_.size() + 1) * colors * costs, 0);
+    class_.resize(part.manifolds.size());
+    found_movers_.clear();
+    found_movers_.resize(team);
 }
 
 SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem) {
@@ -99,41 +100,49 @@ SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, co
 }
 
 // Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
-// gets depends on its island alone. Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
-void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot) {
-    const std::size_t across = blocks_.size(), homes = across + 1;
-    taken_.assign(1 + part.bodies.size(), {});
-    movers_.clear();
-    class_size_.assign(homes * colors * costs, 0);
-    class_.clear();
-    for (const std::uint32_t k : part.manifolds) {
-        const Manifold& m = problem.manifolds[k];
-        const bool moves_a = problem.bodies[m.a].dynamic(), moves_b = problem.bodies[m.b].dynamic();
-        const std::uint32_t a = moves_a ? slot[m.a] : 0, b = moves_b ? slot[m.b] : 0;
-        if (!moves_a || !moves_b) {
-            const std::uint32_t place = (moves_a ? a : b) - 1, other = moves_a ? m.b : m.a;
+// gets depends on its island alone. Each thread colours its own blocks, whose manifolds its core's cache holds, and one what lies
+// between them.
+void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot,
+                      std::size_t thread, std::size_t team) {
+    const Share own = blocks_of(thread, team);
+    const std::size_t across = blocks_.size();
+    for (std::size_t k = 0; k < part.pairs.size(); ++k) {
+        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];   // 0: not dynamic
+        const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
+        const std::size_t home = inside ? block_of_[a != 0 ? a : b] : across;
+        if (inside ? home < own.begin || home >= own.end : thread + 1 < team) continue;
+        if (a == 0 || b == 0) {
+            const std::uint32_t place = (a != 0 ? a : b) - 1, other = a != 0 ? part.pairs[k].b : part.pairs[k].a;
             if (problem.bodies[other].moves()) energies_.is_driven(place);
             else energies_.leans(place);
-            if (problem.bodies[other].type == BodyType::kinematic) movers_.push_back(mover(other, k, problem));
+            if (problem.bodies[other].type == BodyType::kinematic) found_movers_[thread].push_back(mover(other, part.manifolds[k], problem));
         }
-        const bool inside = !moves_a || !moves_b || block_of_[a] == block_of_[b];
-        const std::size_t home = inside ? block_of_[moves_a ? a : b] : across;
         std::uint64_t fixed = 0;
-        std::uint64_t& of_a = !moves_a ? fixed : inside ? taken_[a].inside : taken_[a].across;
-        std::uint64_t& of_b = !moves_b ? fixed : inside ? taken_[b].inside : taken_[b].across;
+        std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
+        std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
         const auto c = std::size_t(std::countr_one(of_a | of_b));
         if (c == colors) {   // one by one, in the end
-            class_.push_back(none);
+            class_[k] = none;
             continue;
         }
         const std::uint64_t bit = std::uint64_t(1) << c;
-        if (moves_a) of_a |= bit;
-        if (moves_b) of_b |= bit;
-        class_.push_back(std::uint32_t((home * colors + c) * costs + cost_class(m)));
-        ++class_size_[class_.back()];
+        of_a |= bit;
+        of_b |= bit;
+        class_[k] = std::uint32_t((home * colors + c) * costs + cost_class(problem.manifolds[part.manifolds[k]]));
+        ++class_size_[class_[k]];
     }
+}
+
+// Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
+void SoftBatch::lay_out(const SoftSolver::Part& part) {
+    movers_.clear();
+    for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
     std::sort(movers_.begin(), movers_.end());
     movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
+    slots_ = 1 + part.bodies.size() + movers_.size();
+    state_.resize(slots_ * soft::body_floats);
+    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
+    deal_lanes(part);
 }
 
 void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
@@ -321,8 +330,15 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     }
 }
 
-void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
-                    SpinBarrier& barrier) {
+void SoftBatch::run(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot,
+                    std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+    const auto meet = [&] {
+        if (team > 1) barrier.wait();
+    };
+    color(problem, part, slot, thread, team);
+    meet();
+    if (thread == 0) lay_out(part);
+    meet();
     const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_moved_.data(), lane_points_.data()};
     const soft::Bodies bodies{state_.data(), inertia_.data(), forces_.data(), before_.data()};
     const std::size_t across = blocks_.size();
@@ -330,9 +346,6 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     const std::size_t first_body = blocks_.first(own.begin), end_body = blocks_.first(own.end);
     const auto group_of = [&](std::size_t home) { return first_group_[first_color_[home]]; };
     const std::size_t first_across = group_of(across), all_across = first_group_.back() - first_across;
-    const auto meet = [&] {
-        if (team > 1) barrier.wait();
-    };
     // Colour by colour: in this thread's blocks, then between blocks.
     const auto each_color = [&](auto&& pass) {
         for (std::size_t c = first_color_[own.begin]; c < first_color_[own.end]; ++c) pass(first_group_[c], first_group_[c + 1]);

@@ -21,13 +21,14 @@ class SoftBatch {
 public:
     explicit SoftBatch(const soft::Kernel& kernel);
 
-    /// Blocks and colours; then, called by all threads of a team, all the rest. slot: by body, the part's own are set. `mass_unit`
-    /// (kg): a power of two that masses and impulses are counted in.
-    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot);
+    /// Blocks; then, called by all threads of a team of so many, all the rest. slot: by body, the part's own are set, others are 0 where they
+    /// touch it. `mass_unit` (kg): a power of two that masses and impulses are counted in.
+    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot,
+                 std::size_t team);
     /// To the threads that are going to run it.
     void give_bodies(ThreadPool& pool) const;
-    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
-             SpinBarrier& barrier);
+    void run(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
+             std::size_t team, SpinBarrier& barrier);
 
 private:
     // Memory aligned for the widest kernel.
@@ -68,7 +69,9 @@ private:
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
     Share blocks_of(std::size_t thread, std::size_t team) const;
-    void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot);
+    void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
+               std::size_t team);
+    void lay_out(const SoftSolver::Part& part);
     void deal_lanes(const SoftSolver::Part& part);
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
@@ -97,6 +100,7 @@ private:
     std::vector<std::uint32_t> block_of_;             // by slot
     IslandEnergies energies_;
     std::vector<Mover> movers_;                       // ascending, by slot from the first after the dynamic ones
+    std::vector<std::vector<Mover>> found_movers_;    // by thread
     struct Taken {
         std::uint64_t inside = 0, across = 0;
     };

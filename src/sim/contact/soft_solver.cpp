@@ -48,10 +48,10 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
             continue;
         }
         SoftBatch& batch = *batches_[0];
-        batch.prepare(problem, part, mass_unit_, slot_);
+        batch.prepare(problem, part, mass_unit_, slot_, threads);
         batch.give_bodies(pool);
         SpinBarrier barrier(threads);
-        pool.together([&](std::size_t thread) { batch.run(problem, slot_, thread, threads, barrier); });
+        pool.together([&](std::size_t thread) { batch.run(problem, part, slot_, thread, threads, barrier); });
     }
     // Neighbours in the list, and the same ones from step to step.
     const auto each_of = [&](std::size_t thread, std::size_t team, auto&& visit) {
@@ -60,8 +60,8 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
     const auto run = [&](std::size_t thread, std::size_t team) {
         each_of(thread, team, [&](const Part& part) {
             SpinBarrier alone(1);
-            batches_[thread]->prepare(problem, part, mass_unit_, slot_);
-            batches_[thread]->run(problem, slot_, 0, 1, alone);
+            batches_[thread]->prepare(problem, part, mass_unit_, slot_, 1);
+            batches_[thread]->run(problem, part, slot_, 0, 1, alone);
         });
     };
     if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);

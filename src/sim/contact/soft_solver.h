@@ -50,6 +50,7 @@ public:
     /// The result depends neither on how islands are dealt into parts nor on the number of threads.
     struct Part {
         std::vector<std::uint32_t> bodies, manifolds;
+        std::vector<BodyPair> pairs;              // whose the manifolds are, one by one
         std::vector<std::size_t> island_ends;   // in `bodies`
         int finer = 1;   // substeps in place of one
     };
