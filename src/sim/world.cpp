@@ -223,7 +223,11 @@ void World::State::find_contacts() {
     const std::pair now(narrow_phase.changes(), sleep.changes());
     if (!flights && now == seen_by_islands) return;
     seen_by_islands = now;
-    islands.find(narrow_phase.touching(), bodies, awake_bodies);
+    if (!flights) return islands.find(narrow_phase.touching(), bodies, awake_bodies);
+    std::vector<std::uint32_t> stepped;
+    for (const std::uint32_t i : awake_bodies)
+        if (!bodies[i].flying) stepped.push_back(i);
+    islands.find(narrow_phase.touching(), bodies, stepped);
 }
 
 // Whether points that touch come nearer, faster than resting contact does, with restitution to answer it.

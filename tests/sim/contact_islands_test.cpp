@@ -54,7 +54,7 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
             bodies[i].type = kind == 0 ? BodyType::fixed : kind == 1 ? BodyType::kinematic : BodyType::dynamic;
             bodies[i].asleep = kind == 2;
             bodies[i].flying = kind == 3;
-            if (bodies[i].dynamic() && !bodies[i].asleep) awake.push_back(i);
+            if (bodies[i].dynamic() && !bodies[i].asleep && !bodies[i].flying) awake.push_back(i);
         }
         std::vector<Manifold> manifolds;
         for (int k = random.below(50); k > 0; --k) {

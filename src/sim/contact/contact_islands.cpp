@@ -11,14 +11,10 @@ constexpr std::uint32_t none = UINT32_MAX;
 
 ContactIslands::ContactIslands(std::size_t bodies) : members_(bodies) {}
 
-ContactIslands::Role ContactIslands::role_of(const Body& body) {
-    if (!body.dynamic()) return Role::still;
-    return body.asleep || body.flying ? Role::aside : Role::takes_part;
-}
-
+// Of those that do not take part the bodies are looked at, which lie far apart in memory, of the others not.
 ContactIslands::Role ContactIslands::look(std::uint32_t i, const std::vector<Body>& bodies) {
     Member& member = members_[i];
-    if (member.round != round_) member = {.round = round_, .parent = i, .island = none, .role = role_of(bodies[i])};
+    if (member.round != round_) member = {.round = round_, .role = bodies[i].dynamic() ? Role::aside : Role::still};
     return member.role;
 }
 
@@ -31,6 +27,7 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
 void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
                           std::span<const std::uint32_t> awake) {
     ++round_;
+    for (const std::uint32_t i : awake) members_[i] = {.round = round_, .parent = i, .island = none, .role = Role::takes_part};
     held_.assign(touching.size(), none);
     for (std::size_t k = 0; k < touching.size(); ++k) {
         const auto [a, b] = touching[k];
@@ -48,9 +45,8 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     // Number the islands by their lowest body, count, then deal out.
     first_body_.assign(1, 0);
     first_manifold_.assign(1, 0);
-    const auto touched = [&](std::uint32_t i) { return members_[i].round == round_ && members_[i].touched; };
     for (const std::uint32_t i : awake) {
-        if (!touched(i)) continue;
+        if (!members_[i].touched) continue;
         std::uint32_t& number = members_[root(i)].island;
         if (number == none) {
             number = std::uint32_t(first_body_.size() - 1);
@@ -71,7 +67,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     manifolds_.resize(first_manifold_.back());
     std::vector<std::uint32_t> next_body = first_body_, next_manifold = first_manifold_;
     for (const std::uint32_t i : awake)
-        if (touched(i)) bodies_[next_body[members_[i].island]++] = i;
+        if (members_[i].touched) bodies_[next_body[members_[i].island]++] = i;
     pairs_.resize(manifolds_.size());
     touching_pairs_.assign(size(), 0);
     floats_.assign(size(), 1);

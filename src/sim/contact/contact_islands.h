@@ -17,8 +17,8 @@ public:
     explicit ContactIslands(std::size_t bodies);
 
     /// Islands of the manifolds, ordered by their lowest body. `touching`: whose the manifolds are. `awake`: the bodies that take
-    /// part, ascending. Fixed, kinematic and sleeping bodies belong to none and join nothing; manifolds without a body that
-    /// takes part, and bodies without manifolds, are left out. The same lists and the same bodies awake give the same islands.
+    /// part, ascending: dynamic, neither asleep nor in exact flight. Others belong to none and join nothing; manifolds without a
+    /// body that takes part, and bodies without manifolds, are left out. The same lists and the same bodies awake give the same islands.
     void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
 
     std::size_t size() const { return first_body_.size() - 1; }
@@ -42,11 +42,10 @@ public:
 private:
     // still: neither held nor moved by contacts. aside: asleep or in exact flight, not held by this step's contacts.
     enum class Role : std::uint8_t { still, takes_part, aside };
-    static Role role_of(const Body& body);
     Role look(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
 
-    // By body; valid where `round` says so: looked at once a round, for their data lie far apart.
+    // By body; valid where `round` says so.
     struct Member {
         std::uint64_t round = 0;
         std::uint32_t parent = 0, island = 0;
