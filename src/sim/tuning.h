@@ -107,6 +107,8 @@ inline constexpr std::size_t soft_team_manifolds = 500;
 inline constexpr std::size_t soft_part_manifolds = 256;
 /// Bodies of a block that one thread keeps to: their states fill a core's first cache (64 bytes each).
 inline constexpr std::size_t soft_block_bodies = 512;
+/// Steps for which manifolds keep their places side by side, by what they cost when these were found. No result depends on it.
+inline constexpr int soft_layout_steps = 32;
 /// Groups of manifolds between blocks from which on the threads share them too, meeting at every colour.
 inline constexpr std::size_t soft_shared_groups = 24;
 

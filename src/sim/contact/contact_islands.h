@@ -21,6 +21,9 @@ public:
     /// body that takes part, and bodies without manifolds, are left out. The same lists and the same bodies awake give the same islands.
     void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
 
+    /// How often they were found: the same since then.
+    std::uint64_t changes() const { return round_; }
+
     std::size_t size() const { return first_body_.size() - 1; }
     /// Of all islands, one after the other.
     std::span<const std::uint32_t> bodies() const { return bodies_; }

@@ -123,11 +123,15 @@ int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& is
     return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
 }
 
-// Soft islands into parts of as fine substeps, each no larger than a cache holds, or of one large island.
-void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem) {
+// Soft islands into parts of as fine substeps, each no larger than a cache holds, or of one large island. Whether they are the same
+// again.
+bool ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem) {
     std::sort(softly_.begin(), softly_.end());
     fineness_.clear();
     for (const std::size_t k : softly_) fineness_.push_back(finer(problem, islands, k));
+    Deal now{islands.changes(), softly_, fineness_};
+    if (now == dealt_) return true;
+    dealt_ = std::move(now);
     parts_used_ = 0;
     for (const int wanted : {1, 2, 4}) {
         SoftSolver::Part* part = nullptr;
@@ -150,6 +154,7 @@ void ContactSolver::deal(const ContactIslands& islands, const ContactProblem& pr
             part->island_ends.push_back(part->bodies.size());
         }
     }
+    return false;
 }
 
 void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
@@ -182,8 +187,8 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         if (failed_[k]) softly_.push_back(direct_[k]);
     }
     if (!softly_.empty()) {
-        deal(islands, problem);
-        soft_.solve(problem, std::span(parts_).first(parts_used_), pool);
+        const bool same = deal(islands, problem);
+        soft_.solve(problem, std::span(parts_).first(parts_used_), same, pool);
     }
 }
 

@@ -47,7 +47,7 @@ private:
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
-    void deal(const ContactIslands& islands, const ContactProblem& problem);
+    bool deal(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
     Effort effort_;
@@ -63,6 +63,13 @@ private:
     std::vector<std::size_t> direct_, softly_;   // islands
     std::vector<char> failed_;            // of direct_
     std::vector<int> fineness_;           // of softly_
+    struct Deal {
+        std::uint64_t islands = 0;        // their changes
+        std::vector<std::size_t> softly;
+        std::vector<int> fineness;
+        bool operator==(const Deal&) const = default;
+    };
+    Deal dealt_;                          // what the parts were made of
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

@@ -8,28 +8,30 @@
 
 namespace tumble {
 
-void IslandEnergies::clear() {
+void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bodies) {
     islands_.clear();
     accounts_.clear();
     account_of_.clear();
-}
-
-void IslandEnergies::open(const BodyBlocks& blocks, std::size_t first, std::size_t end, std::size_t first_block, const std::vector<Body>& bodies) {
-    const auto number = std::uint32_t(islands_.size());
-    const std::size_t first_account = accounts_.size();
-    if (blocks.size() <= first_block + 1) accounts_.push_back({first, end, number, {}, {}});
-    else
-        for (std::size_t b = first_block; b < blocks.size(); ++b) accounts_.push_back({blocks.first(b), blocks.first(b + 1), number, {}, {}});
-    islands_.push_back({.first_account = first_account, .end_account = accounts_.size(), .origin = bodies[blocks.order()[first]].position});
-    for (std::size_t k = first_account; k < accounts_.size(); ++k) account_of_.resize(accounts_[k].end, std::uint32_t(k));
-    forces_.resize(end);
-    reached_.assign(end, 0);
+    const BodyBlocks& blocks = layout.blocks();
+    for (const SoftLayout::Island& island : layout.islands()) {
+        const auto number = std::uint32_t(islands_.size());
+        const std::size_t first_account = accounts_.size();
+        if (island.end_block <= island.first_block + 1) accounts_.push_back({island.first, island.end, number, {}, {}});
+        else
+            for (std::size_t b = island.first_block; b < island.end_block; ++b)
+                accounts_.push_back({blocks.first(b), blocks.first(b + 1), number, {}, {}});
+        islands_.push_back({.first_account = first_account, .end_account = accounts_.size(), .origin = bodies[blocks.order()[island.first]].position,
+                            .leans = island.leans != 0, .driven = island.driven != 0});
+        for (std::size_t k = first_account; k < accounts_.size(); ++k) account_of_.resize(accounts_[k].end, std::uint32_t(k));
+    }
+    forces_.resize(blocks.order().size());
+    reached_.assign(blocks.order().size(), 0);
 }
 
 // Written to only where it changes: all threads read what lies beside it.
-void IslandEnergies::set(std::uint8_t& flag) {
-    const std::atomic_ref shared(flag);
-    if (shared.load(std::memory_order_relaxed) == 0) shared.store(1, std::memory_order_relaxed);
+void IslandEnergies::lies_deep(std::size_t place) {
+    const std::atomic_ref deep(island(place).deep);
+    if (deep.load(std::memory_order_relaxed) == 0) deep.store(1, std::memory_order_relaxed);
 }
 
 void IslandEnergies::end(std::size_t place, const Body& body) {

@@ -5,9 +5,9 @@
 // begin and end must not depend on the threads, which keep to blocks of their own.
 #pragma once
 
-#include "sim/contact/body_blocks.h"
 #include "sim/contact/common_motion.h"
 #include "sim/contact/energy_limit.h"
+#include "sim/contact/soft_layout.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,15 +16,11 @@ namespace tumble {
 
 class IslandEnergies {
 public:
-    void clear();
-    /// Of the island last added to `blocks`, which has the places first to end; a large one has the blocks from first_block on.
-    void open(const BodyBlocks& blocks, std::size_t first, std::size_t end, std::size_t first_block, const std::vector<Body>& bodies);
+    /// Of the layout's islands.
+    void open(const SoftLayout& layout, const std::vector<Body>& bodies);
 
-    /// Of the island of the body at a place: leans on what stands; is driven by a kinematic body, which may give it energy; has bodies
-    /// that lie deep in each other (by any thread).
-    void leans(std::size_t place) { set(island(place).leans); }
-    void is_driven(std::size_t place) { set(island(place).driven); }
-    void lies_deep(std::size_t place) { set(island(place).deep); }
+    /// The island of the body at a place has bodies that lie deep in each other (by any thread).
+    void lies_deep(std::size_t place);
 
     /// Before the solve, and after it, if contacts have reached the body; each place by one thread.
     void begin(std::size_t place, const Body& body, const BodyVelocity& before) { open_account(forces_[place], body, before); }
@@ -45,9 +41,9 @@ private:
     struct Island {
         std::size_t first_account, end_account;
         Vec3 origin;              // m, one of its bodies
-        std::uint8_t leans = 0, driven = 0, deep = 0;
+        bool leans, driven;       // by what may give it energy
+        std::uint8_t deep = 0;
     };
-    static void set(std::uint8_t& flag);
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
     void hold_floating(const Account& account, const EnergyAccount& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const;
 

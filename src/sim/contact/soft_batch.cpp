@@ -11,15 +11,6 @@
 namespace tumble {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
-constexpr std::size_t colors = 64;   // bits of a mask; what finds none free is solved one by one
-// Manifolds of a colour side by side by what they cost: with impulses before those without, which may stay idle, and as many
-// points together: no lane waits for another's fourth.
-constexpr std::size_t costs = 2 * Manifold::capacity;
-std::size_t cost_class(const Manifold& m) {
-    return std::size_t(Manifold::capacity - m.count) + (normal_impulse(m) > 0.0 ? 0 : Manifold::capacity);
-}
-
 void put(float* row, int stride, const Vec3& v) {
     row[0] = float(v.x());
     row[stride] = float(v.y());
@@ -48,7 +39,7 @@ void temper(Manifold& m, const ContactProblem& problem) {
 
 }  // namespace
 
-SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel), blocks_(tuning::soft_block_bodies) {}
+SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel) {}
 
 void SoftBatch::Floats::resize(std::size_t count) {
     if (memory_.size() < count + 16) memory_.resize(count + 16);
@@ -62,120 +53,21 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
-void SoftBatch::prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot,
-                        std::size_t team) {
+void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit) {
+    layout_ = &layout;
     mass_unit_ = mass_unit;
-    substeps_ = substeps_of(problem.patches.h) * part.finer;
+    substeps_ = substeps_of(problem.patches.h) * finer;
     d_ = problem.patches.h / substeps_;
     substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_)};
-    blocks_.clear();
-    energies_.clear();
-    std::size_t first = 0;
-    for (const std::size_t end : part.island_ends) {
-        const std::size_t blocks = blocks_.size();
-        const auto island = std::span(part.bodies).subspan(first, end - first);
-        blocks_.add(island, problem.bodies);
-        energies_.open(blocks_, first, end, blocks, problem.bodies);
-        first = end;
-    }
-    const std::size_t dynamic = 1 + part.bodies.size();   // slots
+    energies_.open(layout, problem.bodies);
+    const std::size_t dynamic = 1 + layout.blocks().order().size();   // slots
     places_.resize(dynamic);
-    block_of_.resize(dynamic);
     reached_.assign(dynamic, 0);
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-        for (std::size_t k = blocks_.first(b); k < blocks_.first(b + 1); ++k) {
-            slot[blocks_.order()[k]] = std::uint32_t(k + 1);
-            block_of_[k + 1] = std::uint32_t(b);
-        }
-    taken_.assign(dynamic, {});
-    class_size_.assign((blocks_.size() + 1) * colors * costs, 0);
-    class_.resize(part.manifolds.size());
-    found_movers_.clear();
-    found_movers_.resize(team);
-}
-
-SoftBatch::Mover SoftBatch::mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem) {
-    return {body, problem.bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
-}
-
-// Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
-// gets depends on its island alone. Each thread colours its own blocks, whose manifolds its core's cache holds, and one what lies
-// between them.
-void SoftBatch::color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot,
-                      std::size_t thread, std::size_t team) {
-    const Share own = blocks_of(thread, team);
-    const std::size_t across = blocks_.size();
-    for (std::size_t k = 0; k < part.pairs.size(); ++k) {
-        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];   // 0: not dynamic
-        const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
-        const std::size_t home = inside ? block_of_[a != 0 ? a : b] : across;
-        if (inside ? home < own.begin || home >= own.end : thread + 1 < team) continue;
-        if (a == 0 || b == 0) {
-            const std::uint32_t place = (a != 0 ? a : b) - 1, other = a != 0 ? part.pairs[k].b : part.pairs[k].a;
-            if (problem.bodies[other].moves()) energies_.is_driven(place);
-            else energies_.leans(place);
-            if (problem.bodies[other].type == BodyType::kinematic) found_movers_[thread].push_back(mover(other, part.manifolds[k], problem));
-        }
-        std::uint64_t fixed = 0;
-        std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
-        std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
-        const auto c = std::size_t(std::countr_one(of_a | of_b));
-        if (c == colors) {   // one by one, in the end
-            class_[k] = none;
-            continue;
-        }
-        const std::uint64_t bit = std::uint64_t(1) << c;
-        of_a |= bit;
-        of_b |= bit;
-        class_[k] = std::uint32_t((home * colors + c) * costs + cost_class(problem.manifolds[part.manifolds[k]]));
-        ++class_size_[class_[k]];
-    }
-}
-
-// Kinematic bodies among the manifolds get slots of their own: they move, and are never written to.
-void SoftBatch::lay_out(const SoftSolver::Part& part) {
-    movers_.clear();
-    for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
-    std::sort(movers_.begin(), movers_.end());
-    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
-    slots_ = 1 + part.bodies.size() + movers_.size();
+    slots_ = dynamic + layout.movers().size();
     state_.resize(slots_ * soft::body_floats);
     for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
-    deal_lanes(part);
-}
-
-void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
-    const std::size_t lanes = std::size_t(kernel_.lanes), homes = blocks_.size() + 1;
-    std::size_t groups = 0;
-    first_group_.clear();
-    first_color_.assign(1, 0);
-    for (std::size_t home = 0; home < homes; ++home) {
-        for (std::size_t c = 0; c < colors; ++c) {
-            std::uint32_t lane = std::uint32_t(groups * lanes);
-            for (std::size_t p = 0; p < costs; ++p) {   // sizes become places
-                std::uint32_t& of_class = class_size_[(home * colors + c) * costs + p];
-                const std::uint32_t size = of_class;
-                of_class = lane;
-                lane += size;
-            }
-            if (lane == groups * lanes) continue;
-            first_group_.push_back(groups);
-            groups = (lane + lanes - 1) / lanes;
-        }
-        if (home + 1 < homes) first_color_.push_back(first_group_.size());
-    }
-    for (const std::uint32_t c : class_)
-        if (c == none) first_group_.push_back(groups++);
-    first_color_.push_back(first_group_.size());
-    first_group_.push_back(groups);
-
-    lane_manifolds_.assign(groups * lanes, none);
-    std::size_t alone = groups * lanes;
-    for (std::size_t i = class_.size(); i-- > 0;)
-        if (class_[i] == none) lane_manifolds_[alone -= lanes] = part.manifolds[i];
-    for (std::size_t i = 0; i < class_.size(); ++i)
-        if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = part.manifolds[i];
+    const std::size_t groups = layout.groups(), lanes = std::size_t(kernel_.lanes);
     rows_.resize(groups * soft::group_rows * lanes);
     lane_bodies_.resize(2 * lanes * groups);
     lane_moved_.resize(2 * groups);
@@ -183,23 +75,11 @@ void SoftBatch::deal_lanes(const SoftSolver::Part& part) {
     sources_.resize(groups * lanes);
 }
 
-SoftBatch::Share SoftBatch::blocks_of(std::size_t thread, std::size_t team) const {
-    return {blocks_.size() * thread / team, blocks_.size() * (thread + 1) / team};
-}
-
-void SoftBatch::give_bodies(ThreadPool& pool) const {
-    const auto team = std::size_t(pool.size());
-    for (std::size_t thread = 0; thread < team; ++thread) {
-        const Share own = blocks_of(thread, team);
-        for (std::size_t k = blocks_.first(own.begin); k < blocks_.first(own.end); ++k) pool.give(blocks_.order()[k], thread);
-    }
-}
-
 // Of the places first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
     const double share = 1.0 / substeps_;
     for (std::size_t k = first; k < last; ++k) {
-        const std::uint32_t i = blocks_.order()[k];
+        const std::uint32_t i = layout_->blocks().order()[k];
         const Body& body = problem.bodies[i];
         places_[k + 1] = place_of(body, std::uint32_t(k + 1));
         energies_.begin(k, body, problem.before[i]);
@@ -218,24 +98,24 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
 
 // And slot 0, which stands still.
 void SoftBatch::pack_movers(const ContactProblem& problem) {
-    const std::size_t dynamic = blocks_.order().size();
+    const std::size_t dynamic = layout_->blocks().order().size();
     for (Floats* array : {&inertia_, &before_, &forces_}) {
         std::fill_n(array->data(), soft::inertia_floats, 0.0f);
-        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats, movers_.size() * soft::inertia_floats, 0.0f);
+        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats, layout_->movers().size() * soft::inertia_floats, 0.0f);
     }
     std::fill_n(state(0), soft::body_floats, 0.0f);
-    std::fill_n(state(1 + dynamic), movers_.size() * soft::body_floats, 0.0f);
-    for (std::size_t k = 0; k < movers_.size(); ++k) {
-        const Body& body = problem.bodies[movers_[k].body];
-        const BodyVelocity& start = problem.before[movers_[k].body];
+    std::fill_n(state(1 + dynamic), layout_->movers().size() * soft::body_floats, 0.0f);
+    for (std::size_t k = 0; k < layout_->movers().size(); ++k) {
+        const Body& body = problem.bodies[layout_->movers()[k].body];
+        const BodyVelocity& start = problem.before[layout_->movers()[k].body];
         // The way of the whole step, evenly faster from substep to substep as the body's velocity grows or turns: all at once it
         // would ask more of friction than a substep's load allows.
         const Vec3 faster = 2.0 / substeps_ * (body.velocity - start.velocity);
         const Vec3 spun_up = 2.0 / substeps_ * (body.angular_velocity - start.angular_velocity);
         Vec3 turned = Vec3::Zero();
-        if (movers_[k].manifold != none) {
-            const Manifold& m = problem.manifolds[movers_[k].manifold];
-            const std::uint32_t rider = m.a == movers_[k].body ? m.b : m.a;
+        if (layout_->movers()[k].manifold != SoftLayout::none) {
+            const Manifold& m = problem.manifolds[layout_->movers()[k].manifold];
+            const std::uint32_t rider = m.a == layout_->movers()[k].body ? m.b : m.a;
             turned = d_ * turn_of_carrier(body, problem.before[rider].velocity - start.velocity, m.normal);
         }
         float* s = state(1 + dynamic + k);
@@ -253,8 +133,8 @@ const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t 
     const Body& b = problem.bodies[body];
     if (b.dynamic()) return places_[slot[body]];
     if (b.type != BodyType::kinematic) return made = place_of(b, 0);
-    const auto place = std::lower_bound(movers_.begin(), movers_.end(), mover(body, manifold, problem)) - movers_.begin();
-    return made = place_of(b, std::uint32_t(slots_ - movers_.size() + std::size_t(place)));
+    const auto place = std::lower_bound(layout_->movers().begin(), layout_->movers().end(), SoftLayout::mover(problem.bodies, body, manifold)) - layout_->movers().begin();
+    return made = place_of(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
 }
 
 // For a substep more than the step: the last sweep looks as far ahead.
@@ -319,41 +199,40 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     const std::size_t lanes = std::size_t(kernel_.lanes);
     int points = 0;
     for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
-        if (lane_manifolds_[lane] != none) points = std::max(points, problem.manifolds[lane_manifolds_[lane]].count);
+        if (layout_->manifold(lane) != SoftLayout::none) points = std::max(points, problem.manifolds[layout_->manifold(lane)].count);
     std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     lane_points_[group] = 0;
     for (std::size_t l = 0; l < lanes; ++l) {
         sources_[lanes * group + l] = {};
-        if (const std::uint32_t m = lane_manifolds_[lanes * group + l]; m != none) pack_lane(problem, m, group, l, slot);
+        if (const std::uint32_t m = layout_->manifold(lanes * group + l); m != SoftLayout::none) pack_lane(problem, m, group, l, slot);
     }
 }
 
-void SoftBatch::run(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot,
-                    std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
+                    SpinBarrier& barrier) {
     const auto meet = [&] {
         if (team > 1) barrier.wait();
     };
-    color(problem, part, slot, thread, team);
-    meet();
-    if (thread == 0) lay_out(part);
-    meet();
     const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_moved_.data(), lane_points_.data()};
     const soft::Bodies bodies{state_.data(), inertia_.data(), forces_.data(), before_.data()};
-    const std::size_t across = blocks_.size();
-    const Share own = blocks_of(thread, team);
-    const std::size_t first_body = blocks_.first(own.begin), end_body = blocks_.first(own.end);
-    const auto group_of = [&](std::size_t home) { return first_group_[first_color_[home]]; };
-    const std::size_t first_across = group_of(across), all_across = first_group_.back() - first_across;
+    const SoftLayout& layout = *layout_;
+    const BodyBlocks& blocks = layout.blocks();
+    const std::size_t across = blocks.size();
+    const auto own = layout.blocks_of(thread, team);
+    const std::size_t first_body = blocks.first(own.begin), end_body = blocks.first(own.end);
+    const auto group_of = [&](std::size_t home) { return layout.first_group(layout.first_color(home)); };
+    const std::size_t first_across = group_of(across), all_across = layout.groups() - first_across;
     // Colour by colour: in this thread's blocks, then between blocks.
     const auto each_color = [&](auto&& pass) {
-        for (std::size_t c = first_color_[own.begin]; c < first_color_[own.end]; ++c) pass(first_group_[c], first_group_[c + 1]);
+        for (std::size_t c = layout.first_color(own.begin); c < layout.first_color(own.end); ++c)
+            pass(layout.first_group(c), layout.first_group(c + 1));
         if (all_across == 0) return;
         meet();
         const bool shared = all_across >= tuning::soft_shared_groups;
-        for (std::size_t c = first_color_[across]; c < first_color_[across + 1]; ++c) {
-            const std::size_t first = first_group_[c], count = first_group_[c + 1] - first;
+        for (std::size_t c = layout.first_color(across); c < layout.first_color(across + 1); ++c) {
+            const std::size_t first = layout.first_group(c), count = layout.first_group(c + 1) - first;
             if (shared) {
                 pass(first + count * thread / team, first + count * (thread + 1) / team);
                 meet();
@@ -376,17 +255,17 @@ void SoftBatch::run(const ContactProblem& problem, const SoftSolver::Part& part,
     meet();
     for (int step = 0; step < substeps_; ++step) {
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
-        if (!movers_.empty()) {   // which all threads look at
+        if (!layout_->movers().empty()) {   // which all threads look at
             meet();
-            if (thread == 0) kernel_.accelerate(1 + blocks_.order().size(), slots_, bodies, false);
+            if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
             meet();
         }
         if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
         each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
-        if (!movers_.empty()) {
+        if (!layout_->movers().empty()) {
             meet();
-            if (thread == 0) kernel_.move(1 + blocks_.order().size(), slots_, bodies, float(d_));
+            if (thread == 0) kernel_.move(1 + layout_->blocks().order().size(), slots_, bodies, float(d_));
             meet();
         }
         each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
@@ -397,7 +276,7 @@ void SoftBatch::run(const ContactProblem& problem, const SoftSolver::Part& part,
     });
     hand_back(problem, first_body, end_body);
     meet();
-    energies_.hold(blocks_, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
+    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
 }
 
 // Impulses to the manifolds, and to the momenta of their bodies.
@@ -407,7 +286,7 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
     for (std::size_t l = 0; l < lanes; ++l) {
         const Source& source = sources_[lanes * g + l];
         if (source.count == 0) continue;
-        Manifold& m = problem.manifolds[lane_manifolds_[lanes * g + l]];
+        Manifold& m = problem.manifolds[layout_->manifold(lanes * g + l)];
         const float* head = row(g, 0) + l;
         const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
         release(m);
@@ -440,7 +319,7 @@ void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std:
     const double rate = 1.0 / problem.patches.h;
     for (std::size_t k = first; k < last; ++k) {
         if (!reached_[k + 1]) continue;
-        Body& body = problem.bodies[blocks_.order()[k]];
+        Body& body = problem.bodies[layout_->blocks().order()[k]];
         body.derive_velocities();
         const float* moved = state(k + 1) + 8;
         body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;

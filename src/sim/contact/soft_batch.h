@@ -6,9 +6,9 @@
 // sweep, not once a colour.
 #pragma once
 
-#include "sim/contact/body_blocks.h"
 #include "sim/contact/island_energies.h"
 #include "sim/contact/soft_kernel.h"
+#include "sim/contact/soft_layout.h"
 #include "sim/contact/soft_solver.h"
 #include "sim/spin_barrier.h"
 
@@ -21,14 +21,11 @@ class SoftBatch {
 public:
     explicit SoftBatch(const soft::Kernel& kernel);
 
-    /// Blocks; then, called by all threads of a team of so many, all the rest. slot: by body, the part's own are set, others are 0 where they
-    /// touch it. `mass_unit` (kg): a power of two that masses and impulses are counted in.
-    void prepare(const ContactProblem& problem, const SoftSolver::Part& part, double mass_unit, std::vector<std::uint32_t>& slot,
-                 std::size_t team);
-    /// To the threads that are going to run it.
-    void give_bodies(ThreadPool& pool) const;
-    void run(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
-             std::size_t team, SpinBarrier& barrier);
+    /// By one thread; then all the rest, by all threads of a team. `layout`: closed, and to stay until then. slot: as it has them.
+    /// `finer`: times as many substeps; `mass_unit` (kg): a power of two that masses and impulses are counted in.
+    void prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit);
+    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
+             SpinBarrier& barrier);
 
 private:
     // Memory aligned for the widest kernel.
@@ -48,12 +45,6 @@ private:
         std::uint32_t slot = 0;
         bool dynamic = false;
     };
-    // A kinematic body, as all its manifolds see it, or one that turns as one of them does: riders differ in where they are
-    // carried to.
-    struct Mover {
-        std::uint32_t body = 0, manifold = 0;
-        auto operator<=>(const Mover&) const = default;
-    };
     // Which points of a lane's manifold are its points.
     struct Source {
         std::uint8_t count = 0;
@@ -61,21 +52,12 @@ private:
         bool swapped = false;   // the lane's A is the manifold's B
     };
 
-    struct Share {
-        std::size_t begin, end;
-    };
     static soft::Softness softness(double frequency, double d);
     static Place place_of(const Body& body, std::uint32_t slot) {
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
-    Share blocks_of(std::size_t thread, std::size_t team) const;
-    void color(const ContactProblem& problem, const SoftSolver::Part& part, const std::vector<std::uint32_t>& slot, std::size_t thread,
-               std::size_t team);
-    void lay_out(const SoftSolver::Part& part);
-    void deal_lanes(const SoftSolver::Part& part);
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
-    static Mover mover(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem);
     const Place& find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
                             const std::vector<std::uint32_t>& slot, Place& made) const;
     double gap_of_curves(const Manifold& m, const ContactProblem& problem) const;
@@ -94,25 +76,13 @@ private:
     double mass_unit_ = 1.0;                          // kg
     soft::Substep substep_{};
     Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
-    BodyBlocks blocks_;                               // slot k + 1 is the k-th of its order
+    const SoftLayout* layout_ = nullptr;              // slot k + 1 is the k-th of its blocks' order; then the movers'
     std::size_t slots_ = 0;
     std::vector<Place> places_;                       // by slot
-    std::vector<std::uint32_t> block_of_;             // by slot
     IslandEnergies energies_;
-    std::vector<Mover> movers_;                       // ascending, by slot from the first after the dynamic ones
-    std::vector<std::vector<Mover>> found_movers_;    // by thread
-    struct Taken {
-        std::uint64_t inside = 0, across = 0;
-    };
-    std::vector<Taken> taken_;                        // by slot: colours, inside of the block and between blocks
-    std::vector<std::uint32_t> class_;                // by manifold of the part: home, colour, cost
-    std::vector<std::uint32_t> class_size_;
-    std::vector<std::size_t> first_group_;            // of each colour that is used, and the end
-    std::vector<std::size_t> first_color_;            // of each block, then of what lies between them, and the end
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;
-    std::vector<std::uint32_t> lane_manifolds_;       // by lane; none in lanes left over
     std::vector<Source> sources_;                     // by lane
     std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has
 };

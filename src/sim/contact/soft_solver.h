@@ -20,6 +20,7 @@
 
 #include "sim/contact/contact_patch.h"
 #include "sim/contact/soft_kernel.h"
+#include "sim/contact/soft_layout.h"
 #include "sim/thread_pool.h"
 
 #include <cstdint>
@@ -47,20 +48,16 @@ public:
     ~SoftSolver();
 
     /// `parts`: manifolds (ascending) and dynamic bodies of one island or several each; parts share no dynamic body.
-    /// The result depends neither on how islands are dealt into parts nor on the number of threads.
-    struct Part {
-        std::vector<std::uint32_t> bodies, manifolds;
-        std::vector<BodyPair> pairs;              // whose the manifolds are, one by one
-        std::vector<std::size_t> island_ends;   // in `bodies`
-        int finer = 1;   // substeps in place of one
-    };
-    void solve(const ContactProblem& problem, std::span<const Part> parts, ThreadPool& pool);
+    /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on how islands are dealt into parts nor on the number of threads.
+    using Part = SoftPart;
+    void solve(const ContactProblem& problem, std::span<const Part> parts, bool same, ThreadPool& pool);
 
 private:
     const soft::Kernel& kernel_;
     std::vector<std::uint32_t> slot_;                 // by body
     std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a thread
-    std::vector<const Part*> small_;                  // which one thread solves
+    std::vector<SoftLayout> layouts_;                 // one a part
+    std::vector<std::size_t> small_;                  // parts that one thread solves
     double mass_unit_ = 0.0;                          // kg; of the scene's bodies, which do not change
 };
 
