@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 
 namespace tumble {
@@ -87,8 +86,15 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
                                          double h, ThreadPool& pool) {
     const bool changed = match(pairs, bodies);
     views_.resize(bodies.size());
-    share_out(pool, changed);
+    const bool shares_stand = !changed && seen_owners_ == pool.owner_changes();
+    seen_owners_ = pool.owner_changes();
+    if (!shares_stand) ++share_;
+    seen_.resize(bodies.size(), 0);
     each_share(pool, [&](Found& found) {
+        found.manifolds.clear();
+        found.anchors.clear();
+        found.changes.clear();
+        if (!shares_stand) take_share(pool, found);
         for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
     });
     each_share(pool, [&](Found& found) {
@@ -101,36 +107,20 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     return manifolds_;
 }
 
-// Which thread looks at which bodies and pairs. Of the bodies in the list only: those that sleep far from all others are not
-// even looked at.
-void NarrowPhase::share_out(const ThreadPool& pool, bool pairs_changed) {
+// Which bodies and pairs a thread looks at. Of the bodies in the list only: those that sleep far from all others are not even looked at.
+void NarrowPhase::take_share(const ThreadPool& pool, Found& found) {
     const bool alone = found_.size() == 1;
-    for (Found& found : found_) {
-        found.manifolds.clear();
-        found.anchors.clear();
-        found.changes.clear();
-    }
-    if (!pairs_changed && seen_owners_ == pool.owner_changes()) return;
-    seen_owners_ = pool.owner_changes();
-    ++call_;
-    seen_.resize(views_.size(), 0);
-    for (Found& found : found_) {
-        found.bodies.clear();
-        if (!alone) found.entries.clear();
-    }
-    if (alone) {   // all of them, in order
-        auto& all = found_[0].entries;
-        const std::size_t before = std::min(all.size(), entries_.size());
-        all.resize(entries_.size());
-        std::iota(all.begin() + std::ptrdiff_t(before), all.end(), std::uint32_t(before));
-    }
+    const auto thread = std::size_t(&found - found_.data());
+    const auto own = [&](std::uint32_t body) { return alone || pool.thread_of(body) == thread; };
+    found.bodies.clear();
+    found.entries.clear();
     for (std::uint32_t k = 0; k < entries_.size(); ++k) {
         for (const std::uint32_t i : {entries_[k].pair.a, entries_[k].pair.b}) {
-            if (seen_[i] == call_) continue;
-            seen_[i] = call_;
-            found_[alone ? 0 : pool.thread_of(i)].bodies.push_back(i);
+            if (!own(i) || seen_[i] == share_) continue;
+            seen_[i] = share_;
+            found.bodies.push_back(i);
         }
-        if (!alone) found_[pool.thread_of(entries_[k].mover)].entries.push_back(k);
+        if (own(entries_[k].mover)) found.entries.push_back(k);
     }
 }
 

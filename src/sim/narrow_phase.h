@@ -94,7 +94,7 @@ private:
     void unpark(Entry& entry);
     template <class Work>
     void each_share(ThreadPool& pool, Work&& work);
-    void share_out(const ThreadPool& pool, bool pairs_changed);
+    void take_share(const ThreadPool& pool, Found& found);
     static Placement placement(const View& small, const View& large);
     static double motion(const Placement& from, const Placement& to, double radius);
     void view(View& v, const Body& body) const;
@@ -116,8 +116,8 @@ private:
     std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
     std::vector<std::uint32_t> new_first_, new_count_;   // by entry
     std::vector<View> views_;                     // one a body
-    std::vector<std::uint64_t> seen_;             // by body: the call that its view was brought up to date in
-    std::uint64_t call_ = 0;
+    std::vector<std::uint64_t> seen_;             // by body: the last time of sharing out that it came up in
+    std::uint64_t share_ = 0;
     std::uint64_t seen_owners_ = UINT64_MAX;      // of the bodies, when the pairs were shared out last
     bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
     std::vector<BodyPair> touching_;
