@@ -28,8 +28,12 @@ inline Manifold touch(std::uint32_t a, std::uint32_t b) {
 /// Gravity and resting contact, nothing else: no restitution, no sleep, symplectic Euler.
 class SolverScene {
 public:
-    explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1)
-        : gravity_(scene.simulation.gravity), h_(scene.step()), pool_(threads), narrow_phase_(threads), islands_(scene.bodies.size()),
+    /// kept: islands, and what solvers make of them, for as long as the same pairs touch.
+    enum class Islands { kept, found_anew };
+
+    explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1,
+                         Islands find = Islands::kept)
+        : find_(find), gravity_(scene.simulation.gravity), h_(scene.step()), pool_(threads), narrow_phase_(threads), islands_(scene.bodies.size()),
           solver_(scene.bodies.size(), choice), awake_() {
         bodies = build_bodies(scene);
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
@@ -38,7 +42,8 @@ public:
 
     void step() {
         manifolds = &narrow_phase_.find(broad_phase_.update(bodies, h_), bodies, h_, pool_);
-        islands_.find(narrow_phase_.touching(), bodies, awake_);
+        if (find_ == Islands::found_anew || narrow_phase_.changes() != seen_) islands_.find(narrow_phase_.touching(), bodies, awake_);
+        seen_ = narrow_phase_.changes();
         std::vector<BodyVelocity> before(bodies.size());
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];
@@ -81,11 +86,15 @@ public:
         return std::hypot(one, two) / h_;
     }
     double h() const { return h_; }
+    /// How often islands were found.
+    std::uint64_t island_changes() const { return islands_.changes(); }
 
     std::vector<Body> bodies;
     std::vector<Manifold>* manifolds = nullptr;   // of the last step
 
 private:
+    Islands find_;
+    std::uint64_t seen_ = UINT64_MAX;
     Vec3 gravity_;
     double h_;
     ThreadPool pool_;

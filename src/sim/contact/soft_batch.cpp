@@ -3,7 +3,6 @@
 #include "sim/tuning.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>

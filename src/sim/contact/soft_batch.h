@@ -1,5 +1,4 @@
-// Islands that are solved softly (soft_solver.h), in the kernel's layout: bodies in blocks of neighbours (body_blocks.h), the
-// manifolds inside of a block coloured by themselves, those between blocks apart.
+// Islands that are solved softly (soft_solver.h), in the kernel's lanes (soft_layout.h).
 //
 // A sweep goes through each block's manifolds, colour by colour, and then through those between the blocks. Blocks share no
 // moving body: each thread keeps to its own, whose bodies and rows stay in its core's cache, and the threads meet twice a
