@@ -47,6 +47,8 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
         best = separation;
         axis = {TriangleAxis::Kind::face, separation, f, 0, -face.normal};
     }
+    // Where an edge lies in a face, edge against edge says the same to rounding, and would leave one point of two.
+    best = std::max(best, axis.separation + axis_preference(shape.radius, scratch.choice));
     Bounds region;
     for (const Vec3& corner : t) region.add(corner);
     region = region.grown(edge_reach(search, margin, axis.separation));
