@@ -82,7 +82,8 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
     double weights = 0.0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
-        const Vec3 arm_a = from.position - a.position, arm_b = from.position - b.position;
+        const Vec3 place = acting_place(from, m.normal, a.dynamic(), b.dynamic());
+        const Vec3 arm_a = place - a.position, arm_b = place - b.position;
         if (will_bounce(from, m.normal, a, b, settings)) continue;
         ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
         to.arm_a = arm_a;

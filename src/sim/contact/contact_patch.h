@@ -32,6 +32,14 @@ struct PatchSettings {
     double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide
 };
 
+/// Where the impulses of a point act, world: halfway between the surfaces of two bodies that both give way, so that they keep their
+/// angular momentum; else on the surface of the one that does. Found a way into the floor, or before it is there, a ball still has
+/// its radius for a lever, and keeps its angular momentum about the place where it lands.
+inline Vec3 acting_place(const ContactPoint& p, const Vec3& normal, bool a_gives_way, bool b_gives_way) {
+    if (a_gives_way == b_gives_way) return p.position;
+    return p.position + (a_gives_way ? -0.5 : 0.5) * p.separation * normal;
+}
+
 /// v_rel of a manifold's point, m/s; negative: approaching.
 double relative_velocity(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b);
 

@@ -171,7 +171,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
-        put(point + soft::turn * stride, stride, p.position - a.position);
+        put(point + soft::turn * stride, stride, acting_place(p, m.normal, first.dynamic, second.dynamic) - a.position);
         point[soft::normal_mass * stride] = 1.0f;
         point[soft::separation * stride] = float(curved ? gap_of_curves(m, problem) : p.separation);
         point[soft::impulse * stride] = float(share * p.impulse);
