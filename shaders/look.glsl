@@ -23,7 +23,6 @@ const float bevel_blur = 0.25;                            // of the spread that 
                                                           // as it is shown, where highlights weigh less
 const float flat_box = 4.0;                               // pixels: thinner boxes have no rounded edges,
 const float round_box = 12.0;                             // thicker ones whole ones
-const float shadow_offset = 2.2;                          // texels along the normal: no acne, and contact stays closed
 
 const float ground_contrast = 0.13;                       // of a checker's fields and a body's pattern
 const float pattern_blur = 1.4;                           // pixels that a pattern is averaged over: calmer than one

@@ -56,7 +56,7 @@ float sun_of_plane(float far) {
     const float margin = 5.0 / SHADOW_TEXELS;
     float from_middle = max(abs(at.x - 0.5), abs(at.y - 0.5));
     float inside = from_middle < 0.5 - margin ? 1.0 : 0.0;
-    return mix(1.0, filtered_shadow(at.xy * SHADOW_TEXELS - 0.5, clamp(at.z, 0.0, 1.0)), inside);
+    return mix(1.0, filtered_shadow(vec3(at.xy * SHADOW_TEXELS - 0.5, at.z)), inside);
 #endif
 }
 #endif

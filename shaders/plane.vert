@@ -78,7 +78,7 @@ void main() {
     v_texel = atlas.xy;
 #endif
 #ifdef SHADOWED
-    vec3 lift = plane_normal.xyz * shadow_offset;
+    vec3 lift = plane_normal.xyz * shadow_texels.w;
     v_shadow_x = over_screen(shadow_x.xyz);
     v_shadow_y = over_screen(shadow_y.xyz);
     v_shadow_z = over_screen(shadow_z.xyz);

@@ -1,7 +1,36 @@
-// How much of the sun a point sees.
+// How much of the sun a point sees. Places for filtered_shadow() are x, y: texels across both maps, less a half; z: depth.
 uniform sampler2DShadow shadow_map;
 
-float filtered_shadow(vec2 t, float depth) {
+#ifdef PIXEL_SHADOWS
+// Where the map's texels are smaller than pixels: the mean of four places in the pixel, on a rotated grid.
+float bilinear_shadow(vec3 at) {
+    vec2 base = floor(at.xy);
+    vec2 f = at.xy - base;
+    vec4 lit = textureGather(shadow_map, (base + 1.0) * (vec2(0.5, 1.0) / SHADOW_TEXELS), clamp(at.z, 0.0, 1.0));
+    vec2 rows = mix(lit.wx, lit.zy, f.x);   // x, y, z, w: (0,1), (1,1), (1,0), (0,0)
+    return mix(rows.x, rows.y, f.y);
+}
+
+// The way to the next pixel on the surface, as far as the margins of the map allow. Where it is less than the texels' own blur
+// that far; in depth never farther than the surface goes in a pixel: it may turn towards the sun.
+vec3 pixel_step(vec3 way, float most) {
+    float texels = max(length(way.xy), 1e-6);
+    float scale = clamp(texels, LEAST_STEP, most) / texels;
+    return way * vec3(scale, scale, min(scale, 1.0));
+}
+
+float filtered_shadow(vec3 at, vec3 to_right, vec3 to_next, float most) {
+    vec3 right = pixel_step(to_right, most), down = pixel_step(to_next, most);
+    vec3 a = 0.125 * right + 0.375 * down, b = 0.375 * right - 0.125 * down;
+    float lit = bilinear_shadow(at + a) + bilinear_shadow(at - a) + bilinear_shadow(at + b) + bilinear_shadow(at - b);
+    return min(lit * (1.00001 / 4.0), 1.0);   // exactly 1 in the open, as below
+}
+
+float filtered_shadow(vec3 at) { return filtered_shadow(at, dFdx(at), dFdy(at), MOST_STEP); }
+#else
+float filtered_shadow(vec3 place) {
+    vec2 t = place.xy;
+    float depth = clamp(place.z, 0.0, 1.0);
     // Castano 2013, Shadow Mapping Summary: 3x3 bilinear percentage-closer filter, here by four gathers
     vec2 base = floor(t);
     vec2 f = t - base;
@@ -20,10 +49,11 @@ float filtered_shadow(vec2 t, float depth) {
     // exactly 1 in the open, whatever the rounding of the weights: there the look-up may be left out
     return min((row0 * low.y + row1 + row2 + row3 * f.y) * (1.00001 / 9.0), 1.0);
 }
+#endif
 
 // `place` as shadow_place() gives it.
 float sun_visible(vec4 place) {
-    return mix(1.0, filtered_shadow(place.xy, clamp(place.z, 0.0, 1.0)), place.w);
+    return mix(1.0, filtered_shadow(place.xyz), place.w);
 }
 
 // The same where each pixel finds out which map it lies in: places as place_in_map() gives them.
@@ -34,5 +64,14 @@ float sun_visible(vec3 in_near, vec3 in_far) {
     float from_edge = 0.5 - max(abs(in_far.x - 0.5), abs(in_far.y - 0.5));   // the far map's shadows fade out at its rim
     float inside = max(near, clamp((from_edge - margin) * 16.0, 0.0, 1.0));
     vec3 at = mix(in_far + vec3(1.0, 0.0, 0.0), in_near, near);
-    return mix(1.0, filtered_shadow(at.xy * SHADOW_TEXELS - 0.5, clamp(at.z, 0.0, 1.0)), inside);
+    vec3 place = vec3(at.xy * SHADOW_TEXELS - 0.5, at.z);
+#ifdef PIXEL_SHADOWS
+    // Steps within one map, on both sides of the near one's rim. In the far map they are as long at most, in metres.
+    vec3 scale = vec3(SHADOW_TEXELS, SHADOW_TEXELS, 1.0);
+    vec3 right = scale * mix(dFdx(in_far), dFdx(in_near), near), down = scale * mix(dFdy(in_far), dFdy(in_near), near);
+    float far_part = length(dFdx(in_far.xy)) / max(length(dFdx(in_near.xy)), 1e-12);
+    return mix(1.0, filtered_shadow(place, right, down, max(LEAST_STEP, MOST_STEP * mix(far_part, 1.0, near))), inside);
+#else
+    return mix(1.0, filtered_shadow(place), inside);
+#endif
 }

@@ -1,7 +1,7 @@
 // Where a point looks into the shadow maps, the near one and around it the far one.
 // x, y: across the map, 0 to 1; z: depth.
 vec3 place_in_map(vec3 position, vec3 face_normal, bool near) {
-    vec3 lifted = position + face_normal * (shadow_offset * (near ? shadow_texels.x : shadow_texels.y));
+    vec3 lifted = position + face_normal * (shadow_texels.w * (near ? shadow_texels.x : shadow_texels.y));
     vec2 uv = vec2(dot(shadow_x.xyz, lifted) + shadow_x.w, dot(shadow_y.xyz, lifted) + shadow_y.w);
     float depth = dot(shadow_z.xyz, lifted) + shadow_z.w;
     return vec3(near ? uv : uv * shadow_far.x + shadow_far.yz, depth);

@@ -31,7 +31,7 @@ public:
         bool found = false;
         // of the map that the receiver looks into
         const bool far = light_.fit.may_look_far(receiver.center, receiver.radius);
-        const double margin = shadow_filter_texels * (far ? light_.fit.far_texel : light_.fit.near_texel);
+        const double margin = light_.fit.filter.reach * (far ? light_.fit.far_texel : light_.fit.near_texel);
         visit(receiver, margin, [&](const double& cell) { found = found || cell < depth; });
         return found;
     }

@@ -7,8 +7,8 @@
 namespace tumble {
 namespace {
 
-// Texels to either side that the filter looks at (2), with some to spare.
-constexpr double filter_texels = 2.5;
+// Some texels to spare, of those to either side that the filter looks at.
+constexpr double spare_texels = 0.5;
 
 // Texels of the near map's rim where a pixel may look into the far one: 5 (shadow.glsl), and the offset along the normal.
 constexpr double rim_texels = 8.0;
@@ -78,7 +78,7 @@ bool FaceMarks::suits(const DrawnItem& box, const ShadowFit& shadows) {
 
 void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
     const ShadowFit& fit = light_.fit;
-    const double most_margin = shadow_filter_texels * (two_maps_ ? fit.far_texel : fit.near_texel);
+    const double most_margin = fit.filter.reach * (two_maps_ ? fit.far_texel : fit.near_texel);
     if (!view_->sees_swept(caster.center, caster.radius + most_margin, light_.direction)) return;
     for (const Face& face : faces_) {
         if (face.normal.dot(caster.center - face.middle) < -caster.radius) continue;
@@ -93,7 +93,7 @@ void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
         if (!face.meets(foot, (caster.radius + most_margin) / face.approach)) continue;   // most, where there are many
         std::array<Vec3, 8> feet = caster.corners();
         for (Vec3& corner : feet) corner = foot_of(corner);
-        const double margin = filter_reach(face.approach) * fit.near_texel / face.approach;
+        const double margin = light_.filter_reach(face.approach) * fit.near_texel / face.approach;
         if (face.meets(feet, margin)) marks.mark_hull(feet, margin);
         if (two_maps_) mark_in_far_map(face, caster, marks);
     }
@@ -103,11 +103,11 @@ void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
 // near maps: a point looks at the place of itself moved along the normal, and at some texels around that.
 void FaceMarks::mark_in_far_map(const Face& face, const DrawnItem& caster, TileMarks& marks) const {
     const ShadowFit& fit = light_.fit;
-    const double inner = 0.5 - rim_texels / fit.texels, reach = filter_texels * fit.far_texel / (fit.near_texel * fit.texels);
+    const double inner = 0.5 - rim_texels / fit.texels, reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
     const auto range = [&](const glm::vec4& row) {
         const Vec3 axis = row_of(row);
         const double at = axis.dot(caster.center) + double(row.w) -
-                          axis.dot(face.normal) * (shadow_offset_texels * fit.far_texel);
+                          axis.dot(face.normal) * (fit.filter.offset * fit.far_texel);
         const double half = (caster.half_axes.transpose() * axis).cwiseAbs().sum() + reach;
         return std::pair(at - half, at + half);
     };

@@ -53,7 +53,8 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraVie
     u.shadow_y = shadows.y;
     u.shadow_z = shadows.z;
     u.shadow_far = shadows.far;
-    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels), 0.0f);
+    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
+                                float(shadows.filter.offset));
     u.haze = glm::vec4(float(1.0 / (view.haze_distance() * view.haze_distance())), float(view.pixel_size()), 0.0f, 0.0f);
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;

@@ -29,23 +29,22 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, d
 
 }  // namespace
 
-// The filter looks at texels whose centres are nearer than 2 on both axes; the offset along the normal leads across the
-// light the less, the steeper it falls; half a texel to spare.
-double filter_reach(double approach) {
-    return 2.83 + shadow_offset_texels * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
-}
-
 ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit)
     : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
 
+// The offset along the normal leads across the light the less, the steeper it falls; half a texel to spare.
+double ShadowLight::filter_reach(double approach) const {
+    return fit.filter.across + fit.filter.offset * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
+}
+
 double ShadowLight::margin(const DrawnItem& item) const {
-    const double near = shadow_filter_texels * fit.near_texel;
+    const double near = fit.filter.reach * fit.near_texel;
     if (!fit.may_look_far(item.center, item.radius + near)) return near;   // so is its shadow
-    return shadow_filter_texels * fit.far_texel;
+    return fit.filter.reach * fit.far_texel;
 }
 
 double ShadowLight::margin_on_plane(const DrawnItem& item, double approach) const {
-    return margin(item) * std::min(filter_reach(approach) / shadow_filter_texels, 1.0);
+    return margin(item) * std::min(filter_reach(approach) / fit.filter.reach, 1.0);
 }
 
 void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,

@@ -11,13 +11,6 @@ namespace tumble {
 /// A lower sun throws shadows without end: the sine of its elevation.
 inline constexpr double least_approach = 0.02;
 
-/// How far along its normal a surface's point is moved before it looks into the shadow map: shadow_offset in look.glsl.
-inline constexpr double shadow_offset_texels = 2.2;
-
-/// How far from a shadow's outline, across the light, a plane may be touched that the light meets at an angle of this
-/// sine: texels.
-double filter_reach(double approach);
-
 /// The sun, as far as shadows on planes need it.
 struct ShadowLight {
     bool shadows = true;
@@ -25,6 +18,10 @@ struct ShadowLight {
     ShadowFit fit;
 
     ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit);
+
+    /// How far from a shadow's outline, across the light, a plane may be touched that the light meets at an angle of this
+    /// sine: texels.
+    double filter_reach(double approach) const;
 
     /// How far the filter reaches around the outline of this item's shadow, across the light, m.
     double margin(const DrawnItem& item) const;

@@ -40,10 +40,11 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 }  // namespace
 
 PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                           bool shadows)
+                           bool shadows, const ShadowFilter& filter)
     : gl_(&gl),
       shaders_(shaders),
       shadows_(shadows),
+      filter_(filter),
       other_planes_(other_planes(looks)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array),
@@ -69,7 +70,7 @@ ShaderProgram PlanePainter::make(Pattern pattern, const std::vector<std::string>
 
 std::vector<std::string> PlanePainter::touched() const {
     std::vector<std::string> all = {"TOUCHED"};
-    return shadows_ ? with(all, {"SHADOWED", shadow_size()}) : all;
+    return shadows_ ? with(with(all, {"SHADOWED"}), shadow_defines(filter_)) : all;
 }
 
 std::vector<std::function<void()>> PlanePainter::compilations() const {

@@ -18,7 +18,7 @@ namespace tumble {
 class PlanePainter {
 public:
     PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                 bool shadows);
+                 bool shadows, const ShadowFilter& filter);
 
     /// The sky, where no plane is. Before anything else: at the horizon a plane's depth rounds to the sky's.
     void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
@@ -52,6 +52,7 @@ private:
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
     bool shadows_;
+    ShadowFilter filter_;
     std::array<std::optional<Programs>, 3> planes_;  // by pattern: those that the scene uses
     int other_planes_;
     ShaderProgram sky_;

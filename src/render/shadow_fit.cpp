@@ -17,6 +17,11 @@ constexpr double near_margin = 1.3;
 // scissors: a texel is at least this part of the bodies' typical reach (their half edge).
 constexpr double least_texel_of_reach = 0.02;
 
+// In small pictures a texel may be much less than a pixel. Then shadows are filtered by pixels, from texels of this part of one
+// (at the bodies' median distance) down; finer than the second they need not be, and a pixel seen at a low angle would be more
+// texels than its filter reaches.
+constexpr double filtered_by_pixel = 0.9, finest_pixels = 0.2;
+
 // Bodies may lie so far apart that one map around all has texels wider than so many pixels where the nearest eighth of them
 // ends: their shadows would be lost. Then the near map holds the nearest ones only, as many as leave it so fine.
 constexpr double lost_pixels = 8.0, fine_pixels = 3.0;
@@ -74,9 +79,13 @@ double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log
 
 }  // namespace
 
+double ShadowFit::far_along() const {
+    return filter.by_pixel ? 0.5 * std::max(least_pixel_step, most_pixel_step * near_texel / far_texel) + 1.0 : filter.along;
+}
+
 bool ShadowFit::near_holds(const Vec3& center, double radius) const {
     // the filter's margin, and the offset along the normal
-    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * shadow_filter_texels / texels;
+    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.reach / texels;
     for (const glm::vec4& row : {x, y})
         if (std::abs(row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w) - 0.5) > room)
             return false;
@@ -140,7 +149,8 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     }
     const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
     const double softest = texels * std::min(least_texel_of_reach * looks.typical_reach, fine_pixels * pixel);
-    size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least});
+    size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
+    if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }
@@ -165,6 +175,7 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
 
     ShadowFit fit;
     fit.texels = texels_;
+    fit.filter = filter_;
     fit.near_texel = size_ / texels_;
     const auto row = [&](const Vec3& axis, double low, double size) {
         return to_glm(axis / size, (axis.dot(view.eye()) - low) / size);

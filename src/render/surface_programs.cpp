@@ -7,7 +7,14 @@
 #include <algorithm>
 
 namespace tumble {
-std::string shadow_size() { return fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels); }
+std::vector<std::string> shadow_defines(const ShadowFilter& filter) {
+    std::vector<std::string> all = {fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels)};
+    if (filter.by_pixel)
+        for (const std::string& define : {std::string("PIXEL_SHADOWS"), fmt::format("LEAST_STEP {:.2f}", least_pixel_step),
+                                          fmt::format("MOST_STEP {:.2f}", most_pixel_step)})
+            all.push_back(define);
+    return all;
+}
 
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
@@ -16,8 +23,8 @@ void connect(const ShaderProgram& program) {
 }
 
 SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                                 bool has_cords, bool shadows)
-    : gl_(&gl), shaders_(shaders), shadows_(shadows) {
+                                 bool has_cords, bool shadows, const ShadowFilter& filter)
+    : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
     for (const BodyLook& look : looks.bodies)
@@ -48,7 +55,7 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (variant.kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
-    files.defines.push_back(shadow_size());
+    for (const std::string& define : shadow_defines(filter_)) files.defines.push_back(define);
     if (variant.kind != DrawKind::box || variant.lit) {
         files.defines.emplace_back("SUNLIT");
         if (shadows_) files.defines.emplace_back("SHADOWED");

@@ -3,6 +3,7 @@
 
 #include "render/mesh_library.h"
 #include "render/shader_program.h"
+#include "render/shadow_fit.h"
 
 #include <array>
 #include <filesystem>
@@ -18,7 +19,7 @@ inline constexpr GLuint frame_block = 0;
 inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1;
 
 /// What the shaders that look for shadows must have defined.
-std::string shadow_size();
+std::vector<std::string> shadow_defines(const ShadowFilter& filter);
 
 /// Ties a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
@@ -27,7 +28,7 @@ class SurfacePrograms {
 public:
     /// Compiles what the scene's bodies need; the shaders of wide ones when there first is such a one.
     SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
-                    bool has_cords, bool shadows);
+                    bool has_cords, bool shadows, const ShadowFilter& filter);
 
     void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches);
 
@@ -47,6 +48,7 @@ private:
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
     bool shadows_;
+    ShadowFilter filter_;
     bool metal_boxes_ = false;   // highlights on bevels glitter where they are not filtered
     std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and width
 };

@@ -24,7 +24,7 @@ VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const Scen
 // A shadow reaches by the filter and the offset along the normal beyond its outline. Near the near map's rim, or beyond, these
 // may be those of the far one.
 void VolumeMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
-    const double near = shadow_filter_texels * light_.fit.near_texel, far = shadow_filter_texels * light_.fit.far_texel;
+    const double near = light_.fit.filter.reach * light_.fit.near_texel, far = light_.fit.filter.reach * light_.fit.far_texel;
     const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
     if (!view_->sees_swept(caster.center, caster.radius + margin, light_.direction)) return;
     for (const Box& box : boxes_) mark_in(box, caster, margin, marks);
