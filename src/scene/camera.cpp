@@ -73,12 +73,20 @@ void read_follow(const TomlTable& table, const SceneDescription& scene, CameraDe
     camera.follow_start_rotation = body.rotation;
 }
 
+/// The file's own, whatever the command line says: a frame looks the same in a clip of any length.
+double duration_in_file(const TomlTable& root) {
+    double duration = SimulationSettings{}.duration;
+    if (const auto table = root.find_table("simulation")) table->read("duration", duration, limits::duration);
+    return duration;
+}
+
 }  // namespace
 
 CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene) {
     CameraDescription lens;
+    const double duration = duration_in_file(root);
     const auto table = root.find_table("camera");
-    if (!table) return default_camera(scene, lens);
+    if (!table) return default_camera(scene, lens, duration);
 
     table->expect_keys(
         {"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
@@ -86,7 +94,7 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     if (given.up) lens.up = given.up->direction();
     table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
 
-    CameraDescription camera = default_camera(scene, lens);
+    CameraDescription camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);   // or it goes along
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
     table->read("orbit", camera.orbit, limits::orbit);

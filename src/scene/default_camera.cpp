@@ -1,6 +1,7 @@
 #include "scene/default_camera.h"
 
 #include "core/elementary.h"
+#include "scene/flights.h"
 #include "scene/shape_bounds.h"
 
 #include <algorithm>
@@ -96,12 +97,12 @@ private:
     std::map<const void*, Bounds> known_;   // only looked up
 };
 
-std::vector<Vec3> moving_points(const SceneDescription& scene) {
+std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
     const Vec3& gravity = scene.simulation.gravity;
     const Vec3 down = gravity.norm() > 0.0 ? gravity.normalized() : Vec3(0.0, -1.0, 0.0);
     const std::vector<Ground> grounds = grounds_below(scene, down);
     BoundsOfShapes bounds_of_shape;
-    std::vector<Vec3> points;
+    std::vector<Vec3> points = flight_points(scene, seconds);
     for (const BodyDescription& body : scene.bodies) {
         if (body.type == BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
         const Bounds local = bounds_of_shape(body.shape);
@@ -114,8 +115,8 @@ std::vector<Vec3> moving_points(const SceneDescription& scene) {
     return points;
 }
 
-std::vector<Vec3> points_of_note(const SceneDescription& scene) {
-    std::vector<Vec3> points = moving_points(scene);
+std::vector<Vec3> points_of_note(const SceneDescription& scene, double seconds) {
+    std::vector<Vec3> points = moving_points(scene, seconds);
     const Bounds moving = bounds_of(points);
     const double reach = points.empty() ? 0.0 : moving.extent().norm();
     BoundsOfShapes bounds_of_shape;
@@ -146,10 +147,10 @@ Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& ax
 
 }  // namespace
 
-CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens) {
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
     CameraDescription camera = lens;
     const Axes axes = view_axes(lens.up.normalized());
-    std::vector<Vec3> points = points_of_note(scene);
+    std::vector<Vec3> points = points_of_note(scene, seconds);
     if (points.empty()) {   // a stage of usual size, at the origin
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }

@@ -112,6 +112,65 @@ TEST(DefaultCamera, ShowsAllOfAKinematicBodysWay) {
     EXPECT_LT(std::fabs(in_picture(scene, camera, {30.5, 0, 0}).x()), 1.0);
 }
 
+// A frictionless box thrown at 45 degrees, up and along x: x = v t, y = v t - g t^2 / 2, until it slides on at y = 0.5.
+TEST(DefaultCamera, ShowsTheWayOfWhatIsThrown) {
+    constexpr double v = 8.0, g = 9.81;
+    SceneDescription scene;
+    scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
+    for (BodyDescription& body : scene.bodies) body.restitution = 0.0;
+    scene.bodies[1].velocity = Vec3(v, v, 0.0);
+    const CameraDescription camera = default_camera(scene, {}, 3.0);
+    const auto shown = [&](const Vec3& p) {
+        const Vec3 at = in_picture(scene, camera, p);
+        return std::fabs(at.x()) < 1.0 && std::fabs(at.y()) < 1.0 && at.z() > 0.0;
+    };
+    const double apex = v / g, landing = 2.0 * apex;
+    for (const double t : {0.0, 0.5 * apex, apex, landing, 3.0})
+        EXPECT_TRUE(shown({v * t, 0.5 + std::max(0.0, v * t - 0.5 * g * t * t), 0.0})) << t << " s";
+    EXPECT_FALSE(shown({1.4 * v * 3.0, 0.5, 0.0})) << "but not much more";
+    EXPECT_TRUE(default_camera(scene, {}).eye.isApprox(default_camera(scene, {}, 0.0).eye));
+}
+
+TEST(DefaultCamera, WaysEndAtOtherBodiesAndWithFriction) {
+    SceneDescription stopped;   // by a pile in its way, 6 m ahead
+    stopped.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1}), box_at({6, 1, 0}, {2, 2, 2})};
+    const double near = default_camera(stopped, {}).eye.norm();
+    stopped.bodies[1].velocity = Vec3(10.0, 0.0, 0.0);
+    EXPECT_LT(default_camera(stopped, {}, 5.0).eye.norm(), 1.4 * near);
+    stopped.bodies.pop_back();
+    EXPECT_GT(default_camera(stopped, {}, 5.0).eye.norm(), 3.0 * near);
+
+    SceneDescription rubbed = stopped;   // v^2 / (2 mu g) = 5.1 m
+    for (BodyDescription& body : rubbed.bodies) body.friction = 1.0, body.restitution = 0.0;
+    const CameraDescription camera = default_camera(rubbed, {}, 5.0);
+    EXPECT_LT(std::fabs(in_picture(rubbed, camera, {5.1, 0.5, 0}).x()), 1.0);
+    EXPECT_GT(std::fabs(in_picture(rubbed, camera, {10.0, 0.5, 0}).x()), 1.0);
+
+    SceneDescription walled = stopped;   // back from a fixed wall 4 m ahead
+    walled.bodies.push_back(box_at({4, 1, 0}, {0.2, 2, 4}, BodyType::fixed));
+    EXPECT_GT(std::fabs(in_picture(walled, default_camera(walled, {}, 5.0), {25.0, 0.5, 0}).x()), 1.0);
+}
+
+// A bullet leaves: a picture of all its way would show nothing.
+TEST(DefaultCamera, LetsGoWhatFliesFarAway) {
+    SceneDescription scene;
+    scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
+    scene.bodies[1].velocity = Vec3(900.0, 0.0, 0.0);
+    EXPECT_LT(default_camera(scene, {}, 5.0).eye.norm(), 200.0);
+}
+
+// Frame n is the same however long the clip is.
+TEST(DefaultCamera, DoesNotDependOnTheCommandLinesDuration) {
+    const std::string text = "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\nvelocity = [5, 0, 0]\n";
+    SceneOverrides shorter;
+    shorter.duration = 0.0;
+    EXPECT_EQ(parse_scene(text, "a.toml", shorter).camera.eye, parse_scene(text, "a.toml").camera.eye);
+    const auto in_file = parse_scene(text + "[simulation]\nduration = 0\n", "a.toml");
+    EXPECT_LT(in_file.camera.eye.norm(), 0.5 * parse_scene(text, "a.toml").camera.eye.norm());
+    const auto followed = parse_scene(text + "name = \"ball\"\n[camera]\nfollow = \"ball\"\n", "a.toml");
+    EXPECT_TRUE((followed.camera.eye - followed.camera.target).isApprox(in_file.camera.eye - in_file.camera.target));
+}
+
 TEST(DefaultCamera, AWideFloorMadeOfABoxDoesNotPushItAway) {
     SceneDescription scene;
     scene.bodies = {box_at({0, -0.5, 0}, {500, 1, 500}, BodyType::fixed), box_at({0, 2, 0}, {1, 1, 1})};
