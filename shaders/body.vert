@@ -70,7 +70,13 @@ void main() {
 #else
     vec3 on_cube = mesh_position;
 #endif
-    vec3 local = on_cube * instance_scale.xyz;
+    vec3 size = instance_scale.xyz;
+#ifdef BOX
+    // Thinner than a pixel in two directions: see render/rod_blender.h.
+    vec2 rod = haze.zw * length(instance_position.xyz);
+    if (max(min(size.x, size.y), min(max(size.x, size.y), size.z)) < rod.x) size = max(size, vec3(rod.y));
+#endif
+    vec3 local = on_cube * size;
     vec3 position = placed(local);
     gl_Position = clip_from_relative * vec4(position, 1.0);
 
@@ -90,11 +96,11 @@ void main() {
     v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
     vec3 light = rotate_back(instance_orientation, to_light.xyz);
 #ifdef BOX
-    eye -= outward * abs(dot(outward, instance_scale.xyz));   // from the face's middle
+    eye -= outward * abs(dot(outward, size));   // from the face's middle
     eye = vec3(dot(eye, unit_a), dot(eye, unit_b), dot(eye, outward));
     v_up = vec3(dot(v_up, unit_a), dot(v_up, unit_b), dot(v_up, outward));
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
-    vec2 half_size = vec2(dot(instance_scale.xyz, unit_a), dot(instance_scale.xyz, unit_b));
+    vec2 half_size = vec2(dot(size, unit_a), dot(size, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
     // A tile has a texel's centre at each corner of its face, less a thousandth: no share of the next tile's by rounding.
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
@@ -103,7 +109,7 @@ void main() {
     v_tile = vec4(middle, 0.5 * span / half_size) * atlas.xyxy;
     // A bevel narrower than a pixel would glitter: it grows with the distance instead.
     float pixel = haze.y * length(instance_position.xyz);
-    float thinnest = min(instance_scale.x, min(instance_scale.y, instance_scale.z));
+    float thinnest = min(size.x, min(size.y, size.z));
     float bevel = min(max(instance_position.w, pixel), 0.5 * thinnest);
     // The sides of a box of a few pixels would be all bevel, seen here and there at pixels' middles: beads. They are flat.
     bevel *= max(smoothstep(flat_box * pixel, round_box * pixel, thinnest), 1e-3);

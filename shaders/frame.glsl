@@ -12,6 +12,7 @@ layout(std140) uniform Frame {
     vec4 shadow_far;             // near map -> far map: scale, offset x, offset y; w: 1 with a far map, else 0
     vec4 shadow_texels;          // a texel's size in m, near and far; z: texels across one map;
                                  // w: how many of them a point is moved along the normal before it looks
-    vec4 haze;                   // x: 1 / distance^2 at which half the light is haze; y: a pixel's size at distance 1
+    vec4 haze;                   // x: 1 / distance^2 at which half the light is haze; y: a pixel's size at distance 1;
+                                 // z: half the size of the widest rod there; w: of the thinnest; 0: none is widened
     vec4 atlas;                  // 1 / size of the occlusion atlas, in texels
 };

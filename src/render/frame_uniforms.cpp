@@ -1,6 +1,7 @@
 #include "render/frame_uniforms.h"
 
 #include "render/glm_conversion.h"
+#include "render/rod_blender.h"
 #include "render/shadow_map.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, cons
 }
 
 FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, int atlas_height) {
+                                  const ShadowFit& shadows, int atlas_height, bool widen_rods) {
     FrameUniforms u{};
     u.clip_from_relative = view.clip_from_relative(near_distance);
     u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
@@ -56,6 +57,7 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraVie
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
                                 float(shadows.filter.offset));
     u.haze = glm::vec4(float(1.0 / (view.haze_distance() * view.haze_distance())), float(view.pixel_size()), 0.0f, 0.0f);
+    if (widen_rods) u.haze.z = float(widest_rod_pixels * view.pixel_size()), u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;
 }

@@ -20,7 +20,7 @@ struct FrameUniforms {
 static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
 FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, int atlas_height);
+                                  const ShadowFit& shadows, int atlas_height, bool widen_rods);
 
 /// How deep at least what is in view of a body lies, m.
 double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,

@@ -17,6 +17,7 @@
 #include "render/occlusion_texture.h"
 #include "render/plane_painter.h"
 #include "render/render_times.h"
+#include "render/rod_blender.h"
 #include "render/shadow_cover.h"
 #include "render/shadow_map.h"
 #include "render/surface_programs.h"
@@ -231,7 +232,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
     s.meshes.upload(list, s.details);
     const FrameUniforms uniforms =
-        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height());
+        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height(), s.smooth_edges);
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
@@ -267,7 +268,10 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     }
     copy_opaque(s.drawn_image, written, frame);
     // Of what is hidden, drawn or not, no edges: surfaces share numbers, and one might be taken for what lies before it.
-    if (s.smooth_edges) blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
+    if (s.smooth_edges) {
+        blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
+        blend_rods(s.drawn_image, s.edges.rods(), marks, frame);
+    }
     clock.ends(RenderStage::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }

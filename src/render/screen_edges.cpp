@@ -77,6 +77,7 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
                                                 const std::vector<char>& wanted, const Visibility& visibility,
                                                 const std::vector<PlanePatch>& planes) {
     found_.clear();
+    rods_.clear();
     for (std::size_t i = 0; i < planes.size(); ++i)
         for (std::size_t j = i + 1; j < planes.size(); ++j) add_corner(planes[i], planes[j]);
     for (std::size_t i = 0; i < looks_->bodies.size(); ++i) {
@@ -97,6 +98,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
         before = before_eye(places[i], *view_);
         if (before) corners[i] = view_->pixel(places[i]);
     }
+    if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm()))) return add_rod(body, item);
     const double depth = item.center.dot(view_->forward());
     const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
     std::array<bool, 6> front{};   // turned to the eye, though perhaps hidden
@@ -136,6 +138,29 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
     // What a pixel shows of a box is put together first, and then how much of it.
     if (narrow)
         std::stable_partition(found_.begin() + std::ptrdiff_t(first), found_.end(), [](const ScreenEdge& e) { return e.outer != 0; });
+}
+
+// Its longest axis, and at both ends how far the others reach square to that on the screen.
+void EdgeFinder::add_rod(std::size_t body, const DrawnItem& item) {
+    Eigen::Index longest = 0;
+    looks_->bodies[body].half_size.maxCoeff(&longest);
+    const Vec3 axis = item.half_axes.col(longest);
+    std::array<ScreenPoint, 2> ends{view_->pixel(item.center - axis), view_->pixel(item.center + axis)};
+    const ScreenPoint way = ends[1] - ends[0];
+    const ScreenPoint to = way.norm() > 1e-6 ? ScreenPoint(way.normalized()) : ScreenPoint(1.0, 0.0), across(-to.y(), to.x());
+    std::array<double, 2> half{};
+    for (std::size_t end = 0; end < 2; ++end) {
+        const Vec3 at = item.center + (end == 0 ? -1.0 : 1.0) * axis;
+        const ScreenPoint middle = ends[end];
+        double beyond = 0.0;
+        for (const Eigen::Index other : {(longest + 1) % 3, (longest + 2) % 3}) {
+            const ScreenPoint side = view_->pixel(at + item.half_axes.col(other)) - middle;
+            half[end] += std::abs(across.dot(side));
+            beyond += std::abs(to.dot(side));
+        }
+        ends[end] = middle + (end == 0 ? -beyond : beyond) * to;
+    }
+    rods_.push_back({ends[0].x(), ends[0].y(), ends[1].x(), ends[1].y(), half[0], half[1], surface_id(body, 0)});
 }
 
 // The outline of a ball is a circle in space: where rays from the eye graze it.

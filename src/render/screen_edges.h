@@ -5,6 +5,7 @@
 #include "render/drawn_items.h"
 #include "render/mesh_detail.h"
 #include "render/plane_patch.h"
+#include "render/rod_blender.h"
 #include "render/visibility.h"
 
 #include <array>
@@ -43,7 +44,11 @@ public:
                                         const std::vector<char>& wanted, const Visibility& visibility,
                                         const std::vector<PlanePatch>& planes);
 
+    /// The boxes among them that are thinner than a pixel and have no edges. Valid as long.
+    const std::vector<ScreenRod>& rods() const { return rods_; }
+
 private:
+    void add_rod(std::size_t body, const DrawnItem& item);
     void add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces);
     void add_ball(std::size_t body, const DrawnItem& item);
     void add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item);
@@ -67,6 +72,7 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;   // by mesh and level; made when needed
     std::map<std::size_t, Seen> seen_;   // by body: a hill of 40,000 vertices that lies still is looked at once
     std::vector<ScreenEdge> found_;
+    std::vector<ScreenRod> rods_;
 };
 
 }  // namespace tumble
