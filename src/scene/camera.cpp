@@ -94,7 +94,8 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     if (given.up) lens.up = given.up->direction();
     table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
 
-    CameraDescription camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);   // or it goes along
+    CameraDescription camera = lens;
+    if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);   // or it goes along
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
     table->read("orbit", camera.orbit, limits::orbit);

@@ -3,8 +3,10 @@
 #include "core/elementary.h"
 #include "scene/flights.h"
 #include "scene/shape_bounds.h"
+#include "scene/sight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -15,6 +17,8 @@ namespace {
 // Looks: chosen by eye on the demo scenes.
 constexpr double azimuth = 28.0;       // degrees to the right of the front
 constexpr double elevation = 17.0;     // degrees above the horizon: ground fills the lower two thirds
+constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};   // degrees; where fixed bodies hide what they hold
+constexpr double enough = 0.6;         // of the places where bodies come to lie are in sight
 constexpr double used_part = 0.86;     // of the picture's half width and height; the rest is a margin
 constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all that moves is ground
 
@@ -27,11 +31,11 @@ struct Axes {
     Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the picture)
 };
 
-Axes view_axes(const Vec3& up) {
+Axes view_axes(const Vec3& up, double above) {
     const Vec3 front = std::fabs(up.z()) < 0.9 ? Vec3(0.0, 0.0, 1.0) : Vec3(0.0, -1.0, 0.0);
     const Vec3 level_front = (front - up * up.dot(front)).normalized();
     const Vec3 level_right = up.cross(level_front);
-    const SinCos a = sincos(azimuth * degrees), e = sincos(elevation * degrees);
+    const SinCos a = sincos(azimuth * degrees), e = sincos(above * degrees);
     Axes axes;
     axes.forward = -(e.cos * (a.cos * level_front + a.sin * level_right) + e.sin * up);
     axes.right = axes.forward.cross(up).normalized();
@@ -145,16 +149,10 @@ Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& ax
     return seen.center();
 }
 
-}  // namespace
-
-CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
+/// The camera that looks along the axes and has all points in its picture.
+CameraDescription fitted(const SceneDescription& scene, const CameraDescription& lens, const std::vector<Vec3>& points,
+                         const Axes& axes) {
     CameraDescription camera = lens;
-    const Axes axes = view_axes(lens.up.normalized());
-    std::vector<Vec3> points = points_of_note(scene, seconds);
-    if (points.empty()) {   // a stage of usual size, at the origin
-        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
-    }
-
     const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
     const double tangent_y = used_part * half.sin / half.cos;
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
@@ -183,6 +181,26 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
     }
     camera.target = camera.eye + axes.forward * middle;
     return camera;
+}
+
+}  // namespace
+
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
+    std::vector<Vec3> points = points_of_note(scene, seconds);
+    if (points.empty()) {   // a stage of usual size, at the origin
+        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
+    }
+    const Sight sight(scene);
+    const Vec3 up = lens.up.normalized();
+    CameraDescription best = fitted(scene, lens, points, view_axes(up, elevation));
+    double share = sight.visible_share(best.eye);
+    for (const double above : higher) {
+        if (share >= enough) break;
+        const CameraDescription camera = fitted(scene, lens, points, view_axes(up, above));
+        const double now = sight.visible_share(camera.eye);
+        if (now > share) best = camera, share = now;
+    }
+    return best;
 }
 
 }  // namespace tumble

@@ -171,6 +171,46 @@ TEST(DefaultCamera, DoesNotDependOnTheCommandLinesDuration) {
     EXPECT_TRUE((followed.camera.eye - followed.camera.target).isApprox(in_file.camera.eye - in_file.camera.target));
 }
 
+/// Does a line of sight from the eye to the point pass over the rim of a bin of this half width and height?
+bool over_the_rim(const Vec3& eye, const Vec3& point, double half, double height) {
+    const double rises = (height - point.y()) / (eye.y() - point.y());   // part of the way up to the eye
+    const Vec3 at = point + rises * (eye - point);
+    return std::fabs(at.x()) < half && std::fabs(at.z()) < half;
+}
+
+// What falls into a bin made of boxes, or of one mesh, is in sight where it lies.
+TEST(DefaultCamera, LooksIntoWhatHoldsTheRest) {
+    SceneDescription bin;
+    bin.bodies = {ground(), box_at({2, 1, 0}, {0.2, 2, 4}, BodyType::fixed), box_at({-2, 1, 0}, {0.2, 2, 4}, BodyType::fixed),
+                  box_at({0, 1, 2}, {4, 2, 0.2}, BodyType::fixed), box_at({0, 1, -2}, {4, 2, 0.2}, BodyType::fixed)};
+    for (const double x : {-1.0, 0.0, 1.0})
+        for (const double z : {-1.0, 0.0, 1.0}) bin.bodies.push_back(box_at({x, 5.0, z}, Vec3::Constant(0.5)));
+    EXPECT_TRUE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
+
+    const Vec3 before = default_camera(bin, {}).eye;
+    for (BodyDescription& body : bin.bodies)
+        if (body.type == BodyType::fixed) body.surface.visible = false;   // nothing hides them
+    EXPECT_FALSE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
+    EXPECT_LT(default_camera(bin, {}).eye.y() / default_camera(bin, {}).eye.norm(), 0.8 * before.y() / before.norm());
+
+    auto tube = std::make_shared<MeshAsset>();   // four upright sides, open
+    for (const double y : {0.0, 2.0})
+        for (const auto& [x, z] : {std::pair(-2.0, -2.0), {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}})
+            tube->surface.vertices.push_back({x, y, z});
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t next = (i + 1) % 4;
+        tube->surface.triangles.push_back({i, next, next + 4});
+        tube->surface.triangles.push_back({i, next + 4, i + 4});
+    }
+    SceneDescription mesh;
+    mesh.bodies = {ground(), BodyDescription{}, box_at({0.0, 5.0, 0.0}, Vec3::Constant(0.5))};
+    mesh.bodies[1].type = BodyType::fixed;
+    mesh.bodies[1].shape = MeshShape{tube};
+    EXPECT_TRUE(over_the_rim(default_camera(mesh, {}).eye, {0.0, 0.25, 0.0}, 2.0, 2.0));
+    mesh.bodies[1].position.x() = 50.0;
+    EXPECT_LT(default_camera(mesh, {}).eye.y(), 0.5 * default_camera(mesh, {}).eye.norm()) << "it holds nothing";
+}
+
 TEST(DefaultCamera, AWideFloorMadeOfABoxDoesNotPushItAway) {
     SceneDescription scene;
     scene.bodies = {box_at({0, -0.5, 0}, {500, 1, 500}, BodyType::fixed), box_at({0, 2, 0}, {1, 1, 1})};
