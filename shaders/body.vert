@@ -74,7 +74,8 @@ void main() {
 #ifdef BOX
     // Thinner than a pixel in two directions: see render/rod_blender.h.
     vec2 rod = haze.zw * length(instance_position.xyz);
-    if (max(min(size.x, size.y), min(max(size.x, size.y), size.z)) < rod.x) size = max(size, vec3(rod.y));
+    float longest = max(max(size.x, size.y), size.z);
+    if (max(min(size.x, size.y), min(max(size.x, size.y), size.z)) < rod.x && longest > 5.0 * rod.x) size = max(size, vec3(rod.y));
 #endif
     vec3 local = on_cube * size;
     vec3 position = placed(local);

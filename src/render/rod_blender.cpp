@@ -135,7 +135,7 @@ private:
 
 bool is_rod(const Vec3& half_pixels) {
     const double least = half_pixels.minCoeff(), most = half_pixels.maxCoeff();
-    return half_pixels.sum() - least - most < widest_rod_pixels;
+    return half_pixels.sum() - least - most < widest_rod_pixels && most > shortest_rod_pixels;
 }
 
 void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const TileMarks& marks, Image& frame) {

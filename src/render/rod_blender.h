@@ -11,8 +11,9 @@
 
 namespace tumble {
 
-/// Boxes are rods where two of their sides are less than twice the first, and drawn no thinner than twice the second.
-inline constexpr double widest_rod_pixels = 0.8, thinnest_rod_pixels = 0.53;
+/// Boxes are rods where two of their sides are less than twice the first and the third more than twice the last: specks stand
+/// in crowds, where nothing is to be seen beside them. Rods are drawn no thinner than twice the second.
+inline constexpr double widest_rod_pixels = 0.6, thinnest_rod_pixels = 0.53, shortest_rod_pixels = 5.0 * widest_rod_pixels;
 
 /// Is it a box of such size whose half edges are these, in pixels?
 bool is_rod(const Vec3& half_pixels);

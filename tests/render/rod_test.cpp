@@ -3,6 +3,8 @@
 #include "example_scenes.h"
 #include "random.h"
 
+#include "render/rod_blender.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,6 +76,14 @@ TEST(Rods, AreHiddenByWhatStandsBeforeThem) {
     }
     EXPECT_LT(brightness_at(with, scene, Vec3(2.0, 2.0 * std::tan(0.2), 0.0)) + 10.0,
               brightness_at(without, scene, Vec3(2.0, 2.0 * std::tan(0.2), 0.0)));
+}
+
+// Specks stand in crowds: among them there is nothing to see beside a rod.
+TEST(Rods, AreLongAndThin) {
+    EXPECT_TRUE(is_rod(Vec3(0.3, 20.0, 0.01)));
+    EXPECT_FALSE(is_rod(Vec3(0.3, 0.3, 0.3))) << "a speck";
+    EXPECT_FALSE(is_rod(Vec3(0.3, 20.0, 20.0))) << "a card";
+    EXPECT_FALSE(is_rod(Vec3(1.0, 20.0, 1.0))) << "two pixels wide";
 }
 
 TEST(Rods, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
