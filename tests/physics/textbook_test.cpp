@@ -79,3 +79,25 @@ TEST(Textbook, ASpinningBallKeepsItsAngularMomentumAboutTheFloor) {
                 EXPECT_NEAR(b.velocity.x(), (5.0 * v.x() - 2.0 * r * w.z()) / 7.0, 1e-3) << plane << ' ' << e << ' ' << steps;
             }
 }
+
+// A ball that rolls down a rough ball leaves it where cos = 10/17 of the top's (solid, v^2 = 10/7 g (R + r) (cos_0 - cos)), with the
+// spin v / r. With exact impacts it took off time and again before, a hair above the ground, and left with 2.4 % less spin.
+TEST(Textbook, ABallRollsOffABall) {
+    const double large = 1.0, small = 0.2, start = 0.05, path = large + small;
+    for (const bool exact : {false, true}) {
+        SceneDescription scene;
+        scene.output.fps = 120;
+        BodyDescription& hill = add_sphere(scene, large, Vec3::Zero());
+        hill.type = BodyType::fixed;
+        add_sphere(scene, small, path * Vec3(std::sin(start), std::cos(start), 0.0));
+        for (BodyDescription& body : scene.bodies) body.friction = 1000.0;
+        if (exact) scene.simulation.impacts = ImpactMode::exact;
+        World world(scene);
+        run(world, scene, 2.0);
+        const BodyState b = world.snapshot().bodies[1];
+        const double cosine = 10.0 / 17.0 * std::cos(start), v = std::sqrt(g * path * cosine);
+        EXPECT_GT(b.center_of_mass.norm(), path + 0.05) << exact;
+        EXPECT_NEAR(b.velocity.x(), v * cosine, 5e-4 * v) << exact;
+        EXPECT_NEAR(b.angular_velocity.z(), -v / small, 5e-4 * v / small) << exact;
+    }
+}

@@ -18,7 +18,9 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
     held_.assign(bodies.size(), false);
-    mark_held(contacts, bodies, settings_.gravity, settings_.gravity.norm() * h_, held_);
+    // What rolls over a hill goes off it along the tangent in each step, v^2 h^2 / 2 R: less than gravity's way for as long as it stays on.
+    const double g = settings_.gravity.norm();
+    mark_held(contacts, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || held_[i]) continue;
@@ -82,7 +84,7 @@ void Flights::release_struck(std::vector<Body>& bodies) {
     held_.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
     for (const std::uint32_t k : struck) held_[k] = false;
-    mark_held(cluster_.contacts(), bodies, settings_.gravity, settings_.gravity.norm() * h_, held_);
+    mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
     for (const std::uint32_t k : struck)
         if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
 }

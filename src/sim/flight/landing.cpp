@@ -42,13 +42,13 @@ double pressing_acceleration(const Contact& c, const Body& a, const Body& b, con
     return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + std::abs(turning));
 }
 
-void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double release,
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
                std::vector<bool>& held) {
     for (bool more = true; more;) {
         more = false;
         for (const Contact& c : contacts) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
-            if (!c.touching() || (held[c.a] && held[c.b])) continue;
+            if (!(c.separation <= std::max(c.touch_distance, near)) || (held[c.a] && held[c.b])) continue;
             const bool overlap = c.separation < -c.touch_distance;
             if (!overlap) {
                 if (relative_velocity(c, a, b) > release) continue;

@@ -17,10 +17,10 @@ double pressing_acceleration(const Contact& c, const Body& a, const Body& b, con
 /// Whether the hop that begins with the contact's present v_rel would end before `time` s.
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
 
-/// Marks the dynamic bodies that their contacts hold, beside those marked already: what touches and neither parts faster
-/// than `release` (m/s: what gravity could bring back within a step or two), nor would part by itself. What overlaps is
-/// held too, to be pushed out.
-void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double release,
+/// Marks the dynamic bodies that their contacts hold, beside those marked already: what touches, or is no farther apart than `near`
+/// (m), and neither parts faster than `release` (m/s: what gravity could bring back within a step or two), nor would part by itself.
+/// What overlaps is held too, to be pushed out.
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
                std::vector<bool>& held);
 
 /// Time (s) in which two that touch and do not approach come into each other by no more than tuning::impact_harmless of the
