@@ -219,6 +219,7 @@ inline constexpr int friction_sweeps = 200;
 inline constexpr int friction_work = 400;
 inline constexpr int friction_least_sweeps = 2;
 inline constexpr double friction_tolerance = 1e-14;
+inline constexpr double friction_tolerance_step = 1e-5;   // at a step, whose own error is larger by far
 /// Contacts with friction up to which the last digits are sought; beyond, the second tolerance holds.
 inline constexpr std::size_t friction_few = 8;
 inline constexpr double friction_tolerance_many = 1e-6;

@@ -55,6 +55,8 @@ ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, 
     block.second_offset = cluster.offset(c, block.second);
     block.first_compliance = block.first_row.squared_norm();
     block.second_compliance = block.second_row.squared_norm();
+    block.normal_first = cluster.length(contact) * cluster.rows()[contact].dot(block.first_row);
+    block.normal_second = cluster.length(contact) * cluster.rows()[contact].dot(block.second_row);
     return block;
 }
 
@@ -71,37 +73,110 @@ void ImpactFriction::add_blocks(const ContactCluster& cluster) {
 }
 
 double ImpactFriction::tolerance() const {
-    return blocks_.size() <= tuning::friction_few ? tuning::friction_tolerance : tuning::friction_tolerance_many;
+    if (blocks_.size() > tuning::friction_few) return tuning::friction_tolerance_many;
+    return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
 }
 
-// Returns the change of speed made, m/s.
-double ImpactFriction::relax(ContactCluster& cluster, Block& block) const {
-    const double radius = cluster.contact(block.contact).friction * cluster.impulse(block.contact);
-    if (radius == 0.0 && block.f0 == 0.0 && block.f1 == 0.0) return 0.0;
-    const double k0 = block.first_compliance, k1 = block.second_compliance;
-    const double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
-    const double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
-    const auto [f0, f1] = least_in_disc(k0, k1, slip0 - k0 * block.f0, slip1 - k1 * block.f1, radius, tolerance());
-    const double step0 = f0 - block.f0, step1 = f1 - block.f1;
-    cluster.push_along(block.first_row, step0);
-    cluster.push_along(block.second_row, step1);
+// Finds a lone block's three impulses; among others goes one round towards them. Returns the change of speed made, m/s.
+double ImpactFriction::relax(ContactCluster& cluster, Block& block, Normal normal) const {
+    const std::size_t i = block.contact;
+    const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance, k1 = block.second_compliance;
+    double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
+    double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
+    double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
+    double f0 = block.f0, f1 = block.f1, change = 0.0;
+    const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? tuning::friction_sweeps : 1;
+    for (int round = 0; round < rounds; ++round) {
+        const double push = std::max((block.kept - parting) / (length * length), -cluster.impulse(i) - pushed);
+        pushed += push;
+        slip0 += block.normal_first * push;
+        slip1 += block.normal_second * push;
+        const auto [next0, next1] = least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, mu * (cluster.impulse(i) + pushed), tolerance());
+        const double step0 = next0 - f0, step1 = next1 - f1;
+        f0 = next0;
+        f1 = next1;
+        parting += length * length * push + block.normal_first * step0 + block.normal_second * step1;
+        slip0 += k0 * step0;
+        slip1 += k1 * step1;
+        const double now = std::max({length * length * std::abs(push), k0 * std::abs(step0), k1 * std::abs(step1)});
+        change = std::max(change, now);
+        if (now <= tolerance() * change) break;
+    }
+    if (pushed != 0.0) cluster.push(i, pushed * length);
+    cluster.push_along(block.first_row, f0 - block.f0);
+    cluster.push_along(block.second_row, f1 - block.f1);
     block.f0 = f0;
     block.f1 = f1;
-    return std::max(std::abs(step0) * k0, std::abs(step1) * k1);
+    return change;
 }
 
-bool ImpactFriction::apply(ContactCluster& cluster) {
-    add_blocks(cluster);
+// Returns the largest change of speed in a sweep.
+double ImpactFriction::relax_all(ContactCluster& cluster, Normal normal) {
     double most = 0.0;
     const int sweeps = blocks_.size() <= tuning::friction_few
                            ? tuning::friction_sweeps
                            : std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0.0;
-        for (Block& block : blocks_) change = std::max(change, relax(cluster, block));
+        for (Block& block : blocks_) change = std::max(change, relax(cluster, block, normal));
         most = std::max(most, change);
         if (blocks_.size() < 2 || change <= tolerance() * most) break;
     }
+    return most;
+}
+
+ImpactFriction::State ImpactFriction::state(const ContactCluster& cluster, const Block& block) {
+    return {{cluster.impulse(block.contact), block.f0, block.f1},
+            {cluster.speed(block.contact), block.first_row.dot(cluster.velocity()) + block.first_offset,
+             block.second_row.dot(cluster.velocity()) + block.second_offset}};
+}
+
+void ImpactFriction::look(const ContactCluster& cluster, std::vector<State>& states) const {
+    states.clear();
+    for (const Block& block : blocks_) states.push_back(state(cluster, block));
+}
+
+// Goes a share of the way from the impulses that the cluster has to others.
+void ImpactFriction::set(ContactCluster& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        Block& block = blocks_[k];
+        const auto step = [&](std::size_t i) { return share * (to[k].impulse[i] - from[k].impulse[i]); };
+        cluster.push(block.contact, step(0) * cluster.length(block.contact));
+        cluster.push_along(block.first_row, step(1));
+        cluster.push_along(block.second_row, step(2));
+        block.f0 += step(1);
+        block.f1 += step(2);
+    }
+}
+
+// Impulses that change by d and the speeds at them from u to u + K d do the work d . u + d . K d / 2, K the compliance.
+void ImpactFriction::limit_energy(ContactCluster& cluster) {
+    const auto sum = [&](const std::vector<State>& from, const std::vector<State>& to, auto&& term) {
+        double all = 0.0;
+        for (std::size_t k = 0; k < blocks_.size(); ++k)
+            for (std::size_t i = 0; i < 3; ++i) all += (to[k].impulse[i] - from[k].impulse[i]) * term(from[k].speed[i], to[k].speed[i]);
+        return all;
+    };
+    const auto mean = [](double from, double to) { return 0.5 * (from + to); };
+    look(cluster, kept_);
+    if (sum(start_, kept_, mean) <= 0.0) return;
+    set(cluster, kept_, start_, 1.0);
+    relax_all(cluster, Normal::fixed);
+    look(cluster, least_);
+    // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without cancellation.
+    const double g0 = std::min(0.0, sum(start_, least_, mean)), slope = sum(least_, kept_, [](double from, double) { return from; });
+    const double bend = 0.5 * sum(least_, kept_, [](double from, double to) { return to - from; });
+    const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * bend * g0));
+    const double share = slope > 0.0 ? -2.0 * g0 / (slope + root) : bend > 0.0 ? (root - slope) / (2.0 * bend) : 1.0;
+    set(cluster, least_, kept_, std::clamp(share, 0.0, 1.0));
+}
+
+bool ImpactFriction::apply(ContactCluster& cluster) {
+    add_blocks(cluster);
+    look(cluster, start_);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].kept = start_[k].speed[0];
+    const double most = relax_all(cluster, Normal::adapted);
+    limit_energy(cluster);
     return most > cluster.rounding();
 }
 

@@ -54,7 +54,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {
-        ImpactFriction friction(cluster);
+        ImpactFriction friction(cluster, settings.complete ? ImpactFriction::Precision::last_digits : ImpactFriction::Precision::step);
         // At a step, what friction makes approach again is left to the solver of resting contact.
         if (settings.complete) add_friction(cluster, settings, friction);
         else friction.apply(cluster);
