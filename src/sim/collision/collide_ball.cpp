@@ -1,5 +1,6 @@
 // Spheres against half-spaces, spheres and polyhedra; half-spaces against polyhedra.
 #include "sim/collision/collide.h"
+#include "sim/collision/separating_axis.h"
 
 #include <algorithm>
 #include <limits>
@@ -119,14 +120,20 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     if (height > b.radius + margin) return;
     const Vec3 local = pose_b.rotation.transpose() * normal;
     scratch.points.clear();
-    for (std::uint32_t i = 0; i < b.vertices.size(); ++i) {
+    const auto keep = [&](std::uint32_t i) {
         const double separation = height + local.dot(b.vertices[i]);
-        if (separation > margin) continue;
-        scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
-    }
+        if (separation <= margin) scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
+    };
+    for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
     if (scratch.points.empty()) return;
+    if (scratch.turning && scratch.points.size() > Manifold::capacity) {
+        // Of what rolls those count that it rolls on, not those that span a large area with them.
+        scratch.points.clear();
+        for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices) keep(i);
+    }
     Manifold m;
     m.normal = normal;
+    m.corners = Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
     out.push_back(m);
 }

@@ -163,6 +163,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
+    m.corners = on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
 }
 

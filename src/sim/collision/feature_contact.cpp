@@ -27,6 +27,7 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
     if (scratch.points.empty()) return;
     Manifold m;
     m.normal = frame.rotation * (reference_on_b ? Vec3(-normal) : normal);
+    m.corners = reference_on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
     out.push_back(m);
 }

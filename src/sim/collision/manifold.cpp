@@ -44,7 +44,7 @@ std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
 
 void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out) {
     if (candidates.size() <= Manifold::capacity) {
-        manifold.count = int(candidates.size());
+        manifold.count = std::int16_t(candidates.size());
         std::copy(candidates.begin(), candidates.end(), manifold.points.begin());
         return;
     }

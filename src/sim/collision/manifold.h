@@ -26,15 +26,19 @@ struct Curve {
     Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();   // the places, world
 };
 
+/// Whose corners a manifold's points are; the other body has the face that they lie over. neither: crossing edges, points on balls.
+enum class Corners : std::uint8_t { neither, of_a, of_b };
+
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
     static constexpr int capacity = 4;   // spans most flat contact areas; where more are needed a second manifold has them
 
     std::uint32_t a = 0, b = 0;   // bodies
     std::uint32_t part = 0;       // of the pair: which parts of compounds and which triangle of a surface meet, else 0
-    int count = 0;
+    std::int16_t count = 0;
     bool more = false;            // those of the same two faces' points that the first manifold has no room for
     bool solved_directly = false; // by the direct contact solver, in the last step
+    Corners corners = Corners::neither;
     std::uint16_t left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
     std::uint32_t first_left_out = 0;
     Vec3 normal = Vec3::Zero();
@@ -64,6 +68,7 @@ struct Manifold {
     /// The same, seen from the other body.
     void swap() {
         normal = -normal;
+        if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
         if (curved()) std::swap(points[2].position, points[3].position);
     }
 

@@ -1,5 +1,6 @@
 #include "sim/contact/contact_patch.h"
 
+#include "sim/contact/passing.h"
 #include "sim/touch.h"
 #include "sim/tuning.h"
 
@@ -46,31 +47,14 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
     return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
 }
 
-bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings) {
+bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings) {
     if (p.separation <= touch_distance(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
-    return relative_velocity(p, normal, a, b) < -settings.bounce_threshold;
+    return relative_velocity(p, normal, a, b) + slower < -settings.bounce_threshold;
 }
 
 Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal) {
     const Vec3 change = carrier.angular_velocity.cross(motion);
     return change - normal.dot(change) * normal;
-}
-
-// With d the places' distance vector across the line, d0 n at first, and u the velocity of one against the other across the line,
-//     |d0 n + u t|  is least at  t = -d0 n.u / u^2,  or at the step's end.
-// Where that is an overlap the bodies do meet.
-double passing_gap(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
-    const double gap = m.points[0].separation;
-    if (!(gap > 0.0)) return gap;
-    const Curve curve = m.curve();
-    const auto velocity = [](const BodyVelocity& v, const Vec3& arm) { return Vec3(v.velocity + v.angular_velocity.cross(arm)); };
-    Vec3 u = velocity(before_b, curve.on_b - b.position) - velocity(before_a, curve.on_a - a.position);
-    u -= curve.straight.dot(u) * curve.straight;
-    const double closing = -m.normal.dot(u), d = curve.distance, square = u.squaredNorm();
-    if (!(closing * h > gap)) return gap;
-    const double t = std::min(h, d * closing / square);
-    const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
-    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap : std::max(gap, nearest + h * closing);
 }
 
 ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
@@ -82,16 +66,17 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
     double weights = 0.0;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
-        const Vec3 place = acting_place(from, m.normal, a.dynamic(), b.dynamic());
+        const Passing seen = passing(m, i, a, b, before_a, before_b, settings.h);
+        if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
+        const Vec3 place = acting_place(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
         const Vec3 arm_a = place - a.position, arm_b = place - b.position;
-        if (will_bounce(from, m.normal, a, b, settings)) continue;
         ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
         to.arm_a = arm_a;
         to.arm_b = arm_b;
-        to.separation = m.curved() ? passing_gap(m, a, b, before_a, before_b, settings.h) : from.separation;
+        to.separation = seen.gap;
         to.impulse = from.impulse;
         to.source = i;
-        const double weight = from.separation < near ? 1.0 : tuning::friction_far_weight;
+        const double weight = seen.gap < near ? 1.0 : tuning::friction_far_weight;
         center += weight * arm_a;
         weights += weight;
     }

@@ -35,24 +35,17 @@ struct PatchSettings {
 /// Where the impulses of a point act, world: halfway between the surfaces of two bodies that both give way, so that they keep their
 /// angular momentum; else on the surface of the one that does. Found a way into the floor, or before it is there, a ball still has
 /// its radius for a lever, and keeps its angular momentum about the place where it lands.
-inline Vec3 acting_place(const ContactPoint& p, const Vec3& normal, bool a_gives_way, bool b_gives_way) {
-    if (a_gives_way == b_gives_way) return p.position;
-    return p.position + (a_gives_way ? -0.5 : 0.5) * p.separation * normal;
+inline Vec3 acting_place(const Vec3& position, double separation, const Vec3& normal, bool a_gives_way, bool b_gives_way) {
+    if (a_gives_way == b_gives_way) return position;
+    return position + (a_gives_way ? -0.5 : 0.5) * separation * normal;
 }
 
 /// v_rel of a manifold's point, m/s; negative: approaching.
 double relative_velocity(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b);
 
 /// Whether a point is left alone in this step because it will bounce: stopping it at the surface would take the speed it
-/// must come back with.
-bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, const PatchSettings& settings);
-
-/// A point that does not touch is held from closing its gap within a time h (s) at an even speed along the normal. Where the gap
-/// is one of curves (Manifold::curved), what passes comes less near than that: a ball that rolls to a flush edge would run
-/// against the edge ahead of it. Returns the gap (m) for which the even approach, at the velocities before the step's forces, ends
-/// where the passing bodies come nearest.
-double passing_gap(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
-                   double h);
+/// must come back with. `slower` (m/s): Passing::slower.
+bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings);
 
 /// Returns a patch without points when there is nothing to hold.
 ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,

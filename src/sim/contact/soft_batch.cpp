@@ -1,5 +1,6 @@
 #include "sim/contact/soft_batch.h"
 
+#include "sim/contact/passing.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -76,11 +77,12 @@ void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayo
 
 // Of the places first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
-    const double share = 1.0 / substeps_;
+    const double share = 1.0 / substeps_, swinging = tuning::swing_turn / problem.patches.h;
     for (std::size_t k = first; k < last; ++k) {
         const std::uint32_t i = layout_->blocks().order()[k];
         const Body& body = problem.bodies[i];
         places_[k + 1] = place_of(body, std::uint32_t(k + 1));
+        places_[k + 1].swings = problem.before[i].angular_velocity.squaredNorm() > swinging * swinging;
         energies_.begin(k, body, problem.before[i]);
         const auto& [v, w] = problem.before[i];
         const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
@@ -136,12 +138,6 @@ const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t 
     return made = place_of(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
 }
 
-// For a substep more than the step: the last sweep looks as far ahead.
-double SoftBatch::gap_of_curves(const Manifold& m, const ContactProblem& problem) const {
-    const auto& [bodies, manifolds, before, patches] = problem;
-    return passing_gap(m, bodies[m.a], bodies[m.b], before[m.a], before[m.b], patches.h + d_);
-}
-
 // Lane l of group g.
 void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t g, std::size_t l,
                           const std::vector<std::uint32_t>& slot) {
@@ -165,15 +161,20 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     float* const head = row(g, 0) + l;
     float* point = head + soft::head_rows * stride;
     int count = 0;
-    const bool curved = m.curved();
+    const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
+    const bool curves = a.swings || b.swings || m.curved();
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
-        if (bouncy && will_bounce(p, m.normal, problem.bodies[m.a], problem.bodies[m.b], problem.patches)) continue;
+        Passing seen{p.position, p.separation, 0.0};
+        // For a substep more than the step: the last sweep looks as far ahead.
+        if (curves) seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
+        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
-        put(point + soft::turn * stride, stride, acting_place(p, m.normal, first.dynamic, second.dynamic) - a.position);
+        const Vec3 place = acting_place(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
+        put(point + soft::turn * stride, stride, place - a.position);
         point[soft::normal_mass * stride] = 1.0f;
-        point[soft::separation * stride] = float(curved ? gap_of_curves(m, problem) : p.separation);
+        point[soft::separation * stride] = float(seen.gap);
         point[soft::impulse * stride] = float(share * p.impulse);
         point += soft::point_rows * stride;
     }
@@ -198,7 +199,7 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     const std::size_t lanes = std::size_t(kernel_.lanes);
     int points = 0;
     for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
-        if (layout_->manifold(lane) != SoftLayout::none) points = std::max(points, problem.manifolds[layout_->manifold(lane)].count);
+        if (const std::uint32_t m = layout_->manifold(lane); m != SoftLayout::none) points = std::max(points, int(problem.manifolds[m].count));
     std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;

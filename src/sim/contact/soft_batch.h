@@ -43,6 +43,7 @@ private:
         double radius = 0.0, friction = 0.0, restitution = 0.0;
         std::uint32_t slot = 0;
         bool dynamic = false;
+        bool swings = false;   // turns so fast that its corners come down along curves
     };
     // Which points of a lane's manifold are its points.
     struct Source {
@@ -59,7 +60,6 @@ private:
     void pack_movers(const ContactProblem& problem);
     const Place& find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
                             const std::vector<std::uint32_t>& slot, Place& made) const;
-    double gap_of_curves(const Manifold& m, const ContactProblem& problem) const;
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t group, std::size_t l,
                    const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);

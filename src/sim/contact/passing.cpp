@@ -1,0 +1,77 @@
+#include "sim/contact/passing.h"
+
+#include "sim/collision/swing.h"
+#include "sim/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// With d the places' distance vector across the line, d0 n at first, and u the velocity of one against the other across the line,
+//     |d0 n + u t|  is least at  t = -d0 n.u / u^2,  or at the step's end.
+// Where that is an overlap the bodies do meet.
+double gap_of_curves(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+    const double gap = m.points[0].separation;
+    if (!(gap > 0.0)) return gap;
+    const Curve curve = m.curve();
+    const auto velocity = [](const BodyVelocity& v, const Vec3& arm) { return Vec3(v.velocity + v.angular_velocity.cross(arm)); };
+    Vec3 u = velocity(before_b, curve.on_b - b.position) - velocity(before_a, curve.on_a - a.position);
+    u -= curve.straight.dot(u) * curve.straight;
+    const double closing = -m.normal.dot(u), d = curve.distance, square = u.squaredNorm();
+    if (!(closing * h > gap)) return gap;
+    const double t = std::min(h, d * closing / square);
+    const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
+    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap : std::max(gap, nearest + h * closing);
+}
+
+RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
+    if (!body.moves()) return {};
+    return {body.position, before.velocity, before.angular_velocity};
+}
+
+// Of a corner that strikes the face on its way: with its arm at that moment, T, and as fast a closing c' as brings it no lower on the rest of
+// its curve. Held at T to c' in place of c it is T (c - c') higher then, and later by t
+//     T (c - c') - c' t + k t^2 / 2,  least at  t = c' / k:  no less than 0 for  c' = T (sqrt(k (k + 2 c / T)) - k),  or at the step's end.
+Passing hit(const Swing& swing, double gap, double h) {
+    const double low = swing.lowest(h), depth = swing.gap(low), closing = swing.closing(0.0);
+    if (depth >= 0.0) {   // not quite
+        const double then = std::max(0.0, swing.closing(low));
+        return {swing.turned(low), low > 0.0 ? h * (then + depth / low) : gap, closing - then};
+    }
+    const double touch = swing.touch(low), then = std::max(0.0, swing.closing(touch)), bend = std::max(0.0, swing.bend(touch)), rest = h - touch;
+    double held = touch * (std::sqrt(bend * (bend + 2.0 * then / touch)) - bend);
+    if (held > bend * rest) held = (touch * then + 0.5 * bend * rest * rest) / h;
+    return {swing.turned(touch), h * held, closing - then};
+}
+
+}  // namespace
+
+Passing passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+    const ContactPoint& p = m.points[std::size_t(index)];
+    const Passing as_it_is{p.position, p.separation, 0.0};
+    if (m.curved()) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
+    if (m.corners == Corners::neither) return as_it_is;
+    const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;
+    if (square * before_a.angular_velocity.squaredNorm() < least && square * before_b.angular_velocity.squaredNorm() < least) return as_it_is;
+    const bool of_a = m.corners == Corners::of_a;
+    const RigidMotion on_a = motion_of(a, before_a), on_b = motion_of(b, before_b);
+    const RigidMotion &corner = of_a ? on_a : on_b, &face = of_a ? on_b : on_a;
+    const Vec3 normal = of_a ? Vec3(-m.normal) : m.normal;
+    if (!Swing::matters(normal, corner, face, h)) return as_it_is;
+    const Swing swing(p.position, p.separation, normal, corner, face);
+    const double closing = swing.closing(0.0);
+    if (!(closing * h > p.separation) || !(closing > 0.0) || !(swing.bend(0.0) > 0.0)) return as_it_is;
+    double deepest = 0.0;
+    for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[std::size_t(i)].separation);
+    const double bottom = swing.bottom(h), reach = swing.gap_by_turn(bottom);
+    if (!(bottom > 0.0)) return as_it_is;
+    // Rolling over more than one corner a step: half a step from the bottom a circle is so far above it. Fewer are hits.
+    const double passed = std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
+    if (reach < deepest - passed) return p.separation > 0.0 ? hit(swing, p.separation, h) : as_it_is;
+    const double then = std::max(0.0, swing.closing_by_turn(bottom));
+    return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom), closing - swing.closing(bottom)};
+}
+
+}  // namespace tumble

@@ -1,0 +1,24 @@
+// What comes down along a curve. A point that does not touch is held from closing its gap within a time h at an even speed along the
+// normal, with arms as they are when the step begins. A ball that rolls to a flush edge would run against the edge ahead of it, a
+// corner of what rolls be stopped before it came down, at an arm at which it never touches, and throw the body up.
+#pragma once
+
+#include "sim/body.h"
+#include "sim/collision/manifold.h"
+
+namespace tumble {
+
+/// A manifold's point as the solvers are to see it: an even approach to this gap, with arms from the bodies' places at the step's
+/// start to this position, ends where the bodies come nearest on their curves.
+struct Passing {
+    Vec3 position = Vec3::Zero();   // world
+    double gap = 0.0;               // m
+    double slower = 0.0;            // m/s: by how much the approach has slowed by then
+};
+
+/// `before`: the velocities before the step's forces; `h`: the time (s) in which the gap may be closed.
+/// Of points on balls (Manifold::curved) the gap alone changes.
+Passing passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+                double h);
+
+}  // namespace tumble
