@@ -122,6 +122,8 @@ inline constexpr double direct_compliance = 1e-3;
 inline constexpr double direct_friction_soft = 1e4;
 inline constexpr double direct_friction_stiffening = 0.3;
 inline constexpr double direct_friction_stiff = 1.0;
+/// A body lands where a gap closes within the step, later than after this part of it: no rounding of what rests.
+inline constexpr double direct_landing = 0.02;
 /// Convergence of its Newton steps and of its rounds, relative to the step's own change of velocity and to the impulses.
 inline constexpr double direct_tolerance = 1e-9;
 /// Speeds below this part of the fastest body's are rounding, which the stiffness of the contacts magnifies.

@@ -370,6 +370,7 @@ bool DirectSolver::admissible() const {
 bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                          std::span<const std::uint32_t> manifolds) {
     factorisations_ = 0;
+    way_.clear();
     load_bodies(problem, bodies);
     load_patches(problem, bodies, manifolds);
     if (patches_.empty()) return true;
@@ -381,6 +382,18 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
         return true;
     }
 
+    if (const int parts = landing_parts(problem, bodies); parts > 1) {
+        if (!solve_in_parts(problem, bodies[0], parts)) return false;
+    } else {
+        if (!solve_rounds() || !admissible()) return false;
+    }
+    const bool pushed = push_out(problem.patches.h);
+    store(problem, bodies, pushed);
+    return true;
+}
+
+// From free_ and what the rows ask for to velocity_ and their impulses.
+bool DirectSolver::solve_rounds() {
     // Friction soft at first, where Newton's method does not stall on the edges of the discs; then stiffer from round to
     // round, each beginning where the one before ended, as far as that goes.
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
@@ -407,9 +420,6 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
         if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening, tuning::direct_friction_stiff * compliance_);
     }
-    if (!admissible()) return false;
-    const bool pushed = push_out(problem.patches.h);
-    store(problem, bodies, pushed);
     return true;
 }
 
@@ -435,7 +445,7 @@ bool DirectSolver::push_out(double h) {
 }
 
 void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
-    std::vector<bool> reached(bodies.size(), pushed);
+    std::vector<bool> reached(bodies.size(), pushed);   // by impulses or a push
     for (const Patch& patch : patches_) {
         Manifold& m = problem.manifolds[patch.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
@@ -470,9 +480,13 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         if (!reached[k]) continue;
         Body& body = problem.bodies[bodies[k]];
         body.derive_velocities();
-        if (!pushed) continue;
+        if (!pushed && way_.empty()) continue;
         body.push_velocity = three(push_, 6 * k);
         body.push_angular_velocity = three(push_, 6 * k + 3) / length_;
+        if (way_.empty()) continue;
+        const double rate = 1.0 / problem.patches.h;
+        body.push_velocity += rate * three(way_, 6 * k) - body.velocity;
+        body.push_angular_velocity += rate / length_ * three(way_, 6 * k + 3) - body.angular_velocity - body.gyration;
     }
 }
 

@@ -56,6 +56,9 @@ private:
     double slope(double along, double mass_slope, double mass_curvature);
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
+    bool solve_rounds();
+    int landing_parts(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const;
+    bool solve_in_parts(const ContactProblem& problem, std::uint32_t body, int parts);
     double objective(const std::vector<double>& u);
     double kinetic_energy(const std::vector<double>& u) const;
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
@@ -73,6 +76,7 @@ private:
     int factorisations_ = 0;
     std::vector<Mass> masses_;
     std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_, kept_;   // u*, u, du, ...; six a body
+    std::vector<double> way_;        // m, in the step, of a body that is solved in parts
     std::vector<Patch> patches_;
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
