@@ -289,7 +289,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.left_out.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     found.scratch.way = h * (b.velocity - a.velocity);
-    found.scratch.turning = h * a.spin > tuning::swing_turn * a.radius || h * b.spin > tuning::swing_turn * b.radius;
+    found.scratch.turning = h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);

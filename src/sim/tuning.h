@@ -33,6 +33,8 @@ inline constexpr double passing_overlap = 2e-3;
 
 /// Bodies that turn by more than this (rad) in a step may roll over several of their corners in it: those of cylinders of 200 corners.
 inline constexpr double swing_turn = 0.03;
+/// And by more than this over those of 64: of such bodies the points on a plane are those that they roll on.
+inline constexpr double rolling_turn = 0.1;
 
 /// Two bodies that moved by less than this part of the smaller one's radius against each other keep their manifold: points
 /// may lie that far from where a search would put them, separations are exact all the same.

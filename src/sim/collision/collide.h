@@ -24,7 +24,7 @@ struct CollisionScratch {
     std::uint32_t axis = 0;
     double gap = 0.0;
     Vec3 way = Vec3::Zero();              // m, world: of B against A in the coming step. Tells over which of two faces they slide
-    bool turning = false;                 // whether one of the bodies turns fast (tuning::swing_turn)
+    bool turning = false;                 // whether one of the bodies turns fast (tuning::rolling_turn)
     bool on_ball = false;                 // whether a manifold found lies on a ball. Cleared by the caller, as gap
     // The pair's manifolds of the last step, and which part of it is looked at (Manifold::part): B's face goes on being the
     // one that the manifold lies on, though A's would do as well.

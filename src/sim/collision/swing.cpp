@@ -43,27 +43,6 @@ double Swing::bend(double t) const {
 // (C, D) = -R (cos x0, sin x0), and the turn alone takes the corner along  -R cos(wt - x0).
 double Swing::bottom(double h) const { return std::clamp(atan2_stable(-d_, -c_) / w_, 0.0, h); }
 
-// The closing ends where  v + R w sin(wt - x0) = 0.
-double Swing::lowest(double h) const {
-    const double radius = std::sqrt(c_ * c_ + d_ * d_), fastest = radius * w_;
-    if (!(std::abs(v_) < fastest)) return v_ < 0.0 ? h : 0.0;
-    const double sine = -v_ / fastest, angle = atan2_stable(-d_, -c_) + atan2_stable(sine, std::sqrt(1.0 - sine * sine));
-    if (angle <= 0.0) return closing(0.0) > 0.0 ? h : 0.0;   // past it: it rises, or has gone over the top
-    return std::min(h, angle / w_);
-}
-
-// Newton's method: from the left, on what falls and bends up, it comes no farther than to the root.
-double Swing::touch(double lowest) const {
-    constexpr int steps = 6;   // more than it takes
-    double t = 0.0;
-    for (int k = 0; k < steps; ++k) {
-        const double speed = closing(t);
-        if (!(speed > 0.0)) break;
-        t = std::min(lowest, t + std::max(0.0, gap(t)) / speed);
-    }
-    return t;
-}
-
 Vec3 Swing::turned(double t) const {
     const auto [sine, cosine] = sincos(w_ * t);
     return center_ + along_ + cosine * across_ + sine * beside_;

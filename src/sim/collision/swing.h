@@ -32,10 +32,6 @@ public:
     double bottom(double h) const;
     double gap_by_turn(double t) const { return gap(t) - v_ * t; }
     double closing_by_turn(double t) const { return closing(t) + v_; }
-    /// When the gap is least, within a time h.
-    double lowest(double h) const;
-    /// When it is closed, where it is by the time `lowest`, and bends up until then.
-    double touch(double lowest) const;
     /// Where the corner then is, seen from where its body's centre is now.
     Vec3 turned(double t) const;
 

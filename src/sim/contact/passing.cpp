@@ -31,21 +31,6 @@ RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
     return {body.position, before.velocity, before.angular_velocity};
 }
 
-// Of a corner that strikes the face on its way: with its arm at that moment, T, and as fast a closing c' as brings it no lower on the rest of
-// its curve. Held at T to c' in place of c it is T (c - c') higher then, and later by t
-//     T (c - c') - c' t + k t^2 / 2,  least at  t = c' / k:  no less than 0 for  c' = T (sqrt(k (k + 2 c / T)) - k),  or at the step's end.
-Passing hit(const Swing& swing, double gap, double h) {
-    const double low = swing.lowest(h), depth = swing.gap(low), closing = swing.closing(0.0);
-    if (depth >= 0.0) {   // not quite
-        const double then = std::max(0.0, swing.closing(low));
-        return {swing.turned(low), low > 0.0 ? h * (then + depth / low) : gap, closing - then};
-    }
-    const double touch = swing.touch(low), then = std::max(0.0, swing.closing(touch)), bend = std::max(0.0, swing.bend(touch)), rest = h - touch;
-    double held = touch * (std::sqrt(bend * (bend + 2.0 * then / touch)) - bend);
-    if (held > bend * rest) held = (touch * then + 0.5 * bend * rest * rest) / h;
-    return {swing.turned(touch), h * held, closing - then};
-}
-
 }  // namespace
 
 Passing passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
@@ -69,7 +54,7 @@ Passing passing(const Manifold& m, int index, const Body& a, const Body& b, cons
     if (!(bottom > 0.0)) return as_it_is;
     // Rolling over more than one corner a step: half a step from the bottom a circle is so far above it. Fewer are hits.
     const double passed = std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
-    if (reach < deepest - passed) return p.separation > 0.0 ? hit(swing, p.separation, h) : as_it_is;
+    if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, swing.closing_by_turn(bottom));
     return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom), closing - swing.closing(bottom)};
 }
