@@ -14,6 +14,7 @@
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
 #include "sim/integrator/rigid_state.h"
+#include "sim/kinematic_body.h"
 #include "sim/measurement.h"
 #include "sim/memory_order.h"
 #include "sim/narrow_phase.h"
@@ -127,7 +128,6 @@ struct World::State {
     const std::vector<StepLimit>& held_limits();
     void turn_freely(Body& body, const Quat& from, double share) const;
     void lose_time(std::uint32_t i, double share, bool in_contact);
-    void carry(Body& body, const Body& carrier, double share) const;
     void solve_resting_contacts();
     void forget_blows();
     void move();
@@ -162,28 +162,8 @@ void World::State::advance(std::int64_t to) {
 void World::step() { state_->advance(state_->steps + 1); }
 void World::advance_frame() { state_->advance(state_->steps + state_->settings.steps_per_frame); }
 
-// Kinematic bodies go where their keyframes say; during the step they have the constant velocity that takes them there.
 void World::State::place_kinematic_bodies() {
-    for (const std::uint32_t i : kinematic_bodies) {
-        Body& body = bodies[i];
-        const auto now = body.track->at(time(steps)), next = body.track->at(time(steps + 1));
-        body.orientation = now.rotation;
-        body.rotation = now.rotation.toRotationMatrix();
-        body.position = now.position + body.rotation * body.center_of_mass;
-        const Vec3 target = next.position + next.rotation * body.center_of_mass;
-        body.velocity = (target - body.position) / h;
-        body.angular_velocity = rotation_vector(next.rotation * now.rotation.conjugate()) / h;
-        // Where the velocity changes evenly, what it begins with; over a bend in the path, the mean.
-        const auto begin = [](const Vec3& from, const Vec3& mean, const Vec3& to) {
-            const Vec3 change = to - from;
-            return (from + to - 2.0 * mean).norm() <= tuning::kinematic_bend * change.norm() ? Vec3(mean - 0.5 * change) : mean;
-        };
-        const auto of_center = [&](const KeyframeTrack::Motion& m) {
-            return Vec3(m.velocity + m.angular_velocity.cross(m.rotation * body.center_of_mass));
-        };
-        old_velocities[i].velocity = begin(of_center(now), body.velocity, of_center(next));
-        old_velocities[i].angular_velocity = begin(now.angular_velocity, body.angular_velocity, next.angular_velocity);
-    }
+    for (const std::uint32_t i : kinematic_bodies) old_velocities[i] = place_on_track(bodies[i], time(steps), time(steps + 1), h);
 }
 
 // Whatever happens in a step happens to these: the time it takes goes with their number.
@@ -381,18 +361,6 @@ void World::State::lose_time(std::uint32_t i, double share, bool in_contact) {
     body.derive_velocities();
 }
 
-// What a kinematic body has run into goes along with it for the rest of the step, from `share` of it on, as if it were fixed to it:
-// where it was touched it is touched still when the next step resolves the collision.
-void World::State::carry(Body& body, const Body& carrier, double share) const {
-    const Quat turn = from_rotation_vector((1.0 - share) * h * carrier.angular_velocity);
-    const Vec3 center = carrier.position + share * h * carrier.velocity;
-    body.position = carrier.position + h * carrier.velocity + turn * (body.position - center);
-    if (carrier.angular_velocity.isZero(0.0)) return;
-    body.orientation = (turn * body.orientation).normalized();
-    body.rotation = body.orientation.toRotationMatrix();
-    body.derive();
-}
-
 void World::State::move() {
     if (flights) {
         const auto& limits = held_limits();
@@ -434,7 +402,7 @@ void World::State::move() {
             else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
             if (in_contact && share < 1.0) lose_time(i, share, true);
         }
-        if (limits[i].carrier != StepLimit::none) carry(body, bodies[limits[i].carrier], share);
+        if (limits[i].carrier != StepLimit::none) carry_along(body, bodies[limits[i].carrier], share, h);
         look_at_numbers(i);
     });
     ++steps;
@@ -486,9 +454,9 @@ Snapshot World::snapshot() const {
         const Body& body = s.bodies[i];
         BodyState state{body.origin(), body.position, body.orientation, body.velocity, body.angular_velocity};
         if (body.track) {   // the path's own velocity at this moment, not the mean over the coming step
-            const auto motion = body.track->at(snapshot.time);
-            state.angular_velocity = motion.angular_velocity;
-            state.velocity = motion.velocity + motion.angular_velocity.cross(body.position - motion.position);
+            const BodyVelocity now = velocity_on_track(body, snapshot.time);
+            state.velocity = now.velocity;
+            state.angular_velocity = now.angular_velocity;
         }
         snapshot.bodies[s.order[i]] = state;
     }
