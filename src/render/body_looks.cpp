@@ -133,6 +133,7 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
     SceneLooks looks;
     for (const BodyDescription& body : scene.bodies) {
         BodyLook look;
+        look.fixed = body.type == BodyType::fixed;
         if (body.surface.visible) {
             std::visit([&](const auto& shape) { set_shape(look, shape, looks); }, body.shape);
             const std::array<double, 3> linear = to_linear(body.surface.color);

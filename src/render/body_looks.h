@@ -33,6 +33,7 @@ struct BodyLook {
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
     bool ground = false;               // see grounds.h
+    bool fixed = false;                // never moves
     bool undarkened = false;           // too large for the values that it has room for: better none than wrong ones
     std::ptrdiff_t fine_surface = -1;  // of SceneLooks::fine_surfaces; -1: none. A mesh that has one has charts
 };

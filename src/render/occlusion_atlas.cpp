@@ -165,8 +165,7 @@ void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
             }
             store(x, y, width, height, stride, open);
         };
-        if (plane_darkening.update(plane, looks.bodies[plane.body], snapshot.bodies[plane.body], reference,
-                                   looks.window_cell, occluders, moved, anew || moved_much,
+        if (plane_darkening.update(plane, looks, snapshot, reference, occluders, moved, anew || moved_much,
                                    known == atlas.windows.end() ? nullptr : &*known, shelves, window, keep))
             windows.push_back(window);
     }

@@ -68,10 +68,12 @@ bool PlaneDarkening::place(OcclusionWindow& window, AtlasShelves& shelves) const
     return shelves.take(window.width, window.height, window.x, window.y);
 }
 
-bool PlaneDarkening::update(const PlaneInView& plane, const BodyLook& look, const BodyState& state, const Vec3& reference,
-                            double cell, const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved,
+bool PlaneDarkening::update(const PlaneInView& plane, const SceneLooks& looks, const Snapshot& snapshot, const Vec3& reference,
+                            const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved,
                             bool everything, const OcclusionWindow* known, AtlasShelves& shelves, OcclusionWindow& window,
                             const Store& store) {
+    const BodyLook& look = looks.bodies[plane.body];
+    const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(look.plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
     const Vec3 origin = state.origin - reference;  // the plane's coordinates count from here
@@ -79,14 +81,15 @@ bool PlaneDarkening::update(const PlaneInView& plane, const BodyLook& look, cons
         const double height = double(plane.normal.dot(o.center)) + double(plane.height);
         if (height > double(o.bound_radius) + 2.0 * double(o.reach) || height < -double(o.bound_radius)) return;
         const Vec3 from_origin = o.center.cast<double>() - origin;
-        feet.push_back({&o, u.dot(from_origin), v.dot(from_origin), double(o.bound_radius) + double(o.reach)});
+        feet.push_back({&o, u.dot(from_origin), v.dot(from_origin), double(o.bound_radius) + double(o.reach), height});
     };
     feet_.clear();
     for (const Occluder& o : occluders) add_foot(o, feet_);
     if (feet_.empty()) return false;
     window = {};
     window.body = plane.body;
-    window.cell = cell;   // a power of two, and the window on whole cells: texels stay where they are while bodies move
+    // A power of two, and the window on whole cells: texels stay where they are while bodies move.
+    const double cell = window.cell = looks.window_cell;
     if (!place(window, shelves)) return false;
 
     const int columns = (window.width + block - 1) / block, rows = (window.height + block - 1) / block;
@@ -106,19 +109,29 @@ bool PlaneDarkening::update(const PlaneInView& plane, const BodyLook& look, cons
     }
     open_.assign(std::size_t(window.width) * std::size_t(window.height), 1.0f);
     const Vec3 on_plane = origin + look.plane.offset * plane.normal.cast<double>();
+    PlaneRoof& roof = roofs_[plane.body];
+    roof.update({reference + on_plane + u * (window.low_a * cell) + v * (window.low_b * cell), u, v, plane.normal.cast<double>(), cell,
+                 window.width, window.height},
+                looks, snapshot);
     for (const Foot& foot : feet_) {
         const Texels t = touched(foot, window);
         if (t.empty()) continue;
         bool needed = all;
         if (!all) for_blocks(t, [&](const char& dirty) { needed = needed || dirty != 0; });
         if (!needed) continue;
+        const Occluder& o = *foot.occluder;
+        const float unroofed = looks.bodies[o.body].fixed ? 1.0f
+                                                          : roof.open_share(foot.a / cell - window.low_a, foot.b / cell - window.low_b,
+                                                                            double(o.half_size.minCoeff()) + double(o.radius), foot.height);
+        if (unroofed <= 0.0f) continue;
         const Vec3 corner = on_plane + u * ((window.low_a + t.i0) * cell) + v * ((window.low_b + t.j0) * cell);
         around_foot_.set(corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
                          t.i1 - t.i0 + 1, t.j1 - t.j0 + 1);
-        around_foot_.darken(*foot.occluder, foot.occluder->reach);
+        around_foot_.darken(o, o.reach);
         const float* share = around_foot_.open().data();
         for (int j = t.j0; j <= t.j1; ++j)
-            for (int i = t.i0; i <= t.i1; ++i) open_[std::size_t(j * window.width + i)] *= *share++;
+            for (int i = t.i0; i <= t.i1; ++i, ++share)
+                open_[std::size_t(j * window.width + i)] *= unroofed < 1.0f ? 1.0f - unroofed * (1.0f - *share) : *share;
     }
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)

@@ -1,14 +1,16 @@
 // The windows of the occlusion atlas: how the bodies darken the planes near them. Every occluder near a plane darkens the
-// texels around its foot; they multiply. Only the blocks of texels that a moved occluder touches, or touched, are worked
+// texels around its foot; they multiply, but for what a fixed body stands under (plane_roof.h). Only the blocks of texels that a moved occluder touches, or touched, are worked
 // out anew.
 #pragma once
 
 #include "render/atlas_shelves.h"
 #include "render/occluders.h"
 #include "render/occlusion_atlas.h"
+#include "render/plane_roof.h"
 #include "render/surface_lattice.h"
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace tumble {
@@ -27,7 +29,7 @@ public:
     /// that have moved since, as they were and as they are; none for `everything`. `store` takes shares for the texels
     /// from (x, y) on, whose rows are `stride` apart. False: nothing is near the plane, or there is no room.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
-    bool update(const PlaneInView& plane, const BodyLook& look, const BodyState& state, const Vec3& reference, double cell,
+    bool update(const PlaneInView& plane, const SceneLooks& looks, const Snapshot& snapshot, const Vec3& reference,
                 const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
                 const OcclusionWindow* known, AtlasShelves& shelves, OcclusionWindow& window, const Store& store);
 
@@ -35,6 +37,7 @@ private:
     struct Foot {
         const Occluder* occluder;
         double a, b, radius;   // m, on the plane's axes
+        double height;         // m, above it
     };
     struct Texels {
         int i0, i1, j0, j1;    // of the window, both ends included
@@ -43,6 +46,7 @@ private:
     static Texels touched(const Foot& foot, const OcclusionWindow& window);
     bool place(OcclusionWindow& window, AtlasShelves& shelves) const;
 
+    std::map<std::size_t, PlaneRoof> roofs_;   // by plane
     std::vector<Foot> feet_;
     std::vector<float> open_;
     std::vector<char> dirty_;   // blocks

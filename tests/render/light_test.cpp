@@ -297,6 +297,43 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     compare("a ball");   // the box stands in it by 4 cm at its corners
 }
 
+// What lies on a shelf or in a bowl does not darken the ground below; what hangs beyond the shelf's edge does.
+TEST(Light, NothingDarkensTheGroundThroughAFixedBody) {
+    SceneDescription scene = shadow_scene();
+    scene.light.shadows = false;
+    scene.camera.eye = Vec3(0.0, 0.3, 6.0);   // below the shelf
+    scene.camera.target = Vec3::Zero();
+    scene.bodies[1] = ball_body(Vec3(0.0, 0.92, 0.0), 0.5, {200, 133, 60});
+    const Vec3 places[] = {Vec3::Zero(), Vec3(0.3, 0.0, 0.2), Vec3(-0.5, 0.0, 0.4)};
+    const auto taken = [&] {
+        SceneDescription open = scene;
+        open.bodies[1].surface.visible = false;
+        const Image without = drawn(open), with = drawn(scene);
+        std::vector<double> levels;
+        for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
+        return levels;
+    };
+    const std::vector<double> open = taken();
+    for (const double levels : open) EXPECT_GT(levels, 5.0);
+    const Vec3 size(4.0, 0.02, 4.0);
+    const BodyDescription shelves[] = {box_body(Vec3(0.0, 0.4, 0.0), size, {190, 190, 190}),
+                                       mesh_body(Vec3(0.0, 0.4, 0.0), sheet_asset(4.0, 1), {190, 190, 190}),
+                                       mesh_body(Vec3(0.0, 0.4, 0.0), sheet_asset(4.0, 40), {190, 190, 190}),
+                                       ball_body(Vec3(0.0, 2.4, 0.0), 2.0, {190, 190, 190})};
+    scene.bodies.push_back({});
+    for (const BodyDescription& shelf : shelves) {
+        scene.bodies[2] = shelf;
+        scene.bodies[2].type = BodyType::fixed;
+        for (const double levels : taken()) EXPECT_NEAR(levels, 0.0, 1.0) << shelf.shape.index();
+    }
+    scene.bodies[2] = shelves[0];
+    scene.bodies[2].type = BodyType::fixed;
+    scene.bodies[2].position.x() = 2.1;   // ends at 0.1
+    const double half = taken().back();
+    EXPECT_GT(half, 0.3 * open.back());
+    EXPECT_LT(half, 0.95 * open.back());
+}
+
 // However large a mesh is and whatever its vertices share: what is not near a body is not darkened by it.
 TEST(Light, ContactIsNotDarkFarAway) {
     SceneDescription scene = shadow_scene();
