@@ -247,7 +247,7 @@ inline constexpr double impact_time = 1e-15;
 /// Poses a search looks at before it hands back what it has: 4 to 70 are the rule (spins to 100 rad/s).
 inline constexpr int impact_evaluations = 400;
 
-/// Contacts nearer than this part of the smaller body take part in one impact.
+/// Contacts nearer than this part of the smaller body take part in one impact; and with them those of the same faces that touch.
 inline constexpr double impact_touch = 1e-9;
 /// What touches without approaching is left alone for as long as it overlaps by no more than this part of the smaller body.
 inline constexpr double impact_harmless = 1e-7;

@@ -314,6 +314,8 @@ void Projection::spread() {
                 lambda[rows[std::size_t(k)]] = std::max(0.0, now[k] + share * (even[k] - now[k]));
         }
     }
+    // What they press with now they are held by, too: unheld, their speeds are only met to the tolerance.
+    if (std::all_of(held_.begin(), held_.end(), [&](std::size_t i) { return lambda[i] > 0.0; })) return;
     held_.resize(own);
     triangle_.resize(own * (own + 1) / 2);
     basis_.resize(own * std::size_t(size_));

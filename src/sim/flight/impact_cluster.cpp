@@ -30,11 +30,17 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     if (!add_once(pairs_, {pair.first, pair.second})) return;
     if (add_once(brought_, j)) bring(j);
     const Body &a = bodies[pair.first], &b = bodies[pair.second];
-    const double margin = widening_ * touch_distance(a, b), reach = a.radius + b.radius + margin;
+    const double near = widening_ * touch_distance(a, b), margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
+    const double reach = a.radius + b.radius + margin;
     if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
     const std::size_t first = manifolds_.size();
     scratch_.left_out.clear();
     tumble::collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_, manifolds_);
+    // Faces that meet at a trace of an angle meet all at once: corner after corner, that trace alone would tell where they go.
+    const auto apart = [&](const Manifold& m) {
+        return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > near; });
+    };
+    manifolds_.erase(std::remove_if(manifolds_.begin() + std::ptrdiff_t(first), manifolds_.end(), apart), manifolds_.end());
     for (std::size_t k = first; k < manifolds_.size(); ++k) {
         manifolds_[k].a = pair.first;
         manifolds_[k].b = pair.second;
