@@ -52,6 +52,7 @@ void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball&
     const double separation = height - b.radius;
     if (separation > margin) return;
     add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+    out.back().set_ball(pose_b.position);
 }
 
 void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
@@ -86,6 +87,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
         const Vec3 normal = pose_a.rotation * face->normal;
         const double separation = most - b.radius;
         add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+        out.back().set_ball(pose_b.position);
         return;
     }
     // Only faces seen from the centre can hold the nearest point.
@@ -110,7 +112,8 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     const double separation = distance - b.radius;
     const Vec3 point = pose_a.to_world(nearest.point);
     add_point(normal, point + 0.5 * separation * normal, separation, out);
-    if (!of_face) out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
+    if (of_face) out.back().set_ball(pose_b.position);
+    else out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,

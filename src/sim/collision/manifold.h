@@ -29,6 +29,9 @@ struct Curve {
 /// Whose corners a manifold's points are; the other body has the face that they lie over. neither: crossing edges, points on balls.
 enum class Corners : std::uint8_t { neither, of_a, of_b };
 
+/// Whose ball it is that lies over the other body's face, in a manifold of one point.
+enum class BallOver : std::uint8_t { neither, of_a, of_b };
+
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
     static constexpr int capacity = 4;   // spans most flat contact areas; where more are needed a second manifold has them
@@ -39,6 +42,7 @@ struct Manifold {
     bool more = false;            // those of the same two faces' points that the first manifold has no room for
     bool solved_directly = false; // by the direct contact solver, in the last step
     Corners corners = Corners::neither;
+    BallOver ball_over = BallOver::neither;
     std::uint16_t left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
     std::uint32_t first_left_out = 0;
     Vec3 normal = Vec3::Zero();
@@ -65,11 +69,19 @@ struct Manifold {
     bool curved() const { return count == 1 && points[1].feature != 0; }
     Curve curve() const { return {points[1].separation, points[1].position, points[2].position, points[3].position}; }
 
+    /// The same of B's ball over a face: where its centre is, world.
+    void set_ball(const Vec3& center) {
+        ball_over = BallOver::of_b;
+        points[2].position = center;
+    }
+    const Vec3& ball() const { return points[2].position; }
+
     /// The same, seen from the other body.
     void swap() {
         normal = -normal;
         if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
         if (curved()) std::swap(points[2].position, points[3].position);
+        if (ball_over != BallOver::neither) ball_over = ball_over == BallOver::of_a ? BallOver::of_b : BallOver::of_a;
     }
 
     /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).

@@ -23,6 +23,14 @@ bool ContactSolver::turns_fast(std::span<const std::uint32_t> bodies) const {
     return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) { return turns_fast_[i] != 0; });
 }
 
+// Balls that roll over faces go round with what carries them to the last digit (passing.h), however far it turns.
+bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const {
+    return !manifolds.empty() && std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
+        const Manifold& m = problem.manifolds[k];
+        return m.ball_over != BallOver::neither && pair_friction(problem.bodies[m.a], problem.bodies[m.b]) > 0.0;
+    });
+}
+
 // As it was up to `holds` steps ago; not looked at where no body can carry `enough` times its mass.
 PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                              double enough) {
@@ -68,11 +76,12 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             continue;
         }
         const bool free = islands.floats(k);
-        if (!free && turns_fast(bodies)) {
+        const bool alone = bodies.size() == 1;
+        if (!free && turns_fast(bodies) && !(alone && rolls(problem, manifolds))) {
             softly_.push_back(k);
             continue;
         }
-        if (bodies.size() == 1) {
+        if (alone) {
             memory.work = 0;
             direct_.push_back(k);
             continue;

@@ -45,6 +45,7 @@ private:
     void look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
     bool turns_fast(std::span<const std::uint32_t> bodies) const;
     void choose(const ContactProblem& problem, const ContactIslands& islands);
+    bool rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const;
     PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     bool deal(const ContactIslands& islands, const ContactProblem& problem);

@@ -1,5 +1,6 @@
 #include "sim/contact/direct_solver.h"
 
+#include "sim/contact/passing.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -63,11 +64,13 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.manifold = k;
         patch.coefficient = geometry.friction;
         patch.size = geometry.size;
-        driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves());
+        const Vec3 round = carried_round(m, a, b, problem.before[m.a], problem.before[m.b], h);
+        driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves()) || !round.isZero(0.0);
         for (int i = 0; i < patch.count; ++i) {
             const ContactPatch::Point& p = geometry.points[std::size_t(i)];
             Row& row = patch.normal[i];
             set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b, length_);
+            row.offset += round.dot(geometry.normal);
             row.estimate = p.impulse;
             row.target = std::min(0.0, -p.separation / h);
             patch.lever[i] = p.lever;
@@ -80,8 +83,8 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         const Vec3 motion = problem.before[m.b].velocity - problem.before[m.a].velocity;
         if (patch.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
         if (patch.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
-        patch.friction[0].offset -= 0.5 * h * turn.dot(geometry.tangent_1);
-        patch.friction[1].offset -= 0.5 * h * turn.dot(geometry.tangent_2);
+        patch.friction[0].offset += (round - 0.5 * h * turn).dot(geometry.tangent_1);
+        patch.friction[1].offset += (round - 0.5 * h * turn).dot(geometry.tangent_2);
         set_twist(patch.twist, geometry.normal, patch, a, b, length_);
         patch.friction[0].estimate = m.friction[0];
         patch.friction[1].estimate = m.friction[1];

@@ -1,5 +1,6 @@
 #include "sim/contact/passing.h"
 
+#include "core/elementary.h"
 #include "sim/collision/swing.h"
 #include "sim/tuning.h"
 
@@ -57,6 +58,22 @@ Passing passing(const Manifold& m, int index, const Body& a, const Body& b, cons
     if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, swing.closing_by_turn(bottom));
     return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom), closing - swing.closing(bottom)};
+}
+
+// With r = r_e + r_x along and across the unit vector e of w:  r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
+Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+    if (m.ball_over == BallOver::neither) return Vec3::Zero();
+    const bool of_a = m.ball_over == BallOver::of_a;
+    const Body &body = of_a ? a : b, &face = of_a ? b : a;
+    const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity, &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
+    const Vec3 arm = m.ball() - body.position;
+    const double w = turn.norm();
+    if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
+    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face's turn is as much
+    const Vec3 axis = turn / w, beside = axis.cross(arm), across = arm - axis.dot(arm) * axis;
+    const auto [sine, cosine] = sincos(w * h);
+    const Vec3 round = ((cosine - 1.0) * across + (sine - w * h) * beside) / h;
+    return of_a ? Vec3(-round) : round;
 }
 
 }  // namespace tumble

@@ -21,4 +21,9 @@ struct Passing {
 Passing passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
                 double h);
 
+/// What carries a ball off its centre of mass, as a compound does, takes the ball's centre round an arc. Over a step of h seconds that is
+/// another way than its velocity at the step's start, w x r, would take it: this is the difference, as a velocity of B's ball against
+/// A's face (or A's against B's), m/s. Contact that leaves it out makes what rolls hop where its centre of mass is low, and sink where it is high.
+Vec3 carried_round(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h);
+
 }  // namespace tumble
