@@ -34,6 +34,22 @@ std::optional<CameraPath::Tracks> CameraPath::tracks_of(const CameraDescription&
 
 CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
 
+Vec3 CameraPath::up_at(double time) const {
+    constexpr double parallel = 1e-9;   // rad: as for CameraView
+    constexpr double back = 1e-4;       // of the time since the last key: near enough, and far above rounding
+    const Vec3& up = camera_.up;
+    const auto view_at = [&](double t) -> Vec3 { return tracks_->target.at(t) - tracks_->eye.at(t); };
+    const Vec3 view = view_at(time);
+    if (view.cross(up).norm() > parallel * view.norm() * up.norm()) return up;
+    // No key is there (the scene's reader sees to that), so there is one before.
+    double key = camera_.keyframes.front().time;
+    for (const CameraKeyframe& k : camera_.keyframes)
+        if (k.time < time) key = k.time;
+    const Vec3 across = view_at(time - back * (time - key)).cross(up);   // to the right in the picture just before
+    const Vec3 in_passing = across.cross(view);
+    return in_passing.norm() > 0.0 ? in_passing : up;
+}
+
 Vec3 CameraPath::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
     const BodyState& body = snapshot.bodies.at(*camera_.follow);
@@ -52,10 +68,15 @@ CameraDescription CameraPath::at(const Snapshot& snapshot) const {
         now.eye = tracks_->eye.at(snapshot.time);
         now.target = tracks_->target.at(snapshot.time);
         now.vertical_fov = tracks_->vertical_fov.at(snapshot.time)[0];
+        now.up = up_at(snapshot.time);
     }
     // Whole turns go first, in degrees, where they are exact.
     const double angle = std::remainder(camera_.orbit * snapshot.time, 360.0);
-    if (angle != 0.0) now.eye = now.target + turned(now.eye - now.target, camera_.up.normalized(), angle);
+    if (angle != 0.0) {
+        const Vec3 axis = camera_.up.normalized();
+        now.eye = now.target + turned(now.eye - now.target, axis, angle);
+        if (now.up != camera_.up) now.up = turned(now.up, axis, angle);
+    }
     if (camera_.follow) {
         const Vec3 way = carried(snapshot);
         now.eye += way;

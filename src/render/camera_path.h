@@ -1,7 +1,8 @@
 // Where a moving camera is: a function of the scene and one snapshot alone, so that every process that draws finds the
 // same place. Three movements, one after the other: along the keyframes; in a circle about the target, by
 // orbit * t around `up`; along with a body, eye and target by the way that its centre of mass has gone (a body that tumbles
-// turns around that, and its origin swings).
+// turns around that, and its origin swings). Straight above or below its target, where `up` does not tell how the picture is
+// turned, it is turned as just before.
 #pragma once
 
 #include "core/number_track.h"
@@ -28,6 +29,9 @@ private:
         NumberTrack eye, target, vertical_fov;
     };
     static std::optional<Tracks> tracks_of(const CameraDescription& camera);
+    /// The way that is up in the picture, by the keyframes alone.
+    Vec3 up_at(double time) const;
+
     std::optional<Tracks> tracks_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_path.h"
+#include "render/camera_view.h"
 #include "render/drawn_poses.h"
 #include "render/viewing_distance.h"
 
@@ -88,6 +89,30 @@ TEST(CameraPath, AWaitingCameraStandsStill) {
         EXPECT_EQ(now.eye, Vec3(0, 0, 8)) << t;
         EXPECT_EQ(now.vertical_fov, 40.0) << t;
     }
+}
+
+// Straight above its target the picture stood across its way for one frame. What was to the right just before is so still.
+TEST(CameraPath, PassesOverItsTargetWithoutAQuarterTurn) {
+    for (const double orbit : {0.0, 50.0})
+        for (const double height : {8.0, -8.0})
+            for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
+                SceneDescription scene = empty_scene();
+                scene.camera.up = Vec3(0.0, 2.0, 0.0);
+                scene.camera.interpolation = way;
+                scene.camera.orbit = orbit;
+                scene.camera.keyframes = {{1.0, {2, height, 4}, {0, 0, 0}, 40.0}, {3.0, {-2, height, -4}, {0, 0, 0}, 40.0}};
+                const CameraPath path(scene.camera);
+                const auto view_at = [&](double time) { return CameraView(path.at(at_time(scene, time)), 320, 180); };
+                const CameraView before = view_at(2.0 - 1e-6), there = view_at(2.0), after = view_at(2.0 + 1e-6);
+                EXPECT_LT((there.eye() - Vec3(0.0, height, 0.0)).norm(), rounding);
+                // Nearly level, along (2, 4): up x that is to the right, seen from above and from below.
+                const double angle = orbit * M_PI / 180.0 * 2.0;
+                const Vec3 right = Eigen::AngleAxisd(angle, Vec3::UnitY()) * Vec3(4.0, 0.0, -2.0).normalized();
+                EXPECT_LT((there.right() - right).norm(), 1e-3) << orbit << " " << height;
+                EXPECT_LT((there.right() - before.right()).norm(), 1e-3) << orbit << " " << height;
+                EXPECT_LT((there.up() - before.up()).norm(), 1e-3) << orbit << " " << height;
+                EXPECT_LT((after.right() + right).norm(), 1e-3) << "up is up again: half a turn";
+            }
 }
 
 TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
