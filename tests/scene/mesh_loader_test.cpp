@@ -147,6 +147,46 @@ TEST_F(MeshLoader, AnInsideOutMeshIsTurned) {
     expect_drawable(*mesh.asset);
 }
 
+// Whichever faces of a cube are wound the other way (all: it agrees with itself), beside a small tetrahedron that is right.
+TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
+    const std::array<std::string, 6> outward = {"1 4 3 2", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"};
+    const std::array<std::string, 6> inward = {"2 3 4 1", "8 7 6 5", "5 6 2 1", "6 7 3 2", "7 8 4 3", "8 5 1 4"};
+    for (unsigned which = 0; which < 63; ++which) {
+        std::string text = cube_points() + "v 9 0 0\nv 10 0 0\nv 9 1 0\nv 9 0 1\nf 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n";
+        for (unsigned face = 0; face < 6; ++face) text += "f " + (which >> face & 1 ? inward : outward)[face] + "\n";
+        const auto mesh = load_mesh(write("a.obj", text));
+        EXPECT_TRUE(mesh.closedness.closed()) << which;
+        EXPECT_NEAR(mesh.closedness.signed_volume, 8.0 + 1.0 / 6.0, 1e-12) << which;
+        expect_drawable(*mesh.asset);
+    }
+}
+
+// Of an open piece the larger part decides.
+TEST_F(MeshLoader, OpenPiecesAreTurnedAsMostOfThemAre) {
+    const std::string strip = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\n";
+    for (const auto& [faces, up] : {std::pair{"f 1 2 3 4\nf 2 5 6 3\nf 8 7 5 6\n", 1.0}, std::pair{"f 1 2 3 4\nf 3 6 5 2\nf 6 8 7 5\n", -1.0}}) {
+        const auto mesh = load_mesh(write("strip.obj", strip + faces));
+        EXPECT_EQ(mesh.closedness.crowded_edges, 0u) << faces;
+        EXPECT_EQ(mesh.closedness.open_edges, 8u) << faces;
+        for (const MeshAsset::Vertex& v : mesh.asset->vertices) EXPECT_EQ(v.normal[2], up) << faces;
+    }
+}
+
+TEST_F(MeshLoader, WhatHasOneSideOnlyStaysAsItIs) {
+    std::string strip;   // a Moebius strip of 12 quads
+    for (int k = 0; k < 12; ++k) {
+        const double a = k * M_PI / 6.0, half = 0.5 * a;
+        for (const double side : {-0.3, 0.3}) {
+            const double r = 1.0 + side * std::cos(half);
+            strip += fmt::format("v {} {} {}\n", r * std::cos(a), r * std::sin(a), side * std::sin(half));
+        }
+    }
+    for (int k = 0; k < 11; ++k) strip += fmt::format("f {} {} {} {}\n", 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2);
+    const auto mesh = load_mesh(write("strip.obj", strip + "f 23 2 1 24\n"));
+    EXPECT_EQ(mesh.closedness.crowded_edges, 1u);
+    EXPECT_EQ(mesh.asset->surface.triangles.size(), 24u);
+}
+
 TEST_F(MeshLoader, AnOpenMeshSaysHowManyEdgesAreOpen) {
     const auto mesh =
         load_mesh(write("a.obj", cube_points() + "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));

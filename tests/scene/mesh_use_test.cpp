@@ -55,9 +55,15 @@ TEST_F(MeshUse, AnOpenMeshMayBeFixedButNotDynamic) {
     EXPECT_EQ(error_of("type = \"kinematic\"\n" + shape), "no error");
 }
 
-TEST_F(MeshUse, FacesThatDisagreeAreNoSolid) {
+TEST_F(MeshUse, FacesThatDisagreeAreTurned) {
     write("turned.obj", cube_points() + "f 1 4 3 2\nf 8 7 6 5\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"turned.obj\" }").find("disagree on which side is out"),
+    EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"turned.obj\" }"), "no error");
+}
+
+TEST_F(MeshUse, FacesThatMeetByFoursAreNoSolid) {
+    write("hinge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n"   // two tetrahedra on one edge
+                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"hinge.obj\" }").find("more than two triangles meet"),
               std::string::npos);
 }
 

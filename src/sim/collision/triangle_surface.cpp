@@ -1,6 +1,7 @@
 #include "sim/collision/triangle_surface.h"
 
 #include "core/error.h"
+#include "core/mesh_sheets.h"
 
 #include <algorithm>
 #include <map>
@@ -12,52 +13,19 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertices, the lower first
 
-// Finds the sheets, and turns triangles so that each sheet is wound as its first one is. One that cannot be, as a Moebius
-// strip, stays as it is and is none.
-void find_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
-    struct Use {
-        std::uint32_t triangle;
-        bool upward;   // from the lower vertex to the higher
-    };
-    const auto edge_of = [&](std::uint32_t t, std::size_t i) {
-        return Edge(std::minmax(triangles[t].vertices[i], triangles[t].vertices[(i + 1) % 3]));
-    };
-    const auto upward = [&](std::uint32_t t, std::size_t i) {
-        return triangles[t].vertices[i] < triangles[t].vertices[(i + 1) % 3];
-    };
-    std::map<Edge, std::vector<Use>> users;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for (const std::size_t i : {0u, 1u, 2u}) users[edge_of(t, i)].push_back({t, upward(t, i)});
-    std::vector<std::uint32_t> members;
-    std::vector<char> found(triangles.size(), 0), turned(triangles.size(), 0);
-    for (std::uint32_t first = 0; first < triangles.size(); ++first) {
-        if (found[first]) continue;
-        found[first] = 1;
-        members.assign(1, first);
-        bool alike = true;
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            for (const std::size_t i : {0u, 1u, 2u}) {
-                const std::vector<Use>& both = users[edge_of(members[k], i)];
-                if (both.size() != 2) continue;
-                const std::uint32_t other = both[both[0].triangle == members[k] ? 1 : 0].triangle;
-                const char turn = char(turned[members[k]] ^ char(both[0].upward == both[1].upward));
-                if (found[other]) {
-                    alike = alike && turned[other] == turn;
-                    continue;
-                }
-                found[other] = 1;
-                turned[other] = turn;
-                members.push_back(other);
-            }
-        }
-        if (!alike) continue;
-        for (const std::uint32_t t : members) {
-            TriangleSurface::Triangle& triangle = triangles[t];
-            triangle.sheet = first;
-            if (!turned[t]) continue;
-            std::swap(triangle.vertices[1], triangle.vertices[2]);
-            triangle.normal = -triangle.normal;
-        }
+// Turns triangles so that each sheet is wound as its first one is. What has one side only stays as it is and is none.
+void turn_to_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
+    std::vector<std::array<std::uint32_t, 3>> vertices;
+    vertices.reserve(triangles.size());
+    for (const TriangleSurface::Triangle& triangle : triangles) vertices.push_back(triangle.vertices);
+    const MeshSheets sheets = find_sheets(vertices);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (sheets.sheet[t] == MeshSheets::none) continue;
+        TriangleSurface::Triangle& triangle = triangles[t];
+        triangle.sheet = sheets.sheet[t];
+        if (!sheets.turned[t]) continue;
+        std::swap(triangle.vertices[1], triangle.vertices[2]);
+        triangle.normal = -triangle.normal;
     }
 }
 
@@ -84,7 +52,7 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         bounds.push_back(box);
     }
     if (s.triangles.empty()) throw InputError("the mesh has no triangle with an area");
-    if (!s.closed) find_sheets(s.triangles);
+    if (!s.closed) turn_to_sheets(s.triangles);
     std::map<Edge, std::vector<std::pair<std::uint32_t, int>>> users;
     s.fan_start.assign(s.vertices.size() + 1, 0);
     for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
