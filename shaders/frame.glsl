@@ -5,7 +5,7 @@ layout(std140) uniform Frame {
     vec4 ray_origin;             // the view ray through pixel (x, y) is origin + x dx + y dy, 1 along the axis
     vec4 ray_dx;
     vec4 ray_dy;
-    vec4 to_light;               // unit; w: 1 with shadows, else 0
+    vec4 to_light;               // unit, or 0 where the sun is below the ground; w: 1 with shadows, else 0
     vec4 shadow_x;               // rows: relative position -> [0, 1] across the near shadow map, and depth in it
     vec4 shadow_y;
     vec4 shadow_z;

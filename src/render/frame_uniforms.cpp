@@ -42,14 +42,25 @@ double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, cons
     return std::exp2(std::floor(std::log2(0.5 * nearest)));
 }
 
-FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
+bool sun_is_up(const SceneDescription& scene) {
+    constexpr double steepest_ground = 0.5;   // cosine of 60 degrees: what is steeper is a wall, as for the default camera
+    for (const BodyDescription& body : scene.bodies) {
+        const auto* plane = std::get_if<PlaneShape>(&body.shape);
+        if (plane == nullptr || body.type != BodyType::fixed) continue;
+        const Vec3 normal = body.rotation * plane->normal.normalized();
+        if (normal.y() > steepest_ground && normal.dot(scene.light.direction) >= 0.0) return false;
+    }
+    return true;
+}
+
+FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
                                   const ShadowFit& shadows, int atlas_height, bool widen_rods) {
     FrameUniforms u{};
     u.clip_from_relative = view.clip_from_relative(near_distance);
     u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
     u.ray_dx = to_glm(view.ray(1.0, 0.0) - view.ray(0.0, 0.0), 0.0);
     u.ray_dy = to_glm(view.ray(0.0, 1.0) - view.ray(0.0, 0.0), 0.0);
-    u.to_light = to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0);
+    u.to_light = sun_up ? to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0) : glm::vec4(0.0f);   // no cosine, no light
     u.shadow_x = shadows.x;
     u.shadow_y = shadows.y;
     u.shadow_z = shadows.z;

@@ -19,7 +19,12 @@ struct FrameUniforms {
 };
 static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
-FrameUniforms make_frame_uniforms(const LightDescription& light, const CameraView& view, double near_distance,
+/// Planes throw no shadows, for each is the surface of half a space, which takes the sun from all or from nothing: from all where
+/// the sun is below what bodies can lie on. Of planes that stand still.
+bool sun_is_up(const SceneDescription& scene);
+
+/// `sun_up`: else there is no sunlight.
+FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
                                   const ShadowFit& shadows, int atlas_height, bool widen_rods);
 
 /// How deep at least what is in view of a body lies, m.

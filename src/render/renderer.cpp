@@ -54,6 +54,7 @@ struct Renderer::State {
         : drawn(description),
           scene(drawn.scene()),
           looks(make_scene_looks(scene)),
+          sun_up(sun_is_up(scene)),
           path(description.camera),
           camera(scene.camera),
           view(first_view(scene, looks, options)),
@@ -145,6 +146,7 @@ struct Renderer::State {
     DrawnParts drawn;
     const SceneDescription& scene;
     SceneLooks looks;
+    bool sun_up;
     CameraPath path;
     CameraDescription camera;   // as it was for the last picture
     CameraView view;
@@ -232,7 +234,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
     s.meshes.upload(list, s.details);
     const FrameUniforms uniforms =
-        make_frame_uniforms(s.scene.light, s.view, near_distance, shadows, s.occlusion_texture.height(), s.smooth_edges);
+        make_frame_uniforms(s.scene.light, s.sun_up, s.view, near_distance, shadows, s.occlusion_texture.height(), s.smooth_edges);
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());

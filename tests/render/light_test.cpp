@@ -63,6 +63,43 @@ TEST(Light, AShadowLiesWhereGeometryPutsIt) {
         EXPECT_GT(brightness_at(image, scene, outside), 0.97 * bright) << outside.transpose();
 }
 
+// How far two pictures of a ground at y = 0 differ at most, in levels, within `reach` of a point of it.
+int most_difference(const Image& a, const Image& b, const SceneDescription& scene, const Vec3& around, double reach) {
+    int most = 0;
+    for (double x = -reach; x <= reach; x += 0.02 * reach)
+        for (double z = -reach; z <= reach; z += 0.02 * reach) {
+            const Pixel at = pixel_of(scene, around + Vec3(x, 0.0, z));
+            for (int channel = 0; channel < 3; ++channel)
+                most = std::max(most, std::abs(a.at(at.x, at.y)[channel] - b.at(at.x, at.y)[channel]));
+        }
+    return most;
+}
+
+// The sun shone on the undersides of bodies through the ground.
+TEST(Light, ASunBelowTheGroundLightsNothing) {
+    SceneDescription scene = shadow_scene();
+    scene.bodies.push_back(ball_body(Vec3(-2.0, 1.5, 0.0), 0.5, {60, 130, 200}));
+    scene.bodies.push_back(box_body(Vec3(2.0, 1.5, 0.0), Vec3::Ones(), {200, 160, 60}, Quat(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.0, 1.0).normalized()))));
+    scene.bodies.back().surface.metallic = 1.0;
+    const auto with_sun = [&](const Vec3& direction) {
+        scene.light.direction = direction;
+        return drawn(scene);
+    };
+    const Vec3 above(-0.5, -0.2, -0.4);
+    const Image day = with_sun(above), dark = with_sun(Vec3(0.3, 1.0, -0.4));
+    EXPECT_GT(brightness_at(day, scene, Vec3(0.0, 2.0, 0.5)), 1.3 * brightness_at(dark, scene, Vec3(0.0, 2.0, 0.5)));
+    EXPECT_EQ(with_sun(Vec3(-0.7, 0.1, -0.5)), dark) << "from wherever it shines not";
+    scene.bodies[0].rotation = Quat(Eigen::AngleAxisd(0.9, Vec3::UnitX()));   // rises towards -z, from where no sun comes then
+    EXPECT_EQ(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.0, 0.3, 1.0)));
+    std::get<PlaneShape>(scene.bodies[0].shape).normal = Vec3::UnitZ();   // a wall, 8 m behind the bodies
+    scene.bodies[0].rotation = Quat::Identity();
+    scene.bodies[0].position.z() = -8.0;
+    EXPECT_NE(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.2, -0.6, 1.0))) << "is no ground";
+    scene.bodies[0].surface.visible = false;
+    scene.bodies[0].position.z() = -1000.0;
+    EXPECT_NE(with_sun(Vec3(0.3, 1.0, -0.4)), with_sun(Vec3(0.3, 1.0, 0.4))) << "nor is nothing";
+}
+
 TEST(Light, ShadowsCanBeTurnedOff) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
@@ -106,18 +143,6 @@ BodyDescription wide_ground(const std::string& kind, double size) {
     ground.type = BodyType::fixed;
     ground.surface.roughness = 0.8;   // as the plane's
     return ground;
-}
-
-// How far two pictures of a ground at y = 0 differ at most, in levels, within `reach` of a point of it.
-int most_difference(const Image& a, const Image& b, const SceneDescription& scene, const Vec3& around, double reach) {
-    int most = 0;
-    for (double x = -reach; x <= reach; x += 0.02 * reach)
-        for (double z = -reach; z <= reach; z += 0.02 * reach) {
-            const Pixel at = pixel_of(scene, around + Vec3(x, 0.0, z));
-            for (int channel = 0; channel < 3; ++channel)
-                most = std::max(most, std::abs(a.at(at.x, at.y)[channel] - b.at(at.x, at.y)[channel]));
-        }
-    return most;
 }
 
 // However far a ground reaches, it catches the shadows that a plane at its place does: sharp ones from the near map,
