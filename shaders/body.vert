@@ -140,6 +140,8 @@ void main() {
 #ifdef MESH
     v_normal = normalize(mesh_normal / instance_scale.xyz);
     vec3 lift = rotate(instance_orientation, v_normal);
+    // An open mesh is lit from both sides, and off the one in the sun: else the other would lie in its own shadow.
+    if (instance_tile.y > 0.0 && dot(v_normal, light) < 0.0) lift = -lift;
 #endif
     v_eye = vec4(eye, haze.x);
 #ifdef SUNLIT

@@ -21,5 +21,6 @@ void main() {
 #else
     float open = v_open;
 #endif
+    open = gl_FrontFacing ? open : 1.0;           // what is near the other side says nothing of this one
     pixel = body_pixel(v_local, normal, v_diffuse, paint, open, vec2(0.0));
 }

@@ -34,6 +34,8 @@ double reach_of(const Vec3& half_size) {
 MeshLook make_mesh_look(const MeshAsset& asset) {
     MeshLook look;
     look.asset = &asset;
+    const Closedness form = closedness(asset.surface);
+    look.closed = form.closed() && form.signed_volume > 0.0;
     Bounds bounds;
     for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
     look.bound_center = bounds.center();

@@ -52,6 +52,7 @@ struct MeshProbe {
 
 struct MeshLook {
     const MeshAsset* asset = nullptr;
+    bool closed = true;   // and facing outward: else both of its sides are seen
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
     std::vector<MeshProbe> probes;

@@ -187,7 +187,8 @@ DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, 
         const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
         Instance made = instance_of(looks.bodies[i], snapshot.bodies[i], view, atlas.places[i], i,
                                     shadows.near_holds(ball.center, ball.radius));
-        made.tile.y = float(item.face);
+        const bool open_mesh = looks.bodies[i].kind == DrawKind::mesh && !looks.meshes[looks.bodies[i].mesh].closed;
+        made.tile.y = open_mesh ? 1.0f : float(item.face);
         made.tile.z = surface_alpha(i, item.face);
         if (item.mesh == half_box_mesh) turn_to_light(made, snapshot.bodies[i].orientation, light);
         return made;

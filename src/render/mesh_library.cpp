@@ -27,16 +27,14 @@ void MeshLibrary::make(std::size_t mesh, MeshDetails& details) {
     if (mesh < first_scene_mesh) return make_primitive(mesh);
     const std::size_t which = (mesh - first_scene_mesh) / mesh_levels, level = (mesh - first_scene_mesh) % mesh_levels;
     const MeshLook& look = looks_->meshes[which];
-    const Closedness form = closedness(look.asset->surface);
-    const bool closed = form.closed() && form.signed_volume > 0.0;
     if (look.charts && level == 0) {
         const MeshCharts& charts = *look.charts;
-        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, closed});
+        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, look.closed});
     } else if (level == 0) {
-        meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, closed});
+        meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, look.closed});
     } else {
         const MeshDetail& detail = details.at(which, level);
-        meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, closed});
+        meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, look.closed});
     }
 }
 

@@ -100,6 +100,38 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     EXPECT_NE(with_sun(Vec3(0.3, 1.0, -0.4)), with_sun(Vec3(0.3, 1.0, 0.4))) << "nor is nothing";
 }
 
+// A sheet with one rim bent upward, which gives it the reach of a thing with a height.
+BodyDescription bent_sheet(bool face_up) {
+    auto asset = std::make_shared<MeshAsset>(*sheet_asset(16.0, 8));
+    for (Vec3& v : asset->surface.vertices) v.y() = v.z() < -7.0 ? 2.0 : 0.0;
+    for (MeshAsset::Vertex& v : asset->vertices) v.position[1] = v.position[2] < -7.0f ? 2.0f : 0.0f;
+    if (!face_up) {
+        for (auto& t : asset->surface.triangles) std::swap(t[1], t[2]);
+        for (std::size_t i = 0; i < asset->indices.size(); i += 3) std::swap(asset->indices[i + 1], asset->indices[i + 2]);
+        for (MeshAsset::Vertex& v : asset->vertices) v.normal[1] = -1.0f;
+    }
+    return mesh_body(Vec3::Zero(), asset, {190, 190, 190});
+}
+
+// Wound the other way, with its normals downward, a sheet's upper side lay in its own shadow, and was as dark as its underside
+// close to the ground.
+TEST(Light, BothSidesOfAnOpenMeshAreLitAlike) {
+    SceneDescription scene = shadow_scene();
+    scene.bodies.push_back(ground_plane());
+    const auto difference = [&] {
+        scene.bodies[0] = bent_sheet(true);
+        const Image upright = drawn(scene);
+        scene.bodies[0] = bent_sheet(false);
+        return most_difference(drawn(scene), upright, scene, Vec3(-0.6, 0.0, 0.0), 2.0);
+    };
+    scene.bodies.back().position.y() = -0.05;
+    EXPECT_LE(difference(), 1);
+    scene.output.width = 160;   // shadows are looked at by the pixel
+    scene.output.height = 90;
+    scene.bodies.back().position.y() = -0.5;   // back faces lie a pixel's depth behind
+    EXPECT_LE(difference(), 1);
+}
+
 TEST(Light, ShadowsCanBeTurnedOff) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
