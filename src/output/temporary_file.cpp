@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 namespace tumble {
 namespace {
@@ -28,24 +31,39 @@ fs::path resolved(const fs::path& path) {
     return ignored ? path : target;
 }
 
-bool is_special(const fs::path& path) {
+/// Waits for a reader, as open() itself would; but then Ctrl-C, which the app layer lets wait, would never be looked at.
+int open_pipe(const fs::path& path) {
+    constexpr auto pause = std::chrono::milliseconds(20);
+    for (;;) {
+        const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (file >= 0) ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+        if (file >= 0 || (errno != ENXIO && errno != EINTR)) return file;
+        sigset_t waiting;
+        if (sigpending(&waiting) == 0)
+            for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+                if (sigismember(&waiting, signal) == 1) throw RunError("interrupted");
+        std::this_thread::sleep_for(pause);
+    }
+}
+
+}  // namespace
+
+bool is_written_in_place(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status) || fs::is_block_file(status);
 }
 
-}  // namespace
-
 TemporaryFile::TemporaryFile(const fs::path& final_path) : final_path_(resolved(final_path)) {
     std::error_code ignored;
     if (fs::is_directory(final_path_, ignored)) fail(final_path_, EISDIR);
-    in_place_ = is_special(final_path_);
+    in_place_ = is_written_in_place(final_path_);
     // The process number keeps two runs that write to one name apart.
     path_ = in_place_ ? final_path_
                       : final_path_.parent_path() / fmt::format(".{}.part-{}{}", final_path_.stem().string(), getpid(),
                                                                 final_path_.extension().string());
     const int how = in_place_ ? O_WRONLY : O_WRONLY | O_CREAT | O_TRUNC;
-    file_ = ::open(path_.c_str(), how | O_CLOEXEC, 0666);
+    file_ = fs::is_fifo(path_, ignored) ? open_pipe(path_) : ::open(path_.c_str(), how | O_CLOEXEC, 0666);
     if (file_ < 0) fail(final_path_, errno);
 }
 

@@ -7,8 +7,11 @@
 
 namespace tumble {
 
+/// Is it there already and no regular file (a device, a named pipe)?
+bool is_written_in_place(const std::filesystem::path& path);
+
 /// A file on its way. Unless commit() is reached it is removed again, and what stood under the final name stays.
-/// A final name that is there already and is no regular file (a device, a named pipe) is written in place.
+/// A final name that is_written_in_place() is written in place; a pipe once someone reads it.
 class TemporaryFile {
 public:
     /// Creates the hidden file, which keeps the ending of `final_path` (programs choose formats by it).

@@ -1,6 +1,7 @@
 #include "output/video_format.h"
 
 #include "core/error.h"
+#include "output/temporary_file.h"
 #include "output/yuv420.h"
 
 #include <fmt/format.h>
@@ -103,6 +104,9 @@ VideoFormat video_format(const fs::path& clip, double fps) {
                                          slowest, limit, fps,
                                          limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
 
+    if ((ending == ".mp4" || ending == ".mov") && is_written_in_place(clip))
+        throw InputError(at, fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
+                                         ".mkv, .webm and .gif can", ending));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));
     format.rate = to_frame_rate(fps / format.frame_step);
     return format;

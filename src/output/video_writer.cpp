@@ -17,10 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr double longest_frame = 1.0;   // s: players jump to frames, and streams start with one
 
-fs::path with_ending(const fs::path& path, const char* ending) {
-    fs::path other = path;
-    return other.replace_extension(ending);
-}
+/// A name beside the clip that no one else has in mind: what is there under it would be written to if it were a pipe.
+fs::path lossless_name(const fs::path& clip) { return clip.parent_path() / fmt::format(".{}.lossless.mkv", clip.filename().string()); }
 
 }  // namespace
 
@@ -39,7 +37,7 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
       longest_(times == FrameTimes::constant_rate
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
-    if (format_.kind == VideoKind::gif) lossless_.emplace(with_ending(clip, ".mkv"));
+    if (format_.kind == VideoKind::gif) lossless_.emplace(lossless_name(clip));
     encoder_.emplace(program_, encoding_arguments(format_, lossless_ ? lossless_->path() : file_.path()));
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,

@@ -151,6 +151,42 @@ class Failures(program.ProgramTest):
         self.assertEqual(run.returncode, 1)
         self.assertEqual(self.names(), [])
 
+    def test_a_pipe_that_no_one_reads_can_be_left(self):
+        os.mkfifo(self.folder / "a.mkv")
+        for arguments in (["render", "scene.toml", "-o", "a.mkv", "--frames", "out"],
+                          ["simulate", "scene.toml", "--trajectory", "a.mkv"]):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                run = subprocess.Popen([program.TUMBLE, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                self.addCleanup(run.kill)
+                time.sleep(1.0)
+                self.assertIsNone(run.poll(), "it waits for a reader")
+                run.send_signal(number)
+                run.communicate(timeout=20)
+                self.assertNotEqual(run.returncode, 0)
+                self.assertEqual(self.names(), ["a.mkv"])
+
+    def test_a_clip_into_a_pipe(self):
+        for name in ("a.mkv", "a.webm", "a.gif"):
+            pipe = self.folder / name
+            os.mkfifo(pipe)
+            with open(self.folder / ("got_" + name), "wb") as got:
+                reader = subprocess.Popen(["cat", name], cwd=self.folder, stdout=got)
+            self.addCleanup(reader.kill)
+            self.check(0, "render", "scene.toml", "-o", name)
+            self.assertEqual(reader.wait(timeout=20), 0)
+            self.assertTrue(pipe.is_fifo(), "it is not replaced")
+            self.assertEqual(program.probe(self.folder / ("got_" + name), "nb_read_frames"), ["6"])
+        os.mkfifo(self.folder / "a.mp4")
+        run = self.check(2, "render", "scene.toml", "-o", "a.mp4", "--frames", "out")
+        self.assertIn("a.mp4: error: a .mp4 clip cannot be written into a pipe or device", run.stderr)
+        self.assertFalse((self.folder / "out").exists())
+
+    # The pictures of a GIF were first kept in the .mkv of that name.
+    def test_a_gif_beside_a_folder_of_its_name(self):
+        (self.folder / "a.mkv").mkdir()
+        self.check(0, "render", "scene.toml", "-o", "a.gif")
+        self.assertEqual(self.names(), ["a.gif", "a.mkv"])
+
     def test_a_kill_leaves_nothing_half_written(self):
         run = self.started(*self.LONG)
         run.kill()

@@ -1,11 +1,16 @@
 // Endings and frame rates, before any program runs.
+#include "../support/folder.h"
+
 #include "core/error.h"
 #include "output/video_format.h"
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -31,6 +36,20 @@ TEST(FrameRate, IsCloseForAnyNumber) {
         EXPECT_LE(rate.denominator, 1'000'000);
         // A best fraction p/q is closer than 1/(q * limit): the worst case is a limit in the numerator.
         EXPECT_NEAR(double(rate.numerator) / double(rate.denominator), fps, fps * fps * 1e-6 + fps * 1e-6) << fps;
+    }
+}
+
+// Only clips whose head can be written first.
+TEST(VideoFormat, ByWhatThePathIs) {
+    const TestFolder folder;
+    for (const char* name : {"a.mp4", "a.MOV", "a.mkv", "a.webm", "a.gif"}) {
+        ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+        std::filesystem::create_symlink(folder / name, folder / ("link" + std::string(name)));
+        const bool head_last = name == std::string("a.mp4") || name == std::string("a.MOV");
+        for (const std::string before : {"", "link"}) {
+            if (head_last) EXPECT_THROW(video_format(folder / (before + name), 25.0), InputError) << before << name;
+            else EXPECT_NO_THROW(video_format(folder / (before + name), 25.0)) << before << name;
+        }
     }
 }
 
