@@ -23,12 +23,18 @@ namespace fs = std::filesystem;
     throw RunError(fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)));
 }
 
-/// A link is written through: the name it points to is the one to replace.
+/// A link is written through: the name it points to is the one to replace, or to make.
 fs::path resolved(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_symlink(path, ignored)) return path;
-    const fs::path target = fs::weakly_canonical(path, ignored);
-    return ignored ? path : target;
+    constexpr int most_links = 40;   // Linux's own limit
+    std::error_code error;
+    if (fs::exists(path, error)) {
+        if (!fs::is_symlink(path, error)) return path;
+        const fs::path target = fs::canonical(path, error);
+        return error ? path : target;
+    }
+    fs::path name = path;
+    for (int i = 0; i < most_links && fs::is_symlink(name, error); ++i) name = name.parent_path() / fs::read_symlink(name, error);
+    return name;
 }
 
 /// Waits for a reader, as open() itself would; but then Ctrl-C, which the app layer lets wait, would never be looked at.

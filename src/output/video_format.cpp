@@ -93,9 +93,9 @@ VideoFormat video_format(const fs::path& clip, double fps) {
 
     VideoFormat format;
     double limit = fastest;
-    if (ending == ".mp4" || ending == ".mov") format.kind = VideoKind::h264;
+    if (ending == ".mp4" || ending == ".mov") format.container = ending.substr(1);
     else if (ending == ".mkv") limit = fastest_matroska;
-    else if (ending == ".webm") { format.kind = VideoKind::vp9; limit = fastest_matroska; }
+    else if (ending == ".webm") { format.kind = VideoKind::vp9; format.container = "webm"; limit = fastest_matroska; }
     else if (ending == ".gif") { format.kind = VideoKind::gif; format.pixels = PixelForm::rgba; }
     else throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
                                           "(the ending was '{}')", ending));
@@ -122,9 +122,8 @@ Arguments encoding_arguments(const VideoFormat& format, const fs::path& output) 
     append(arguments, codec(format.kind));
     // No dates and versions in the file: the same frames give the same bytes.
     append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-    const std::string ending = output.extension().string();
-    if (ending == ".mp4" || ending == ".mov") append(arguments, {"-movflags", "+faststart"});   // plays while it loads
-    arguments.push_back(file_argument(output));
+    if (format.container == "mp4" || format.container == "mov") append(arguments, {"-movflags", "+faststart"});   // plays while it loads
+    append(arguments, {"-f", format.container, file_argument(output)});
     return arguments;
 }
 
@@ -133,7 +132,7 @@ Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
     append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
                        // An ordered pattern does not crawl from frame to frame, and what stands still compresses.
                        "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
-                       "-map_metadata", "-1", "-fflags", "+bitexact", file_argument(output)});
+                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif", file_argument(output)});
     return arguments;
 }
 

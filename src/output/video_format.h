@@ -43,6 +43,7 @@ enum class FrameTimes {
 
 struct VideoFormat {
     VideoKind kind = VideoKind::h264;
+    std::string container = "matroska";   // in ffmpeg's words: a link may lead to a name with another ending or none
     FrameRate rate;          // of the clip
     int frame_step = 1;      // only every so manieth frame enters the clip, where the format cannot hold them all
     PixelForm pixels = PixelForm::yuv420;

@@ -181,6 +181,18 @@ class Failures(program.ProgramTest):
         self.assertIn("a.mp4: error: a .mp4 clip cannot be written into a pipe or device", run.stderr)
         self.assertFalse((self.folder / "out").exists())
 
+    def test_a_clip_through_a_link_to_a_name_of_another_kind(self):
+        for name in ("a.mp4", "a.mov", "a.mkv", "a.webm", "a.gif"):
+            self.check(0, "render", "scene.toml", "-o", name)
+            expected = (self.folder / name).read_bytes()
+            for target in ("plain", "a.txt", "other.mkv"):
+                link = self.folder / ("link_" + name)
+                link.unlink(missing_ok=True)
+                link.symlink_to(target)
+                self.check(0, "render", "scene.toml", "-o", link.name)
+                self.assertTrue(link.is_symlink())
+                self.assertEqual((self.folder / target).read_bytes(), expected, f"{name} to {target}")
+
     # The pictures of a GIF were first kept in the .mkv of that name.
     def test_a_gif_beside_a_folder_of_its_name(self):
         (self.folder / "a.mkv").mkdir()

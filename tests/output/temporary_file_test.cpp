@@ -54,6 +54,19 @@ TEST(TemporaryFile, ALinkIsWrittenThrough) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
 }
 
+TEST(TemporaryFile, ALinkToWhatIsNotThereYetIsWrittenThrough) {
+    const TestFolder folder;
+    std::filesystem::create_directory(folder / "in");
+    std::filesystem::create_symlink("in/other.txt", folder / "link.txt");   // by way of another, from where each stands
+    std::filesystem::create_symlink("../a.txt", folder / "in/other.txt");
+    TemporaryFile file(folder / "link.txt");
+    put(file, "new");
+    file.commit();
+    EXPECT_EQ(read_text(folder / "a.txt"), "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "in/other.txt"));
+}
+
 TEST(TemporaryFile, ErrorsNameTheFinalFile) {
     const TestFolder folder;
     write_text(folder / "file", "");
