@@ -144,7 +144,8 @@ class Render(program.ProgramTest):
 
     def test_a_bar_on_a_terminal(self):
         ours, its = pty.openpty()
-        run = subprocess.Popen([program.TUMBLE, "render", "scene.toml", "--frames", "out", "--duration", "3", "--fps", "60"],
+        # Ten times as long as from bar to bar.
+        run = subprocess.Popen([program.TUMBLE, "render", "scene.toml", "--frames", "out", "--duration", "30", "--fps", "60"],
                                cwd=self.folder, stderr=its)
         os.close(its)
         said = b""
@@ -155,7 +156,7 @@ class Render(program.ProgramTest):
             pass
         os.close(ours)
         self.assertEqual(run.wait(timeout=60), 0)
-        self.assertRegex(said.decode(), r"\r\[#*\.*\] +\d+ %  \d+ of 181 frames, \d+\.\d frames/s")
+        self.assertRegex(said.decode(), r"\r\[#*\.*\] +\d+ %  \d+ of 1801 frames, \d+\.\d frames/s")
         self.assertIn("wrote out/frame_000000.png", said.decode())
 
 
