@@ -70,6 +70,8 @@ FrameRate best_fraction(double x, std::int64_t limit) {
     return {n1, d1};
 }
 
+bool has_its_head_last(const VideoFormat& format) { return format.container == "mp4" || format.container == "mov"; }
+
 }  // namespace
 
 std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, denominator); }
@@ -104,7 +106,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
                                          slowest, limit, fps,
                                          limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
 
-    if ((ending == ".mp4" || ending == ".mov") && is_written_in_place(clip))
+    if (has_its_head_last(format) && is_written_in_place(clip))
         throw InputError(at, fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
                                          ".mkv, .webm and .gif can", ending));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));
@@ -122,7 +124,7 @@ Arguments encoding_arguments(const VideoFormat& format, const fs::path& output) 
     append(arguments, codec(format.kind));
     // No dates and versions in the file: the same frames give the same bytes.
     append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-    if (format.container == "mp4" || format.container == "mov") append(arguments, {"-movflags", "+faststart"});   // plays while it loads
+    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});   // plays while it loads
     append(arguments, {"-f", format.container, file_argument(output)});
     return arguments;
 }

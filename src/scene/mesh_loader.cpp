@@ -131,20 +131,20 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     TriangleMesh whole = compact(read.positions, triangles);
     LoadedMesh result{nullptr, closedness(whole)};
 
+    const auto turn = [&](std::size_t t) {
+        std::swap(whole.triangles[t][1], whole.triangles[t][2]);
+        std::swap(corners[t][1], corners[t][2]);
+    };
     if (result.closedness.crowded_edges > 0) {
         // Their normals stay: those that look the wrong way are found when drawn vertices are made.
         const std::vector<char> to_turn = triangles_to_turn(whole);
-        for (std::size_t t = 0; t < corners.size(); ++t) {
-            if (!to_turn[t]) continue;
-            std::swap(whole.triangles[t][1], whole.triangles[t][2]);
-            std::swap(corners[t][1], corners[t][2]);
-        }
+        for (std::size_t t = 0; t < corners.size(); ++t)
+            if (to_turn[t]) turn(t);
         result.closedness = closedness(whole);
     }
     if (result.closedness.closed() && result.closedness.signed_volume < 0.0) {
         for (std::size_t t = 0; t < corners.size(); ++t) {
-            std::swap(whole.triangles[t][1], whole.triangles[t][2]);
-            std::swap(corners[t][1], corners[t][2]);
+            turn(t);
             for (auto& corner : corners[t]) corner.normal = -corner.normal;
         }
         result.closedness.signed_volume = -result.closedness.signed_volume;

@@ -22,6 +22,16 @@ SceneDescription shadow_scene() {
     return scene;
 }
 
+// What body 1 takes at each place: the picture without it less that with it.
+std::vector<double> levels_taken(const SceneDescription& scene, const std::vector<Vec3>& places) {
+    SceneDescription open = scene;
+    open.bodies[1].surface.visible = false;
+    const Image without = drawn(open), with = drawn(scene);
+    std::vector<double> levels;
+    for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
+    return levels;
+}
+
 // With the shading left out, what is on the screen is the scene file's colour: decoded and encoded exactly once.
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
@@ -328,15 +338,7 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     for (const double gap : {0.1, 0.3, 0.6, 1.2})
         for (const Vec3& at : {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
             places.push_back(at);
-    // What the box takes: the picture without it less that with it.
-    const auto taken = [&] {
-        SceneDescription open = scene;
-        open.bodies[1].surface.visible = false;
-        const Image without = drawn(open), with = drawn(scene);
-        std::vector<double> levels;
-        for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
-        return levels;
-    };
+    const auto taken = [&] { return levels_taken(scene, places); };
     const std::vector<double> on_plane = taken();
     const auto compare = [&](const std::string& what) {
         scene.bodies[0].type = BodyType::fixed;
@@ -361,15 +363,8 @@ TEST(Light, NothingDarkensTheGroundThroughAFixedBody) {
     scene.camera.eye = Vec3(0.0, 0.3, 6.0);   // below the shelf
     scene.camera.target = Vec3::Zero();
     scene.bodies[1] = ball_body(Vec3(0.0, 0.92, 0.0), 0.5, {200, 133, 60});
-    const Vec3 places[] = {Vec3::Zero(), Vec3(0.3, 0.0, 0.2), Vec3(-0.5, 0.0, 0.4)};
-    const auto taken = [&] {
-        SceneDescription open = scene;
-        open.bodies[1].surface.visible = false;
-        const Image without = drawn(open), with = drawn(scene);
-        std::vector<double> levels;
-        for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
-        return levels;
-    };
+    const std::vector<Vec3> places = {Vec3::Zero(), Vec3(0.3, 0.0, 0.2), Vec3(-0.5, 0.0, 0.4)};
+    const auto taken = [&] { return levels_taken(scene, places); };
     const std::vector<double> open = taken();
     for (const double levels : open) EXPECT_GT(levels, 5.0);
     const Vec3 size(4.0, 0.02, 4.0);
