@@ -2,6 +2,7 @@
 #include "exact_scenes.h"
 #include "sim/random_shapes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace tumble;
@@ -100,36 +101,45 @@ TEST(ManyContacts, LayerOfBallsFallsFlat) {
     EXPECT_LE(world.measure().max_penetration, 1e-5);
 }
 
-// A wide box on a bed of balls: every ball feels the same blow; e = 0 and 1.
+// A wide box on a bed of balls, turned about the vertical: every ball feels the same blow, e = 0 and 1 or in
+// between. Balls that strike the ground under it in one moment do so together, and it matters to none which of them a trace
+// of rest's trembling presses on the ground: the box stays level.
 TEST(ManyContacts, FlatBoxOnABedOfBalls) {
-    for (const double e : {0.0, 0.5, 1.0}) {
-        SceneDescription scene = ground_scene(e, 0.0);
-        const int side = trials(100) == 100 ? 10 : 4;
-        for (int i = 0; i < side * side; ++i)
-            add_sphere(scene, 0.4, {i % side - 0.5 * (side - 1), 0.4, i / side - 0.5 * (side - 1)}).restitution = e;
-        BodyDescription& box = add_box(scene, {side + 1.0, 0.5, side + 1.0}, {0.0, 1.55, 0.0}, 20.0);
-        box.restitution = e;
-        make_exact(scene);
-        World world(scene);
-        const std::size_t top = scene.bodies.size() - 1;
-        const double start = energy(world);
-        double before = start;
-        for (int frame = 0; frame < 60; ++frame) {
-            world.advance_frame();
-            const double now = energy(world);
-            ASSERT_LE(now, before + 1e-7 * start) << e << " " << frame;
-            before = now;
-            const BodyState b = world.snapshot().bodies[top];
-            ASSERT_TRUE(b.center_of_mass.allFinite());
-            ASSERT_LE(b.angular_velocity.norm(), 1e-6) << e << " " << frame;   // by symmetry
-            ASSERT_LE(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-6) << e << " " << frame;
-            ASSERT_GT(b.center_of_mass.y(), 1.049) << e << " " << frame;
+    struct Bed {
+        int side;
+        double pitch, turn;
+    };
+    for (const Bed& bed : {Bed{4, 1.0, 0.0}, Bed{4, 1.37, 0.0}, Bed{5, 1.37, 0.3}, Bed{6, 0.8, 0.0}, Bed{8, 1.0, 0.0}})
+        for (const double e : {0.0, 0.5, 0.8, 1.0}) {
+            SCOPED_TRACE(fmt::format("{0} x {0} balls {1} m apart, e = {2}", bed.side, bed.pitch, e));
+            SceneDescription scene = ground_scene(e, 0.0);
+            const double middle = 0.5 * (bed.side - 1), width = bed.pitch * (bed.side - 1) + 2.0;
+            for (int i = 0; i < bed.side * bed.side; ++i)
+                add_sphere(scene, 0.4, {bed.pitch * (i % bed.side - middle), 0.4, bed.pitch * (i / bed.side - middle)}).restitution = e;
+            BodyDescription& box = add_box(scene, {width, 0.5, width}, {0.0, 1.55, 0.0}, 20.0);
+            box.restitution = e;
+            box.rotation = turn(Vec3::UnitY(), bed.turn);
+            make_exact(scene);
+            World world(scene);
+            const std::size_t top = scene.bodies.size() - 1;
+            const double start = energy(world);
+            double before = start;
+            for (int frame = 0; frame < 60; ++frame) {
+                world.advance_frame();
+                const double now = energy(world);
+                ASSERT_LE(now, before + 1e-7 * start) << frame;
+                before = now;
+                const BodyState b = world.snapshot().bodies[top];
+                ASSERT_TRUE(b.center_of_mass.allFinite());
+                ASSERT_LE(b.angular_velocity.norm(), 1e-9) << frame;   // by symmetry
+                ASSERT_LE(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-9) << frame;
+                ASSERT_GT(b.center_of_mass.y(), 1.049) << frame;
+            }
+            EXPECT_LE(world.measure().max_penetration, 1e-6);
+            if (e == 1.0) {
+                EXPECT_NEAR(energy(world) / start, 1.0, 1e-9);
+            }
         }
-        EXPECT_LE(world.measure().max_penetration, 1e-3) << e;
-        if (e == 1.0) {
-            EXPECT_NEAR(energy(world) / start, 1.0, 1e-9);
-        }
-    }
 }
 
 // A wall of balls, 20 deep, thrown flat at a wall: all rows strike at once, row by row behind one another.

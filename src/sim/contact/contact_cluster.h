@@ -37,6 +37,7 @@ public:
     std::size_t bodies() const { return roots_.size(); }
     const std::vector<VelocityRow>& rows() const { return rows_; }
     const Contact& contact(std::size_t i) const { return contacts_[index_[i]]; }
+    bool flies(std::size_t i) const { return bodies_[contact(i).a].flying || bodies_[contact(i).b].flying; }
     std::uint32_t contact_index(std::size_t i) const { return index_[i]; }
 
     /// v_rel, m/s.

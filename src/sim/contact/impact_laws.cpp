@@ -65,7 +65,7 @@ void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, 
 
 class Propagation {
 public:
-    Propagation(ContactCluster& cluster, double threshold, double slow)
+    Propagation(ContactCluster& cluster, double threshold, double slow, double resting)
         : cluster_(cluster), threshold_(threshold),
           slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
@@ -73,6 +73,7 @@ public:
         // What is not dynamic has the last place, and never changes.
         const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
         for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
+        for (std::size_t i = 0; i < cluster.size(); ++i) rests_.push_back(!cluster.flies(i) && cluster.speed(i) > -resting);
     }
 
     int run() {
@@ -80,7 +81,7 @@ public:
         bool depth_known = false;
         double work = 0.0;
         for (int pass = 0;; ++pass) {
-            if (!gather()) return pass;
+            if (!gather(pass == 0) && (pass > 0 || !gather(false))) return pass;
             if (pass == limit && !depth_known && cluster_.wall_velocity() == 0.0) {
                 limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
                 depth_known = true;
@@ -96,15 +97,15 @@ public:
     }
 
 private:
-    // The approaching contacts; false when none of them bounces.
-    bool gather() {
+    // The approaching contacts, at first without those at rest; false when none of them bounces.
+    bool gather(bool first) {
         active_.clear();
         restitution_.clear();
         bool any = false;
         for (std::size_t i = 0; i < cluster_.size(); ++i) {
             // Else it is as it was after the pass before.
             if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
-            if (!(cluster_.speed(i) < -slow_)) continue;
+            if (!(cluster_.speed(i) < -slow_) || (first && rests_[i])) continue;
             active_.push_back(demand(cluster_, i, 0.0));
             restitution_.push_back(restitution_now(cluster_, i, threshold_));
             any = any || restitution_.back() > 0.0;
@@ -177,6 +178,7 @@ private:
     Eigen::VectorXd change_;                                        // zero between uses
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
     std::vector<char> changed_;                                     // by place: whether the last pass may have
+    std::vector<char> rests_;                                       // by contact
 };
 
 }  // namespace
@@ -187,8 +189,8 @@ bool bounces(const ContactCluster& cluster, double threshold) {
     return false;
 }
 
-int propagate(ContactCluster& cluster, double threshold, double slow) {
-    return Propagation(cluster, threshold, slow).run();
+int propagate(ContactCluster& cluster, double threshold, double slow, double resting) {
+    return Propagation(cluster, threshold, slow, resting).run();
 }
 
 bool stop(ContactCluster& cluster) {

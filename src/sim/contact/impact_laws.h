@@ -21,6 +21,10 @@ struct ImpactSettings {
     /// and are left to the solver of resting contact. A heap at rest trembles in half of its contacts.
     double slow = 0.0;
     ImpactLaw law = ImpactLaw::propagating;
+    /// m/s: contacts of bodies that do not fly and approach slower than this are at rest when the propagating law begins, whichever
+    /// way they tremble: the blow comes to them from those that do strike. Taken in by that trace, one ball of a bed stops a plate
+    /// for all the others.
+    double resting = 0.0;
     bool friction = false;    // Coulomb friction in the impact itself
     /// Nothing is left approaching: what does not bounce is stopped (e = 0). Without it an impact in which nothing bounces
     /// is left to the solver of resting contact.
@@ -31,8 +35,8 @@ struct ImpactSettings {
 bool bounces(const ContactCluster& cluster, double threshold);
 
 /// Repeats the law until nothing bounces; returns the passes. Jammed contacts (a ball between two walls) have no end: they
-/// lose their restitution and stop. Threshold and slow as in ImpactSettings.
-int propagate(ContactCluster& cluster, double threshold, double slow);
+/// lose their restitution and stop. Threshold, slow and resting as in ImpactSettings.
+int propagate(ContactCluster& cluster, double threshold, double slow, double resting);
 int resolve_together(ContactCluster& cluster, double threshold);
 
 /// The least change that leaves nothing approaching, e = 0. False where there is none (between closing walls).

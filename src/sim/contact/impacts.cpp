@@ -28,7 +28,7 @@ bool approaching(const ContactCluster& cluster) {
 }
 
 int resolve_normally(ContactCluster& cluster, const ImpactSettings& settings) {
-    const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold, settings.slow)
+    const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold, settings.slow, settings.resting)
                                                         : resolve_together(cluster, settings.threshold);
     if (!settings.complete || !approaching(cluster)) return passes;
     stop(cluster);

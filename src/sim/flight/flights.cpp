@@ -321,9 +321,9 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
     const bool meeting = meets(i, j, now);
     if (meeting)
         for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
-    const double threshold = meeting ? tuning::restitution_threshold * settings_.gravity.norm() * h_ : 0.0;
+    const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
     const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body,
-                                          {.threshold = threshold, .law = settings_.impact_law, .friction = true, .complete = true});
+                                          {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
     if (!changed && meeting) {   // no more of that in this step
         fliers_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
