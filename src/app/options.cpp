@@ -146,15 +146,24 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     return command;
 }
 
+// "-" is standard output, as in other programs.
+CLI::Validator or_standard_output() {
+    return {[](std::string& name) {
+                if (name == "-") name = "/dev/stdout";
+                return std::string();
+            },
+            ""};
+}
+
 CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     SimulateCommand& c = line.simulate;
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
     add_scene(*command, c.scene);
     command->add_option("--trajectory", c.trajectory,
-                        "CSV: one row per frame and moving body, with its centre of mass, orientation\nand velocities")
-        ->check(some_name())->type_name("T.csv");
-    command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts")
-        ->check(some_name())->type_name("E.csv");
+                        "CSV: one row per frame and moving body, with its centre of mass, orientation\nand velocities; - is standard output")
+        ->check(some_name())->transform(or_standard_output())->type_name("T.csv");
+    command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
+        ->check(some_name())->transform(or_standard_output())->type_name("E.csv");
     CLI::Option* step = command->add_option("--step", c.overrides.step,
                                             "The fixed step in s, in place of the scene's; it must divide 1/fps")
                             ->type_name("H");

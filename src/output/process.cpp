@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kept_words = 4096;      // bytes of a program's last words
-constexpr int pipe_bytes = 1 << 20;           // the largest pipe a user may ask for: fewer waits for each frame
+constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe a user may ask for: fewer waits for each frame
 
 /// Two ends of a pipe, closed unless taken.
 struct Pipe {
@@ -143,7 +144,7 @@ std::string ProcessEnd::describe() const {
 
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments) {
     Pipe input, words;
-    ::fcntl(input.write, F_SETPIPE_SZ, pipe_bytes);   // refused at the user's limit: then it stays small
+    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused at the user's limit: then it stays small
     id_ = start(program, arguments, input.read, -1, words.write);
     input_ = input.take_write();
     words_pipe_ = words.take_read();
@@ -176,6 +177,24 @@ bool Process::write(std::span<const std::byte> bytes) {
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }
     return true;
+}
+
+bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
+    std::span<const std::byte> bytes(memory.get(), size);
+    if (size < pipe_bytes) return write(bytes);
+    {
+        const NoSigpipe guard;
+        while (!bytes.empty()) {
+            const iovec rest{const_cast<std::byte*>(bytes.data()), bytes.size()};
+            const ssize_t n = ::vmsplice(input_, &rest, 1, 0);
+            if (n < 0 && errno == EINTR) continue;
+            if (n < 0) break;
+            bytes = bytes.subspan(static_cast<std::size_t>(n));
+        }
+    }
+    // What was lent before has been read: more than the pipe holds came after it.
+    lent_ = std::move(memory);
+    return write(bytes);   // the rest, where it cannot be lent
 }
 
 ProcessEnd Process::finish() {

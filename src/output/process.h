@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -45,6 +46,11 @@ public:
     /// Writes all the bytes to its standard input; false when it no longer reads. Never raises SIGPIPE.
     bool write(std::span<const std::byte> bytes);
 
+    /// The same, but its pages go into the pipe themselves, in place of copies, where that holds fewer bytes: they must not
+    /// change while the pointer is kept, which is until the program has read them, with read() as most do (one that hands
+    /// pages on by splice() may still have them).
+    bool lend(std::shared_ptr<const std::byte> memory, std::size_t size);
+
     /// Ends its input and waits for its end.
     ProcessEnd finish();
 
@@ -57,6 +63,7 @@ private:
     pid_t id_ = -1;
     std::mutex id_mutex_;        // kill() against the wait in finish()
     int input_ = -1;
+    std::shared_ptr<const std::byte> lent_;   // may be in the pipe
     int words_pipe_ = -1;
     std::string words_;
     std::thread words_reader_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -37,19 +38,32 @@ fs::path resolved(const fs::path& path) {
     return name;
 }
 
-/// Waits for a reader, as open() itself would; but then Ctrl-C, which the app layer lets wait, would never be looked at.
+// The app layer lets Ctrl-C wait, so that it ends none of the system's calls: it is looked for, and taken.
+void stop_if_interrupted() {
+    sigset_t waiting, taken;
+    if (sigpending(&waiting) != 0) return;
+    sigemptyset(&taken);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (sigismember(&waiting, signal) == 1) sigaddset(&taken, signal);
+    const timespec no_wait{0, 0};
+    if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
+}
+
+constexpr int look_every = 20;   // ms, for an interrupt while a reader keeps us waiting
+
+/// Waits for a reader, as open() itself would. What is opened does not block.
 int open_pipe(const fs::path& path) {
-    constexpr auto pause = std::chrono::milliseconds(20);
     for (;;) {
         const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-        if (file >= 0) ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
         if (file >= 0 || (errno != ENXIO && errno != EINTR)) return file;
-        sigset_t waiting;
-        if (sigpending(&waiting) == 0)
-            for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-                if (sigismember(&waiting, signal) == 1) throw RunError("interrupted");
-        std::this_thread::sleep_for(pause);
+        stop_if_interrupted();
+        std::this_thread::sleep_for(std::chrono::milliseconds(look_every));
     }
+}
+
+void wait_until_read(int pipe) {
+    pollfd place{pipe, POLLOUT, 0};
+    if (::poll(&place, 1, look_every) <= 0) stop_if_interrupted();
 }
 
 }  // namespace
@@ -82,6 +96,10 @@ void TemporaryFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t n = ::write(file_, bytes.data(), bytes.size());
         if (n < 0 && errno == EINTR) continue;
+        if (n < 0 && errno == EAGAIN) {
+            wait_until_read(file_);
+            continue;
+        }
         if (n < 0) fail(final_path_, errno);
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }

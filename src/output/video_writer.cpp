@@ -73,7 +73,7 @@ void VideoWriter::advance() {
 void VideoWriter::send(std::int64_t frame) {
     const std::size_t bytes = pixels_.bytes().size();
     send(matroska_frame_head(frame, format_.rate, bytes));
-    send(std::span(shown_.get(), bytes));
+    if (!encoder_->lend(shown_, bytes)) fail(encoder_->finish());
     last_sent_ = frame;
     ++sent_;
 }

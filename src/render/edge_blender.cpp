@@ -137,17 +137,19 @@ private:
 double share_before(double t, double half) { return share_of(t, half, inverse_width(half)); }
 
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
-    for (const Rectangle& r : rectangles)
+    for (const Rectangle& r : rectangles) {
+        const std::size_t bytes = 4 * std::size_t(r.width);   // not read again for each pixel: they might be written over it
         for (int y = r.y; y < r.y + r.height; ++y) {
             const std::uint8_t* from = drawn.at(r.x, y);
             std::uint8_t* to = frame.at(r.x, y);
-            for (int x = 0; x < r.width; ++x) {
+            for (std::size_t at = 0; at < bytes; at += 4) {
                 std::uint32_t pixel;
-                std::memcpy(&pixel, from + 4 * x, 4);
+                std::memcpy(&pixel, from + at, 4);
                 pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all that we run on
-                std::memcpy(to + 4 * x, &pixel, 4);
+                std::memcpy(to + at, &pixel, 4);
             }
         }
+    }
 }
 
 void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const TileMarks& marks, Image& frame) {

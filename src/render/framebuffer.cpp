@@ -9,6 +9,8 @@
 namespace tumble {
 namespace {
 
+constexpr int strip_rows = 64;   // of nearest depths: what is copied from stays in the processor's cache
+
 int integer(const GlFunctions& gl, GLenum name) {
     GLint value = 0;
     gl.GetIntegerv(name, &value);
@@ -27,15 +29,15 @@ Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int sampl
       width_(width),
       height_(height),
       samples_(supported_samples(gl, samples)),
-      background_(make_target(samples_, true, true)),
-      drawn_(make_target(samples_, true, true)),
-      closed_(make_target(samples_, false, true)) {
-    if (samples_ > 1) resolved_.emplace(make_target(1, true, false));
+      background_(make_target(height, samples_, true, true)),
+      drawn_(make_target(height, samples_, true, true)),
+      closed_(make_target(std::min(strip_rows, height), samples_, false, true)) {
+    if (samples_ > 1) resolved_.emplace(make_target(height, 1, true, false));
     begin_all(closed_, 0.0);
     begin_all(drawn_, 0.0);
 }
 
-Framebuffer::Target Framebuffer::make_target(int samples, bool with_color, bool with_depth) const {
+Framebuffer::Target Framebuffer::make_target(int height, int samples, bool with_color, bool with_depth) const {
     const int most = integer(*gl_, GL_MAX_RENDERBUFFER_SIZE);
     if (width_ > most || height_ > most)
         throw RunError(fmt::format("the OpenGL driver draws pictures of at most {0} x {0} pixels, not {1} x {2}", most,
@@ -46,7 +48,7 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_color, bool 
     gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
     if (with_color) {
         gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
-        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height_);
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height);
         gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
     } else {
         gl_->DrawBuffer(GL_NONE);
@@ -54,7 +56,7 @@ Framebuffer::Target Framebuffer::make_target(int samples, bool with_color, bool 
     }
     if (with_depth) {
         gl_->BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
-        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_DEPTH_COMPONENT32F, width_, height_);
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_DEPTH_COMPONENT32F, width_, height);
         gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
     }
     const GLenum status = gl_->CheckFramebufferStatus(GL_FRAMEBUFFER);
@@ -79,6 +81,16 @@ void Framebuffer::copy(const Target& from, const Target& to, const std::vector<R
                              GL_NEAREST);
 }
 
+void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, closed_.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_.framebuffer.name());
+    for (const Rectangle& r : rectangles)
+        for (int y = r.y; y < r.y + r.height; y += strip_rows) {
+            const int rows = std::min(strip_rows, r.y + r.height - y);
+            gl_->BlitFramebuffer(r.x, 0, r.x + r.width, rows, r.x, y, r.x + r.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        }
+}
+
 void Framebuffer::begin_all(const Target& target, double depth) const {
     bind(target);
     gl_->ClearDepth(depth);
@@ -93,7 +105,7 @@ void Framebuffer::begin_whole() {
 }
 
 void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing) {
-    copy(closed_, drawn_, whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : closing, GL_DEPTH_BUFFER_BIT);
+    close(whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : closing);
     copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind(drawn_);
     whole_open_ = false;

@@ -42,15 +42,16 @@ private:
     struct Target {
         GlObject framebuffer, color, depth;
     };
-    Target make_target(int samples, bool with_color, bool with_depth) const;
+    Target make_target(int height, int samples, bool with_color, bool with_depth) const;
     void bind(const Target& target) const;
     void begin_all(const Target& target, double depth) const;
     void copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles, GLbitfield what) const;
+    void close(const std::vector<Rectangle>& rectangles) const;
 
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target background_, drawn_;
-    Target closed_;   // nearest depths only. Copied back where the picture was open: a third of what clearing costs
+    Target closed_;   // a strip of nearest depths. Copied to where the picture was open: a third of what clearing costs
     bool whole_open_ = false;         // all of the picture can be drawn to
     std::optional<Target> resolved_;  // only with several samples
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/rectangle.h"
+#include "render/occlusion_atlas.h"
 #include "render/plane_marks.h"
 #include "render/visibility.h"
 
@@ -10,9 +11,11 @@
 
 namespace tumble {
 
-/// Within the marked tiles. `items`: what may throw shadows.
+/// Within the marked tiles. `items`: what may throw shadows; `atlas`: what is darkened (most bodies' reach far beyond what a
+/// texel tells).
 std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
                                           const std::vector<DrawnItem>& items, const CameraView& view,
-                                          const ShadowFit& shadows, const ScreenCover& cover, const TileMarks& marks);
+                                          const ShadowFit& shadows, const ScreenCover& cover, const OcclusionAtlas& atlas,
+                                          const Snapshot& snapshot, const TileMarks& marks);
 
 }  // namespace tumble

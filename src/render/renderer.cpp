@@ -228,7 +228,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     std::vector<std::vector<Rectangle>> touched;
     for (const PlanePatch& plane : planes)
         touched.push_back(
-            find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, marks));
+            find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, atlas, snapshot, marks));
     clock.ends(RenderStage::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);

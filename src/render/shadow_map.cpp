@@ -2,7 +2,14 @@
 
 #include "core/error.h"
 
+#include <algorithm>
+
 namespace tumble {
+namespace {
+
+constexpr int strip_rows = 64;   // of farthest depths: what is copied from stays in the processor's cache
+
+}  // namespace
 
 ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block)
     : gl_(&gl),
@@ -12,19 +19,19 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
       empty_texture_(gl, GlKind::texture),
       empty_framebuffer_(gl, GlKind::framebuffer) {
     program_.set_block("Frame", frame_block);
-    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels);
+    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels, strip_rows);
     gl.ClearDepth(1.0);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
-    attach_depths(framebuffer_, texture_, 2 * shadow_map_texels);
+    attach_depths(framebuffer_, texture_, 2 * shadow_map_texels, shadow_map_texels);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& texture, int width) const {
+void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& texture, int width, int height) const {
     gl_->BindTexture(GL_TEXTURE_2D, texture.name());
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, shadow_map_texels, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                     nullptr);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -51,8 +58,10 @@ void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     for (const Rectangle& p : parts) {
         const int x = p.x % shadow_map_texels;   // no part lies in both maps
-        gl_->BlitFramebuffer(x, p.y, x + p.width, p.y + p.height, p.x, p.y, p.x + p.width, p.y + p.height,
-                             GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        for (int y = p.y; y < p.y + p.height; y += strip_rows) {
+            const int rows = std::min(strip_rows, p.y + p.height - y);
+            gl_->BlitFramebuffer(x, 0, x + p.width, rows, p.x, y, p.x + p.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        }
     }
 }
 

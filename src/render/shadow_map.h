@@ -27,13 +27,13 @@ public:
     GLuint texture() const { return texture_.name(); }
 
 private:
-    void attach_depths(const GlObject& framebuffer, const GlObject& texture, int width) const;
+    void attach_depths(const GlObject& framebuffer, const GlObject& texture, int width, int height) const;
     void empty(const std::vector<Rectangle>& parts) const;
 
     const GlFunctions* gl_;
     ShaderProgram program_;
     GlObject texture_, framebuffer_;
-    GlObject empty_texture_, empty_framebuffer_;   // one map's size of farthest depths, copied to where it is drawn anew
+    GlObject empty_texture_, empty_framebuffer_;   // a strip of farthest depths, copied to where a map is drawn anew
 };
 
 }  // namespace tumble

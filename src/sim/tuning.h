@@ -57,6 +57,9 @@ inline constexpr double kinematic_bend = 0.1;
 /// Slower approaches than this times |g| h do not bounce. A resting contact meets gravity's own g h each step;
 /// twice that is told apart from it.
 inline constexpr double restitution_threshold = 2.0;
+/// Nor, when stepped, does what would come back slower than this times |g| h, in a hop of two steps. Left to overlap for such a bounce it
+/// would stay there, and be lifted out for nothing.
+inline constexpr double restitution_rebound = 1.0;
 
 /// The soft contact solver's substep, s: 8 in a step of 1/60 s hold a heap of a thousand boxes with overlaps below a
 /// thousandth of their size. Overlaps go with its square: short steps are cut too, for what they are taken for.

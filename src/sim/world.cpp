@@ -288,7 +288,8 @@ void World::State::solve_resting_contacts() {
             if (bodies[k].integrator != IntegratorKind::explicit_euler) find_gyration(bodies[k], h);
         }
     });
-    contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold}}, islands, pool);
+    const double least_rebound = flights ? 0.0 : tuning::restitution_rebound * gravity_step();
+    contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold, least_rebound}}, islands, pool);
     forget_blows();
 }
 

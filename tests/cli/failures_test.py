@@ -161,9 +161,23 @@ class Failures(program.ProgramTest):
                 time.sleep(1.0)
                 self.assertIsNone(run.poll(), "it waits for a reader")
                 run.send_signal(number)
-                run.communicate(timeout=20)
-                self.assertNotEqual(run.returncode, 0)
+                self.assertIn("interrupted", run.communicate(timeout=20)[1])
+                self.assertEqual(run.returncode, 1)
                 self.assertEqual(self.names(), ["a.mkv"])
+
+    def test_a_pipe_whose_reader_stopped_reading_can_be_left(self):
+        os.mkfifo(self.folder / "t.csv")
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run = subprocess.Popen([program.TUMBLE, "simulate", "scene.toml", "--duration", "60", "--trajectory", "t.csv"],
+                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            self.addCleanup(run.kill)
+            with open(self.folder / "t.csv", "rb") as reader:
+                self.assertTrue(reader.read(1))   # then none: the pipe fills up
+                time.sleep(1.0)
+                self.assertIsNone(run.poll(), "it waits for the reader")
+                run.send_signal(number)
+                self.assertIn("interrupted", run.communicate(timeout=20)[1])
+            self.assertEqual(run.returncode, 1)
 
     def test_a_clip_into_a_pipe(self):
         for name in ("a.mkv", "a.webm", "a.gif"):

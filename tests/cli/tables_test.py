@@ -137,8 +137,12 @@ class Tables(program.ProgramTest):
         self.assertEqual(run.stdout + run.stderr, "")
 
     def test_to_standard_output(self):
-        run = self.check(0, "simulate", "scene.toml", "--energy", "/dev/stdout", "--quiet")
-        self.assertTrue(run.stdout.startswith(ENERGY + "\n0,0,"))
+        for name in ("/dev/stdout", "-"):
+            run = self.check(0, "simulate", "scene.toml", "--energy", name, "--quiet")
+            self.assertTrue(run.stdout.startswith(ENERGY + "\n0,0,"))
+        self.assertEqual(self.names(), [])
+        run = self.check(2, "simulate", "scene.toml", "--energy", "-", "--trajectory", "-")
+        self.assertIn("must be two files", run.stderr)
 
     def test_doubles_come_back_to_the_bit(self):
         for row in self.simulate()[0]:

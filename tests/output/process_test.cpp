@@ -6,9 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <thread>
 
 namespace tumble {
@@ -25,6 +27,30 @@ TEST(Process, IsFedAndEnds) {
     EXPECT_TRUE(process.write(bytes_of(text)));
     EXPECT_TRUE(process.finish().ok());
     EXPECT_EQ(read_text(folder / "out"), text);
+}
+
+// Memory is written over as soon as it is let go of: a program that is slow to read must have read it by then.
+TEST(Process, WhatIsLentIsKeptUntilItIsRead) {
+    const TestFolder folder;
+    const std::size_t size = (1 << 20) + 12345;   // a little more than the pipe holds
+    int kept = 0;
+    const auto let_go = [&kept](std::byte* memory) {
+        std::fill_n(memory, size, std::byte('!'));
+        std::free(memory);
+        --kept;
+    };
+    Process process(shell, {"-c", "sleep .05; exec dd of=\"$0\" bs=65536 2>/dev/null", (folder / "out").string()});
+    std::string all;
+    for (const char letter : {'a', 'b', 'c', 'd', 'e'}) {
+        auto* const memory = static_cast<std::byte*>(std::aligned_alloc(4096, 2 << 20));
+        std::fill_n(memory, size, std::byte(letter));
+        all.append(size, letter);
+        ++kept;
+        EXPECT_TRUE(process.lend({memory, let_go}, size));
+        EXPECT_EQ(kept, 1) << "what came before is in nobody's way";
+    }
+    EXPECT_TRUE(process.finish().ok());
+    EXPECT_TRUE(read_text(folder / "out") == all);
 }
 
 TEST(Process, ItsFailureIsTold) {

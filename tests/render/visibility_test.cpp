@@ -2,6 +2,7 @@
 #include "example_scenes.h"
 
 #include "render/plane_areas.h"
+#include "render/plane_axes.h"
 #include "render/visibility.h"
 
 #include <gtest/gtest.h>
@@ -67,11 +68,29 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
     const ShadowStage stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
+    OcclusionMaker darkening(heap.looks, heap.view.eye());
+    darkening.update(heap.snapshot, heap.view, heap.visibility);
+    ASSERT_EQ(darkening.atlas().windows.size(), 1u);
+    const OcclusionWindow& window = darkening.atlas().windows[0];
+    const PlaneAxes axes = plane_axes(planes[0].normal);
+    // Of the four texels around a place, the least open.
+    const auto least_open = [&](const Vec3& point) {
+        const Vec3 from_origin = point - heap.snapshot.bodies[window.body].origin;
+        const int i = int(std::floor(axes.u.dot(from_origin) / window.cell - window.low_a));
+        const int j = int(std::floor(axes.v.dot(from_origin) / window.cell - window.low_b));
+        int least = 255;
+        for (const int x : {i, i + 1})
+            for (const int y : {j, j + 1})
+                if (x >= 0 && y >= 0 && x < window.width && y < window.height)
+                    least = std::min<int>(least, darkening.atlas().texels[std::size_t(window.y + y) * OcclusionAtlas::width +
+                                                                          std::size_t(window.x + x)]);
+        return least;
+    };
     TileMarks everything(heap.view);
     everything.mark_all();
     const std::vector<Rectangle> areas = find_touched_areas(
         planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view), heap.view,
-        stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, everything);
+        stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, darkening.atlas(), heap.snapshot, everything);
     std::vector<int> times(1280 * 720, 0);
     for (const Rectangle& area : areas)
         for (int y = area.y; y < area.y + area.height; ++y)
@@ -94,10 +113,8 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
                 const BodyDescription& box = heap.scene.bodies[i];
                 EXPECT_FALSE(blocks(box, point - heap.scene.light.direction.normalized() * 100.0, point))
                     << "a shadow at " << x << ", " << y;
-                const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
-                const Vec3 outside = ((box.rotation.conjugate() * (point - box.position)).cwiseAbs() - half).cwiseMax(0.0);
-                EXPECT_GT(outside.norm(), heap.looks.bodies[i].reach) << "darkening at " << x << ", " << y;
             }
+            EXPECT_EQ(least_open(point), 255) << "darkening at " << x << ", " << y;
         }
     EXPECT_GT(left_out, 5000);
     EXPECT_GT(hidden, 500);

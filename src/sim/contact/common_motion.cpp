@@ -52,4 +52,31 @@ void CommonMotion::scale_rest(double scale, const Vec3& origin, Body& body) cons
     body.push_angular_velocity = turn - body.angular_velocity;
 }
 
+void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h) {
+    const Vec3 origin = bodies[island[0]].position;
+    Vec3 gained = Vec3::Zero(), center = Vec3::Zero();
+    double mass = 0.0;
+    for (const std::uint32_t i : island) {
+        const Body& body = bodies[i];
+        gained += h * body.push_velocity.cross(body.momentum);
+        center += body.mass * (body.position - origin);
+        mass += body.mass;
+    }
+    if (gained.isZero(0.0)) return;
+    center = origin + center / mass;
+    Mat3 inertia = Mat3::Zero();
+    for (const std::uint32_t i : island) {
+        const Body& body = bodies[i];
+        const Vec3 r = body.position - center, pushed = r + h * body.push_velocity;
+        inertia += inertia_of(body) + body.mass * (pushed.dot(r) * Mat3::Identity() - r * pushed.transpose());
+    }
+    const Vec3 faster = inertia.inverse() * -gained;
+    for (const std::uint32_t i : island) {
+        Body& body = bodies[i];
+        body.momentum += body.mass * faster.cross(body.position - center);
+        body.angular_momentum += inertia_of(body) * faster;
+        body.derive_velocities();
+    }
+}
+
 }  // namespace tumble

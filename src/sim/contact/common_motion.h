@@ -6,6 +6,10 @@
 
 #include "sim/body.h"
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 namespace tumble {
 
 class CommonMotion {
@@ -30,5 +34,10 @@ private:
     Vec3 center_ = Vec3::Zero();                      // m, from the origin
     Vec3 velocity_ = Vec3::Zero(), angular_velocity_ = Vec3::Zero();
 };
+
+/// Of an island that floats, which is going to move by h (velocity + push): a push u moves a body past its momentum P, and the angular
+/// momentum changes by h u x P. All turn together (about c, by W more) so that its sum stays, and none moves against another:
+///     sum m (r + h u) x (W x r) + I W = -sum h u x P,   r = x - c.
+void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h);
 
 }  // namespace tumble

@@ -48,8 +48,10 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
 }
 
 bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings) {
-    if (p.separation <= touch_distance(a.radius, b.radius) || pair_restitution(a, b) <= 0.0) return false;
-    return relative_velocity(p, normal, a, b) + slower < -settings.bounce_threshold;
+    const double restitution = pair_restitution(a, b);
+    if (p.separation <= touch_distance(a.radius, b.radius) || restitution <= 0.0) return false;
+    const double approach = -(relative_velocity(p, normal, a, b) + slower);
+    return approach > settings.bounce_threshold && restitution * approach > settings.least_rebound;
 }
 
 Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal) {

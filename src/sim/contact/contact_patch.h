@@ -29,7 +29,8 @@ struct ContactPatch {
 /// How contact ends a step.
 struct PatchSettings {
     double h;                   // s
-    double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide
+    double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide,
+    double least_rebound = 0.0; // m/s: where what comes back is faster than this
 };
 
 /// Where the impulses of a point act, world: halfway between the surfaces of two bodies that both give way, so that they keep their

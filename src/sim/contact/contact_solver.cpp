@@ -1,5 +1,6 @@
 #include "sim/contact/contact_solver.h"
 
+#include "sim/contact/common_motion.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -199,6 +200,8 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         const bool same = deal(islands, problem);
         soft_.solve(problem, std::span(parts_).first(parts_used_), same, pool);
     }
+    for (std::size_t k = 0; k < islands.size(); ++k)
+        if (islands.floats(k) && islands.bodies(k).size() > 1) keep_angular_momentum(islands.bodies(k), problem.bodies, problem.patches.h);
 }
 
 }  // namespace tumble

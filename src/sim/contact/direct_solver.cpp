@@ -433,13 +433,15 @@ bool DirectSolver::push_out(double h) {
     bool any = false;
     for (Patch& patch : patches_) {
         for (int i = 0; i < patch.count; ++i) {
-            // What comes apart by its own speed, a bounce, needs no push.
+            // What comes apart by its own speed, a bounce, is pushed by what that lacks: a push moves bodies past their momenta.
             const Row& row = patch.normal[i];
-            patch.overlap[i] -= h * std::max(0.0, row.offset + dot(patch, row, velocity_));
+            const double parting = std::max(0.0, row.offset + dot(patch, row, velocity_));
             const double beyond = patch.overlap[i] - tuning::direct_slop * patch.size;
-            if (!(beyond > 0.0)) continue;
+            const double speed = std::min(tuning::push_share * beyond / h, tuning::push_limit * patch.size) - parting;
+            patch.overlap[i] -= h * parting;
+            if (!(speed > 0.0)) continue;
             any = true;
-            add(patch, patch.normal[i], stiffness * std::min(tuning::push_share * beyond / h, tuning::push_limit * patch.size), push_);
+            add(patch, patch.normal[i], stiffness * speed, push_);
         }
     }
     if (!any || !factor(true)) return false;

@@ -37,6 +37,24 @@ void temper(Manifold& m, const ContactProblem& problem) {
     if (sum > most) scale_impulses(m, most / sum);
 }
 
+// A sweep goes from point to point, and what comes last is held best: the deepest, not a corner for its number, which is another in a
+// mirror image. (With the deepest first, small boxes topple.)
+std::array<std::uint8_t, Manifold::capacity> deepest_last(const Manifold& m) {
+    constexpr std::size_t n = Manifold::capacity;
+    double gap[n];
+    std::size_t place[n] = {0, 1, 2, 3};
+    for (std::size_t i = 0; i < n; ++i) gap[i] = int(i) < m.count ? m.points[i].separation : -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = i + 1; k < n; ++k) {
+            const std::size_t before = gap[k] > gap[i];
+            place[i] += before;
+            place[k] -= before;
+        }
+    std::array<std::uint8_t, n> order;
+    for (std::size_t i = 0; i < n; ++i) order[place[i]] = std::uint8_t(i);
+    return order;
+}
+
 }  // namespace
 
 SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel) {}
@@ -163,7 +181,9 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     int count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
     const bool curves = a.swings || b.swings || m.curved();
-    for (int i = 0; i < m.count; ++i) {
+    const auto order = deepest_last(m);
+    for (int k = 0; k < m.count; ++k) {
+        const int i = order[std::size_t(k)];
         const ContactPoint& p = m.points[std::size_t(i)];
         Passing seen{p.position, p.separation, 0.0};
         // For a substep more than the step: the last sweep looks as far ahead.
