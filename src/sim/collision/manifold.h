@@ -29,8 +29,8 @@ struct Curve {
 /// Whose corners a manifold's points are; the other body has the face that they lie over. neither: crossing edges, points on balls.
 enum class Corners : std::uint8_t { neither, of_a, of_b };
 
-/// Whose ball it is that lies over the other body's face, in a manifold of one point.
-enum class BallOver : std::uint8_t { neither, of_a, of_b };
+/// What a manifold's one point is where it is on a ball: A's or B's ball over the other body's face, or a gap along a Curve.
+enum class OnBall : std::uint8_t { no, a_over_face, b_over_face, curve };
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
@@ -42,7 +42,7 @@ struct Manifold {
     bool more = false;            // those of the same two faces' points that the first manifold has no room for
     bool solved_directly = false; // by the direct contact solver, in the last step
     Corners corners = Corners::neither;
-    BallOver ball_over = BallOver::neither;
+    OnBall on_ball = OnBall::no;
     std::uint16_t left_out = 0;   // of a manifold just found: its candidates in CollisionScratch::left_out
     std::uint32_t first_left_out = 0;
     Vec3 normal = Vec3::Zero();
@@ -62,26 +62,27 @@ struct Manifold {
 
     /// Of one on a ball, which has one point: kept where further ones would be.
     void set_curve(const Curve& c) {
-        points[1] = {c.straight, c.distance, 1};
+        on_ball = OnBall::curve;
+        points[1] = {c.straight, c.distance};
         points[2].position = c.on_a;
         points[3].position = c.on_b;
     }
-    bool curved() const { return count == 1 && points[1].feature != 0; }
     Curve curve() const { return {points[1].separation, points[1].position, points[2].position, points[3].position}; }
 
     /// The same of B's ball over a face: where its centre is, world.
     void set_ball(const Vec3& center) {
-        ball_over = BallOver::of_b;
+        on_ball = OnBall::b_over_face;
         points[2].position = center;
     }
+    bool ball_over_face() const { return on_ball == OnBall::a_over_face || on_ball == OnBall::b_over_face; }
     const Vec3& ball() const { return points[2].position; }
 
     /// The same, seen from the other body.
     void swap() {
         normal = -normal;
         if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
-        if (curved()) std::swap(points[2].position, points[3].position);
-        if (ball_over != BallOver::neither) ball_over = ball_over == BallOver::of_a ? BallOver::of_b : BallOver::of_a;
+        if (on_ball == OnBall::curve) std::swap(points[2].position, points[3].position);
+        else if (ball_over_face()) on_ball = on_ball == OnBall::a_over_face ? OnBall::b_over_face : OnBall::a_over_face;
     }
 
     /// Of one along a face: whether the normal is that of the second shape's (feature_contact.cpp).

@@ -28,7 +28,7 @@ bool ContactSolver::turns_fast(std::span<const std::uint32_t> bodies) const {
 bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const {
     return !manifolds.empty() && std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
         const Manifold& m = problem.manifolds[k];
-        return m.ball_over != BallOver::neither && pair_friction(problem.bodies[m.a], problem.bodies[m.b]) > 0.0;
+        return m.ball_over_face() && pair_friction(problem.bodies[m.a], problem.bodies[m.b]) > 0.0;
     });
 }
 

@@ -37,7 +37,7 @@ RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
 Passing passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
     const ContactPoint& p = m.points[std::size_t(index)];
     const Passing as_it_is{p.position, p.separation, 0.0};
-    if (m.curved()) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
+    if (m.on_ball == OnBall::curve) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
     const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;
     if (square * before_a.angular_velocity.squaredNorm() < least && square * before_b.angular_velocity.squaredNorm() < least) return as_it_is;
@@ -62,8 +62,8 @@ Passing passing(const Manifold& m, int index, const Body& a, const Body& b, cons
 
 // With r = r_e + r_x along and across the unit vector e of w:  r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
 Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
-    if (m.ball_over == BallOver::neither) return Vec3::Zero();
-    const bool of_a = m.ball_over == BallOver::of_a;
+    if (!m.ball_over_face()) return Vec3::Zero();
+    const bool of_a = m.on_ball == OnBall::a_over_face;
     const Body &body = of_a ? a : b, &face = of_a ? b : a;
     const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity, &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
     const Vec3 arm = m.ball() - body.position;

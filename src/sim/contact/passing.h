@@ -17,7 +17,7 @@ struct Passing {
 };
 
 /// `before`: the velocities before the step's forces; `h`: the time (s) in which the gap may be closed.
-/// Of points on balls (Manifold::curved) the gap alone changes.
+/// Of points on balls (OnBall::curve) the gap alone changes.
 Passing passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
                 double h);
 

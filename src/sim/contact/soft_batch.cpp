@@ -180,7 +180,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     float* point = head + soft::head_rows * stride;
     int count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
-    const bool curves = a.swings || b.swings || m.curved();
+    const bool curves = a.swings || b.swings || m.on_ball == OnBall::curve;
     const auto order = deepest_last(m);
     for (int k = 0; k < m.count; ++k) {
         const int i = order[std::size_t(k)];
