@@ -1,4 +1,5 @@
 // Which four points of many are kept: those that bear.
+#include "sim/contact/passing.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>
@@ -88,4 +89,22 @@ TEST(Manifold, WhatBearsIsKept) {
         for (int i = 0; i < 4; ++i) kept += m.points[std::size_t(i)].separation < 0.0;
         EXPECT_EQ(kept, bearing) << trial;
     }
+}
+
+// A point on a ball closes its gap along a curve; what is left of points that are gone makes no curve of a box's last one.
+TEST(Manifold, LeftOverPlacesAreNoCurve) {
+    Body a, b;
+    a.radius = b.radius = 0.5;
+    b.position = Vec3::UnitY();
+    const BodyVelocity still, passes{{3.0, -0.7, 0.0}, Vec3::Zero()};
+    constexpr double gap = 0.01, h = 1.0 / 60.0;
+    Manifold m;
+    m.count = 1;
+    m.normal = Vec3::UnitY();
+    m.points[0] = {{0.0, 0.5, 0.0}, gap, 1};
+    m.points[1] = {Vec3::Zero(), 1.0, 2};
+    m.points[3].position = b.position;
+    EXPECT_EQ(passing(m, 0, a, b, still, passes, h).gap, gap);
+    m.set_curve({1.0, Vec3::Zero(), a.position, b.position});
+    EXPECT_GT(passing(m, 0, a, b, still, passes, h).gap, gap);
 }
