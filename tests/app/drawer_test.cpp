@@ -306,11 +306,7 @@ TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
                 if (n == 3) kill(drawer.processes().back(), SIGKILL);
                 last = n;
             };
-            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
-                Exposure exposure = sharp(n % 8);
-                exposure.frame = exposure.moments[0].frame = n;
-                return exposure;
-            });
+            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) { return Exposure{n, {at_frame(n % 8)}, {}}; });
         });
         constexpr std::string_view words = "error: cannot draw frame ";
         ASSERT_EQ(error.find(words), 0u) << error;
