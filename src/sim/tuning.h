@@ -102,9 +102,10 @@ inline constexpr double soft_slop = 2e-5;
 /// Friction acts at the centroid of the points nearer than this part of the smaller radius; farther ones count little.
 inline constexpr double friction_near = 2e-3;
 inline constexpr double friction_far_weight = 0.01;
-/// The twist shares friction's limit where the points around it slip by more than this part of what it slips itself. Below, a spin is stopped
-/// by all the twist there is: acting at one place, though the load lies to one side of it, friction would turn what slides.
-inline constexpr double spin_share = 0.3;
+/// The twist shares friction's limit where the area around it slips, at its mean distance, by more than this part of what it slips itself.
+/// Below, a spin is stopped by all the twist there is: acting at one place, though the load lies to one side of it, friction would turn
+/// what slides.
+inline constexpr double spin_share = 0.2;
 /// Masses (kg) that it counts in kilograms; beyond, in a unit of the scene's own.
 inline constexpr double soft_least_mass = 1e-9;
 inline constexpr double soft_most_mass = 1e9;

@@ -255,7 +255,7 @@ void World::State::resolve_collisions() {
         for (int i = 0; i < (*manifolds)[k].count; ++i) {
             const Contact& c = contacts[next++];
             // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
-            if (c.impact > 0.0) add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);
+            if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
         }
     }
 }

@@ -87,25 +87,28 @@ TEST(Friction, BounceOfASpinningBall) {
     EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 0.2 * 1.5 * landing, 0.02 * landing);
 }
 
-// What slides and spins has less friction against either, and ends both at about the same time: each corner of a plate, under a
-// quarter of its weight, rubs against its own slip. Were there friction enough for both, a spin would change nothing of the slide.
+// What slides and spins has less friction against either, and ends both at about the same time: each bit of a plate's face, under
+// even pressure, rubs against its own slip. Were there friction enough for both, a spin would change nothing of the slide.
 TEST(Friction, SlidingAndSpinningShareIt) {
-    const double mu = 0.2, side = 0.4, inertia = side * side / 6.0, dt = 1e-4;   // of the unit mass
+    const double mu = 0.2, side = 0.4, inertia = side * side / 6.0, dt = 1e-3;   // of the unit mass
     struct Case {
         double speed, spin;   // m/s, rad/s
     };
     for (const Case& start : {Case{3.0, 20.0}, Case{3.0, 5.0}, Case{1.0, 30.0}, Case{1.0, 10.0}}) {
-        // The reference: corners at (x, z), turned; v and w by the forces -mu g / 4 u / |u|.
+        // The reference: bits at (x, z), turned; v and w by the forces -mu g u / |u|, over all bits.
         double v = start.speed, w = start.spin, angle = 0.0, way = 0.0, time = 0.0;
         for (; v > 0.02 || w > 0.2; time += dt) {
             double force = 0.0, torque = 0.0;
-            for (int k = 0; k < 4; ++k) {
-                const double at = angle + pi / 4.0 + k * pi / 2.0, x = std::sqrt(0.5) * side * std::cos(at), z = std::sqrt(0.5) * side * std::sin(at);
-                const Vec3 slip(v + w * z, 0.0, -w * x), rub = -0.25 * mu * g * slip / slip.norm();
-                force += rub.x();
-                torque += z * rub.x() - x * rub.z();
-            }
-            way += v * dt;
+            constexpr int bits = 20;
+            for (int i = 0; i < bits; ++i)
+                for (int k = 0; k < bits; ++k) {
+                    const double p = side * ((i + 0.5) / bits - 0.5), q = side * ((k + 0.5) / bits - 0.5);
+                    const double x = p * std::cos(angle) - q * std::sin(angle), z = p * std::sin(angle) + q * std::cos(angle);
+                    const double sx = v + w * z, sz = -w * x, share = -mu * g / (bits * bits) / std::hypot(sx, sz);
+                    force += share * sx;
+                    torque += share * (z * sx - x * sz);
+                }
+            way += (v + 0.5 * force * dt) * dt;
             angle -= w * dt;
             v += force * dt;
             w += torque / inertia * dt;
@@ -126,8 +129,9 @@ TEST(Friction, SlidingAndSpinningShareIt) {
                     if (world.snapshot().bodies[1].velocity.norm() > 0.02) sliding = frame;
                 }
                 const Vec3 x = world.snapshot().bodies[1].center_of_mass;
-                // The ellipsoid of forces and torques is within some 15 % of the corners' own; 80 % too short a way is what it was.
-                EXPECT_NEAR(x.x(), way, 0.17 * way + start.speed / (60.0 * steps)) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
+                // With one ellipsoid for all ratios of spin to slip the ways are up to 16 % too short.
+                EXPECT_NEAR(x.x(), way, 0.02 * way + start.speed / (60.0 * steps)) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
+                if (getenv("SHOW")) std::printf("%g %g solver %d steps %d: way %.4f of %.4f, aside %.4f, time %.3f of %.3f\n", start.speed, start.spin, int(solver), steps, x.x() / way, way, x.z() / way, sliding / 60.0 / time, time);
                 EXPECT_NEAR(x.z(), 0.0, 0.02 * way) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
                 EXPECT_NEAR(sliding / 60.0, time, 0.12 * time) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
             }

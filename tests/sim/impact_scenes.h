@@ -78,8 +78,7 @@ struct ImpactScene {
         int passes = 0;
         for (const Island& island : islands_of(contacts, bodies))
             passes = std::max(passes, resolve_impacts(island, contacts, bodies, settings));
-        for (const Contact& c : contacts)
-            add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);
+        for (const Contact& c : contacts) add_impact(c, bodies[c.a], bodies[c.b]);
         for (Body& b : bodies)
             if (b.dynamic()) b.derive();
         return passes;

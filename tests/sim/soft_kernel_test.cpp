@@ -22,13 +22,14 @@ struct alignas(64) Line {
 struct LanePoint {
     Vec3 arm = Vec3::Zero();   // from A's centre
     double separation = 0.0, impulse = 0.0;
+    double share = 1.0;
 };
 struct Lane {
     std::uint32_t a = 0, b = 0;   // slots; 0 stands still
     bool moves_a = true, moves_b = true;
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
     Vec3 between = Vec3::Zero();   // from B's centre to A's
-    double friction = 0.0, size = 1.0;
+    double friction = 0.0, size = 1.0, spread = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
 };
@@ -81,6 +82,7 @@ private:
         head(k, friction_coefficient) = float(lane.friction);
         vector(between, lane.between);
         head(k, size) = float(lane.size);
+        head(k, spread) = float(lane.spread);
         head(k, friction_1) = float(lane.start_friction[0]);
         head(k, friction_2) = float(lane.start_friction[1]);
         head(k, twist) = float(lane.start_friction[2]);
@@ -89,6 +91,7 @@ private:
             const int base = head_rows + int(i) * point_rows;
             vector(base + turn, p.arm);
             at(k, int(i), normal_mass) = 1.0f;
+            at(k, int(i), lever) = float(p.share);
             at(k, int(i), separation) = float(p.separation);
             at(k, int(i), impulse) = float(p.impulse);
         }
@@ -361,7 +364,32 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
         slow.push(480.0f);
         EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
+        // Of an area: half as much where the load is even, and all of it where one point has the load.
+        lane.spread = 0.5;
+        OneColor even = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
+        even.push(480.0f);
+        EXPECT_NEAR(even.head(0, twist), -0.5 * 0.5 * 0.2 * 0.8, 1e-6);
+        lane.points[0].impulse = 0.8;
+        lane.points[1].impulse = 0.0;
+        OneColor aside = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
+        aside.push(480.0f);
+        EXPECT_NEAR(aside.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
     }
+}
+
+// Friction acts where the shares put it, if all points touch; else in the middle of those that do.
+TEST(SoftKernel, FrictionActsAtTheAreasCentroid) {
+    for (const Kernel* kernel : kernels())
+        for (const double gap : {0.0, 0.1}) {
+            Lane lane = ball_lane(0.5);
+            lane.points.clear();
+            for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4, 1.0 + 0.25 * side});
+            lane.points.push_back({Vec3(0.0, 0.0, 0.3), gap, 0.0, 1.0});
+            OneColor color = ball(*kernel, lane, Vec3::Zero());
+            const float x = color.head(0, friction_arm), z = color.head(0, friction_arm + 2);
+            EXPECT_NEAR(x, gap > 0.0 ? 0.0 : 0.2 * 0.5 / 3.0, 1e-6);
+            EXPECT_NEAR(z, gap > 0.0 ? 0.3 * 0.01 / 2.01 : 0.1, 1e-6);
+        }
 }
 
 // A sweep over four points at once, from couplings, against the same one by one in double precision: j = (v - r) / K for

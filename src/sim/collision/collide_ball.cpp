@@ -1,5 +1,6 @@
 // Spheres against half-spaces, spheres and polyhedra; half-spaces against polyhedra.
 #include "sim/collision/collide.h"
+#include "sim/collision/contact_area.h"
 #include "sim/collision/separating_axis.h"
 
 #include <algorithm>
@@ -138,6 +139,13 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     m.normal = normal;
     m.corners = Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
+    if (m.count > 1) {
+        // All corners lie over the plane: those of the face that lies along it are the area.
+        scratch.incident.clear();
+        for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices)
+            scratch.incident.push_back(pose_b.to_world(b.vertices[i]));
+        spread_pressure(contact_area(scratch.incident, normal), m);
+    }
     out.push_back(m);
 }
 

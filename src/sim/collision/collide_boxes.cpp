@@ -1,6 +1,7 @@
 // Box against box: the answers of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp) with the same
 // choices and the same names of features, from the matrix that turns one box into the other.
 #include "sim/collision/box_axes.h"
+#include "sim/collision/contact_area.h"
 #include "sim/collision/feature_contact.h"
 #include "sim/collision/separating_axis.h"
 
@@ -165,6 +166,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
     m.corners = on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
+    spread_pressure(contact_area(scratch.points, m.normal), m);
 }
 
 }  // namespace

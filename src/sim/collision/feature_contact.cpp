@@ -1,5 +1,7 @@
 #include "sim/collision/feature_contact.h"
 
+#include "sim/collision/contact_area.h"
+
 #include <algorithm>
 
 namespace tumble {
@@ -29,6 +31,7 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
     m.normal = frame.rotation * (reference_on_b ? Vec3(-normal) : normal);
     m.corners = reference_on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
+    spread_pressure(contact_area(scratch.points, m.normal), m);
     out.push_back(m);
 }
 

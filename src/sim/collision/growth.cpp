@@ -1,5 +1,6 @@
 #include "sim/collision/growth.h"
 
+#include "sim/collision/contact_area.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -87,6 +88,9 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     first.first_left_out = std::uint32_t(left_out.size());
     first.left_out = std::uint32_t(candidates.size());
     left_out.insert(left_out.end(), candidates.begin(), candidates.end());
+    const ContactArea area = contact_area(found);
+    spread_pressure(area, first);
+    spread_pressure(area, more);
     found = first;
     return more;
 }

@@ -48,6 +48,11 @@ struct Manifold {
     Vec3 normal = Vec3::Zero();
     std::array<ContactPoint, capacity> points;
 
+    // Even pressure over the area in which the faces meet (contact_area.h): each point's part of the load, times how many there are, and
+    // the mean distance of the area from its centroid over that of the points so loaded.
+    std::array<float, capacity> share = {1.0f, 1.0f, 1.0f, 1.0f};
+    float spread = 1.0f;
+
     // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a twist about the normal.
     // Carried from step to step.
     Vec3 tangent = Vec3::Zero();          // unit, world; zero before the first solve

@@ -22,7 +22,7 @@ Swing::Swing(const Vec3& corner, double gap, const Vec3& normal, const RigidMoti
 
 bool Swing::matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h) {
     const double least = tuning::swing_turn * tuning::swing_turn / (h * h);
-    return of_corner.angular_velocity.squaredNorm() > least && of_face.angular_velocity.cross(normal).squaredNorm() < least;
+    return of_corner.angular_velocity.cross(normal).squaredNorm() > least && of_face.angular_velocity.cross(normal).squaredNorm() < least;
 }
 
 double Swing::gap(double t) const {

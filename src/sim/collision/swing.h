@@ -22,7 +22,8 @@ public:
     /// `gap` (m) of the corner over the face with this normal, which points towards the corner and does not turn.
     Swing(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face);
 
-    /// Whether the bodies turn against each other so fast that it tells in a step of h seconds, while the face keeps its normal.
+    /// Whether the bodies turn against each other so fast that it tells in a step of h seconds, while the face keeps its normal. A spin
+    /// about the normal brings no corner down: with it, rounding would choose one of a flat body's corners.
     static bool matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h);
 
     double gap(double t) const;       // m

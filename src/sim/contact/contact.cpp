@@ -3,6 +3,9 @@
 #include "sim/contact/contact_patch.h"
 #include "sim/touch.h"
 
+#include <algorithm>
+#include <span>
+
 namespace tumble {
 
 double relative_velocity(const Contact& c, const Body& a, const Body& b) {
@@ -19,6 +22,35 @@ void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b) {
         b.angular_momentum += c.arm_b.cross(impulse);
     }
 }
+
+void add_impact(const Contact& c, Body& a, Body& b) {
+    add_impulse(c, c.impact * c.normal + c.impact_friction, a, b);
+    const Vec3 moment = c.rub.cross(c.impact_friction);
+    if (a.dynamic()) a.angular_momentum -= moment;
+    if (b.dynamic()) b.angular_momentum += moment;
+}
+
+namespace {
+
+// Even pressure resists a spin as its points would, each nearer to where friction acts as one by the spread.
+void set_rubbing(const Manifold& m, std::span<Contact> contacts) {
+    const auto touching = std::size_t(std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.touching(); }));
+    if (touching < 2) return;
+    const bool whole = touching == contacts.size();
+    Vec3 center = Vec3::Zero();   // from A's
+    double weights = 0.0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        if (!contacts[i].touching()) continue;
+        const double weight = whole ? double(m.share[i]) : 1.0;
+        center += weight * contacts[i].arm_a;
+        weights += weight;
+    }
+    center /= weights;
+    for (Contact& c : contacts)
+        if (c.touching()) c.rub = (1.0 - double(m.spread)) * (center - c.arm_a);
+}
+
+}  // namespace
 
 void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vector<Contact>& contacts) {
     const Body &a = bodies[m.a], &b = bodies[m.b];
@@ -39,6 +71,7 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
         c.arm_b = place - b.position;
         contacts.push_back(c);
     }
+    if (m.count > 1) set_rubbing(m, std::span(contacts).last(std::size_t(m.count)));
 }
 
 void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts) {

@@ -19,6 +19,7 @@ struct Contact {
     std::uint64_t feature = 0;
     Vec3 normal;                            // away from A
     Vec3 arm_a, arm_b;                      // r = p - x, world
+    Vec3 rub = Vec3::Zero();                // m, world: from there to where its friction acts (contact_area.h)
     double separation = 0.0;                // m; negative: overlap
     double touch_distance = 0.0;            // m: nearer than this is touching
     double restitution = 0.0, friction = 0.0;   // of the pair
@@ -35,6 +36,8 @@ double relative_velocity(const Contact& c, const Body& a, const Body& b);
 
 /// The impulse's share of the momenta, P and L (eqs. 9 and 10); the velocities are left for derive().
 void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b);
+/// The same of the collision's impulses, that of friction included.
+void add_impact(const Contact& c, Body& a, Body& b);
 
 /// Contacts of the manifolds in their order. Those of one manifold only are added to what is there already.
 void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts);

@@ -64,8 +64,9 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
     ContactPatch patch;
     patch.size = std::min(a.radius, b.radius);
     const double near = tuning::friction_near * patch.size;
-    Vec3 center = Vec3::Zero();   // from A's
-    double weights = 0.0;
+    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // from A's
+    double weights = 0.0, shares = 0.0;
+    bool whole = true;   // all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const Passing seen = passing(m, i, a, b, before_a, before_b, settings.h);
@@ -81,17 +82,22 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
         const double weight = seen.gap < near ? 1.0 : tuning::friction_far_weight;
         center += weight * arm_a;
         weights += weight;
+        const double share = double(m.share[std::size_t(i)]);
+        of_area += share * arm_a;
+        shares += share;
+        whole = whole && seen.gap < near;
     }
     if (patch.count == 0) return patch;
     patch.normal = m.normal;
     patch.tangent_1 = tangent_of(m);
     patch.tangent_2 = patch.normal.cross(patch.tangent_1);
     patch.friction = pair_friction(a, b);
-    patch.friction_arm_a = center / weights;
+    patch.friction_arm_a = whole ? of_area / shares : center / weights;
+    patch.spread = double(m.spread);
     patch.friction_arm_b = patch.friction_arm_a + (a.position - b.position);
     for (int i = 0; i < patch.count; ++i) {
         ContactPatch::Point& p = patch.points[std::size_t(i)];
-        p.lever = (p.arm_a - patch.friction_arm_a).norm();
+        p.lever = patch.spread * (p.arm_a - patch.friction_arm_a).norm();
     }
     return patch;
 }

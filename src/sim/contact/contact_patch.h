@@ -14,7 +14,7 @@ struct ContactPatch {
     struct Point {
         Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();   // r = p - x, world
         double separation = 0.0;    // m
-        double lever = 0.0;         // m, from where friction acts
+        double lever = 0.0;         // m, with which it resists a spin: its distance from where friction acts, times the spread
         double impulse = 0.0;       // N s, last step's
         int source = 0;             // its place in the manifold
     };
@@ -22,6 +22,7 @@ struct ContactPatch {
     Vec3 normal = Vec3::Zero(), tangent_1 = Vec3::Zero(), tangent_2 = Vec3::Zero();   // tangent_2 = normal x tangent_1
     Vec3 friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
     double friction = 0.0;          // mu
+    double spread = 1.0;            // Manifold::spread
     double size = 0.0;              // m, the smaller body's radius: what tolerances are parts of
     std::array<Point, Manifold::capacity> points;
 };

@@ -25,6 +25,7 @@ struct Patch {
     Row normal[4], friction[2], twist;
     double lever[4] = {}, overlap[4] = {};  // m
     double coefficient = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
+    double spin_lever = 0.0;        // m, of a twist that shares friction's limit
     double free_slip = 0.0, free_spin = 0.0, twist_mass = 0.0;   // m/s and rad/s that the forces leave; kg m^2
     bool spins = false;             // faster than the twist can stop: it shares friction's limit
     Vec3 tangent_1 = Vec3::Zero();

@@ -1,6 +1,7 @@
 #include "sim/contact/direct_solver.h"
 
 #include "sim/contact/passing.h"
+#include "sim/contact/spin_friction.h"
 #include "sim/tuning.h"
 
 #include <algorithm>
@@ -137,14 +138,23 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
 // Friction's limits follow the normal impulses of the round before.
 void DirectSolver::set_limits(Patch& patch) {
     double load = 0.0, levers = 0.0;
+    Vec3 aside = Vec3::Zero();
     for (int i = 0; i < patch.count; ++i) {
-        load += patch.normal[i].estimate;
-        levers += patch.normal[i].estimate * patch.lever[i];
+        const double impulse = patch.normal[i].estimate;
+        load += impulse;
+        levers += impulse * patch.lever[i];
+        aside += impulse * (patch.geometry.points[std::size_t(i)].arm_a - patch.geometry.friction_arm_a);
     }
+    levers += (1.0 - patch.geometry.spread) * aside.norm();
     patch.limit = patch.coefficient * load;
     patch.twist_limit = patch.coefficient * levers;
     patch.spins = patch.twist_limit > 0.0 && patch.twist_mass * patch.free_spin > patch.twist_limit &&
-                  patch.twist_limit * patch.free_spin > tuning::spin_share * patch.limit * patch.free_slip;
+                  levers * patch.free_spin > tuning::spin_share * load * patch.free_slip;
+    if (!patch.spins) return;
+    const double distance = levers / load, spin = distance * patch.free_spin;
+    const spin_friction::Limit shared = spin_friction::limit(patch.free_slip * patch.free_slip, spin * spin);
+    patch.limit *= shared.load;
+    patch.spin_lever = distance * shared.lever;
 }
 
 void DirectSolver::evaluate_speeds() {
@@ -161,9 +171,9 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
         row.impulse = std::max(0.0, y);
         if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack is all ties
     }
-    // Both directions of friction and, where it shares their limit, the twist over its lever: a ball of the radius mu f_n.
+    // Both directions of friction and, where it shares their limit, the twist over its lever: a ball (spin_friction.h).
     Row* const rows[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
-    const double levers[3] = {1.0, 1.0, patch.twist_limit / patch.limit};
+    const double levers[3] = {1.0, 1.0, patch.spin_lever};
     const int count = patch.spins ? 3 : 2;
     double y[3] = {}, square = 0.0;
     for (int i = 0; i < count; ++i) {

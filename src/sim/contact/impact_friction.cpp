@@ -32,7 +32,9 @@ std::pair<double, double> least_in_disc(double k0, double k1, double g0, double 
 }  // namespace
 
 ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, std::size_t contact) {
-    const Contact& c = cluster.contact(contact);
+    Contact c = cluster.contact(contact);
+    c.arm_a += c.rub;
+    c.arm_b += c.rub;
     Block block;
     block.contact = contact;
     const Vec3 t = c.normal.unitOrthogonal(), s = c.normal.cross(t);

@@ -8,7 +8,7 @@
 namespace tumble {
 
 /// Resolves the collisions of one island's touching contacts at the bodies' velocities, which are changed in place (the
-/// momenta are not: add_impulse()); sets each taking part's impact, impact_friction and bounce_velocity.
+/// momenta are not: add_impact()); sets each taking part's impact, impact_friction and bounce_velocity.
 /// Returns the number of passes; 0 when nothing collided.
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                     const ImpactSettings& settings);

@@ -194,6 +194,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         const Vec3 place = acting_place(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
         put(point + soft::turn * stride, stride, place - a.position);
         point[soft::normal_mass * stride] = 1.0f;
+        point[soft::lever * stride] = m.share[std::size_t(i)];
         point[soft::separation * stride] = float(seen.gap);
         point[soft::impulse * stride] = float(share * p.impulse);
         point += soft::point_rows * stride;
@@ -209,6 +210,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     put(head + soft::between * stride, stride, a.position - b.position);
     put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
     put_row(soft::size, size);
+    put_row(soft::spread, double(m.spread));
     // Seen from the other body the second tangent is opposite too, and so is an impulse along the first.
     put_row(soft::friction_1, (swapped ? -share : share) * m.friction[0]);
     put_row(soft::friction_2, share * m.friction[1]);

@@ -30,15 +30,16 @@ enum Head : int {
     friction_1_sum = 34,   // and their sums over the substeps
     friction_2_sum = 35,
     twist_sum = 36,
-    coupling = 37,         // 6: what a normal impulse at one point adds to the speed at another, 1/kg: 01, 02, 12, 03, 13, 23
-    head_rows = 43
+    spread = 37,           // Manifold::spread
+    coupling = 38,         // 6: what a normal impulse at one point adds to the speed at another, 1/kg: 01, 02, 12, 03, 13, 23
+    head_rows = 44
 };
 enum Point : int {
     turn = 0,              // 3: arm from A's centre; then replaced by arm x normal
     normal_mass = 3,       // 1 in lanes that have this point, 0 in others; then the effective mass, kg
     separation = 4,        // m, when the step began
     gap = 5,               // m, now; nothing on entry
-    lever = 6,             // m, from where friction acts; nothing on entry
+    lever = 6,             // Manifold::share; then m: the distance from where friction acts, times the spread
     to_friction = 7,       // 3: what its normal impulse adds to the slips and to the twist's speed, and they to its
     impulse = 10,
     impulse_sum = 11,

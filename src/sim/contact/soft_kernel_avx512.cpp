@@ -1,5 +1,6 @@
 // The soft contact solver's inner loops, 16 lanes (avx512).
 #include "sim/contact/soft_kernel.h"
+#include "sim/contact/spin_friction.h"
 #include "sim/tuning.h"
 
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")

@@ -2,7 +2,9 @@
 // namespace, so that no two of them share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
-constexpr float spin_share = float(tuning::spin_share);
+constexpr float spin_share = float(tuning::spin_share), disc = float(spin_friction::disc), steep = float(spin_friction::steep),
+                bent = float(spin_friction::bent), sliding_square = float(spin_friction::sliding_square),
+                spinning_square = float(spin_friction::spinning_square), spinning_limit = float(spin_friction::spinning_limit);
 constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stiff = float(tuning::soft_twice_as_stiff);
 constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
 
@@ -248,11 +250,16 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         g.set(inertia_a, of_a);
         g.set(inertia_b, of_b);
 
-        // Friction acts at the centroid of the points that touch or nearly do.
+        // Friction acts at the centroid of the area, where all points touch or nearly do; else at that of those which do.
+        const Lanes near = friction_near * g[size];
+        Lanes far{};   // points
+        for (int i = 0; i < g.points; ++i) far += g.at(i, separation) < near ? Lanes{} : g.at(i, normal_mass);
+        const auto whole = far == 0.0f;
         Vector center{};
         Lanes weights = empty;
         for (int i = 0; i < g.points; ++i) {
-            const Lanes weight = g.at(i, normal_mass) * (g.at(i, separation) < friction_near * g[size] ? all(1.0f) : all(friction_far_weight));
+            const Lanes alike = g.at(i, separation) < near ? all(1.0f) : all(friction_far_weight);
+            const Lanes weight = g.at(i, normal_mass) * (whole ? g.at(i, lever) : alike);
             center = center + weight * g.vector(i, turn);
             weights += weight;
         }
@@ -272,7 +279,7 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         const Vector cn = cross(c, n);
         for (int i = 0; i < g.points; ++i) {
             const Vector away = g.vector(i, turn) - arm;
-            g.at(i, lever) = root(dot(away, away));
+            g.at(i, lever) = g[spread] * root(dot(away, away));
             const Vector an = cross(g.vector(i, turn), n), bn = an + cn;
             const Vector ian = of_a * an, ibn = of_b * bn;
             for (int earlier = 0; earlier < i; ++earlier) {
@@ -350,8 +357,19 @@ inline Speeds<points> speeds_of(const Group& g, const Motion& a, const Motion& b
     return speeds;
 }
 
+// Of the load: its sum over the points, times their levers (spin_friction.h).
+template <int points>
+inline Lanes levers_of(const Group& g, Lanes load_all, Lanes load_levers) {
+    Vector turning{};   // load times arm x normal, from A's centre
+#pragma GCC unroll 4
+    for (int i = 0; i < points; ++i) turning = turning + g.at(i, impulse) * g.vector(i, turn);
+    const Vector t1 = g.vector(tangent_1), t2 = cross(g.vector(normal), t1), arm = g.vector(friction_arm);
+    const Lanes aside_1 = dot(turning, t2) + load_all * dot(arm, t1), aside_2 = dot(turning, t1) - load_all * dot(arm, t2);
+    return load_levers + (1.0f - g[spread]) * root(aside_1 * aside_1 + aside_2 * aside_2);
+}
+
 // Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now; what
-// spins in spite of its twist shares it (soft_solver.h).
+// spins in spite of its twist shares it (spin_friction.h).
 template <int points>
 inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes<points>& changes) {
     Lanes load_all = Lanes{}, load_levers = Lanes{};
@@ -360,21 +378,32 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
         load_all += g.at(i, impulse);
         load_levers += g.at(i, impulse) * g.at(i, lever);
     }
-    const Lanes limit = g[friction_coefficient] * load_all, twist_limit = g[friction_coefficient] * load_levers;
+    Lanes limit = g[friction_coefficient] * load_all, twist_limit = g[friction_coefficient] * load_levers;
     const Lanes v1 = speeds.friction.x, v2 = speeds.friction.y, v3 = speeds.friction.z;
     // What stops the slip and the twist altogether, if that is allowed.
     Lanes j1 = g[friction_1] - (g[stick_mass] * v1 + g[stick_mass + 1] * v2);
     Lanes j2 = g[friction_2] - (g[stick_mass + 1] * v1 + g[stick_mass + 2] * v2);
     const Lanes still = g[twist] - g[twist_mass] * v3;
     Lanes j3 = larger(-twist_limit, smaller(twist_limit, still));
-    const auto slips = j1 * j1 + j2 * j2 > limit * limit, turns = j3 != still;
+    const auto slips = j1 * j1 + j2 * j2 > limit * limit;
+    auto turns = j3 != still;
     if (any(Lanes(slips | turns))) {   // the bits of what is true are no zero
-        const Lanes lever_slip = load_levers * v3, slip_1 = load_all * v1, slip_2 = load_all * v2;
-        const auto spins = turns && twist_limit > 0.0f && lever_slip * lever_slip > spin_share * spin_share * (slip_1 * slip_1 + slip_2 * slip_2);
+        load_levers = levers_of<points>(g, load_all, load_levers);
+        twist_limit = g[friction_coefficient] * load_levers;
+        j3 = larger(-twist_limit, smaller(twist_limit, still));
+        turns = j3 != still;
+        const Lanes reach = load_all > 0.0f ? load_levers / load_all : Lanes{};   // m, mean distance
+        const Lanes slip = v1 * v1 + v2 * v2, spin = reach * reach * v3 * v3;
+        const auto spins = turns && twist_limit > 0.0f && spin > spin_share * spin_share * slip;
         const auto slides = spins || slips;
+        // The limits of what spins as it does now (spin_friction.h).
+        const Lanes x = spins ? disc * spin / (slip + disc * spin) : Lanes{}, y = 1.0f - x;
+        const Lanes square = (sliding_square * y * y + steep * spinning_square * x * x) / (y * y + steep * x * x);
+        const Lanes t = (square - sliding_square) * (1.0f / (spinning_square - sliding_square));
+        const Lanes arm = spins ? reach * root(square) : Lanes{}, per_arm = spins ? 1.0f / arm : Lanes{};
+        limit = spins ? limit * root(1.0f - t * (1.0f - bent + bent * t) * (1.0f - spinning_limit)) : limit;
         // Else one mass for all directions: friction then ends up against the slip, from where each direction's own mass would turn it
         // aside.
-        const Lanes arm = spins ? load_levers / load_all : Lanes{}, per_arm = spins ? load_all / load_levers : Lanes{};
         const Lanes mass = spins ? smaller(g[slide_mass], g[twist_mass] * per_arm * per_arm) : g[slide_mass];
         const Lanes s1 = g[friction_1] - mass * v1, s2 = g[friction_2] - mass * v2, s3 = per_arm * g[twist] - mass * arm * v3;
         const Lanes size = root(s1 * s1 + s2 * s2 + s3 * s3);

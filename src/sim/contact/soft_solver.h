@@ -7,11 +7,10 @@
 //     b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
 // of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses, of
 // b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Not yet touching points (s > 0) may approach by s/d and no
-// more. Friction: a force f at one place of the manifold, |f| <= mu sum N_i, and a twist T about its normal, |T| <= mu sum N_i r_i, with
-// the normal impulses N_i at r_i from there. Where the twist does not stop the spin, and the spin is no mere trace (spin_share), together
-//     (f / mu sum N_i)^2 + (T / mu sum N_i r_i)^2 <= 1,
-// the ellipsoid that stands for Coulomb's law over an area (Howe and Cutkosky 1996): what slides and spins has less friction against
-// either.
+// more. Friction: a force f at one place of the manifold, the centroid of its contact area, |f| <= mu sum N_i, and a twist T about its
+// normal, |T| <= mu N d, with d the area's mean distance from there. Where the twist does not stop the spin, and the spin is no mere
+// trace (spin_share), the two share one limit, that of Coulomb's law over the area (spin_friction.h): what slides and spins has less
+// friction against either.
 //
 // Contacts are coloured so that none of one colour share a moving body; those of a colour are solved side by side, a lane
 // each, in single precision, relative to the poses of the step's start (soft_batch.h). The sums of the impulses then change

@@ -137,7 +137,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
         }
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
-            add_impulse(c, c.impact * c.normal + c.impact_friction, bodies[c.a], bodies[c.b]);
+            add_impact(c, bodies[c.a], bodies[c.b]);
             for (const std::uint32_t k : {c.a, c.b})
                 if (bodies[k].dynamic()) add_once(struck_, k);
         }
