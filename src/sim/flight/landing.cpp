@@ -63,7 +63,9 @@ void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bo
         for (const Contact& c : contacts) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!(c.separation <= std::max(c.touch_distance, near)) || (held[c.a] && held[c.b])) continue;
-            const bool overlap = c.separation < -c.touch_distance;
+            // What rests overlaps by as much as is not pushed out, to the last digit: that is no overlap to be held for.
+            const double left = tuning::direct_slop * std::min(a.radius, b.radius);
+            const bool overlap = c.separation < -(left + c.touch_distance);
             if (!overlap) {
                 if (relative_velocity(c, a, b) > release) continue;
                 const bool a_stands = !a.dynamic() || a.asleep || held[c.a], b_stands = !b.dynamic() || b.asleep || held[c.b];
