@@ -10,14 +10,15 @@
 
 namespace tumble {
 
-Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity) {
+Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity, const Vec3& origin) {
     Measurement m;
     for (const Body& body : bodies) {
         if (!body.dynamic()) continue;
         m.kinetic += body.kinetic_energy();
-        m.potential -= body.mass * gravity.dot(body.position);
+        const Vec3 place = origin + body.position;
+        m.potential -= body.mass * gravity.dot(place);
         m.momentum += body.momentum;
-        m.angular_momentum += body.position.cross(body.momentum) + body.angular_momentum;
+        m.angular_momentum += place.cross(body.momentum) + body.angular_momentum;
     }
     return m;
 }

@@ -9,8 +9,9 @@
 
 namespace tumble {
 
-/// Energies and momenta over the dynamic bodies: kinetic 1/2 P.v + 1/2 L.omega, potential -sum m g.x, L about the origin.
-Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity);
+/// Energies and momenta over the dynamic bodies: kinetic 1/2 P.v + 1/2 L.omega, potential -sum m g.x, L about the world's origin;
+/// `origin` (m, world) is where the coordinates of the bodies begin.
+Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity, const Vec3& origin);
 
 /// Adds the touching points and the deepest overlap.
 void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m);

@@ -15,6 +15,7 @@
 #include "sim/integrator/advance.h"
 #include "sim/integrator/rigid_state.h"
 #include "sim/kinematic_body.h"
+#include "sim/local_frame.h"
 #include "sim/measurement.h"
 #include "sim/memory_order.h"
 #include "sim/narrow_phase.h"
@@ -37,6 +38,17 @@ ContactSolver::Effort effort(const SimulationSettings& settings) {
     return settings.impacts == ImpactMode::exact ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced;
 }
 
+bool exact_impacts(const SceneDescription& scene) { return scene.simulation.impacts == ImpactMode::exact; }
+
+// In which order the bodies are computed; it is also told (State::order).
+std::vector<std::uint32_t> put_in_order(std::vector<Body>& bodies, const SimulationSettings& settings) {
+    if (settings.impacts != ImpactMode::exact) return put_in_memory_order(bodies, settings.gravity);
+    const std::vector<std::uint32_t> by_place = put_in_order_of_place(bodies);
+    std::vector<std::uint32_t> order = put_in_memory_order(bodies, settings.gravity);
+    for (std::uint32_t& body : order) body = by_place[body];
+    return order;
+}
+
 }  // namespace
 
 struct World::State {
@@ -44,6 +56,7 @@ struct World::State {
     double fps;
     double h;                         // s
     std::int64_t steps = 0;           // time is counted in these, never summed up
+    Vec3 origin;                      // m, world: where the coordinates of the bodies begin
     std::vector<Body> bodies;
     std::vector<std::uint32_t> order;   // which of the scene's bodies each of them is
     ForceField forces;
@@ -81,11 +94,12 @@ struct World::State {
     std::vector<ForceStep> force_steps;
 
     State(const SceneDescription& scene, int threads)
-        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()), bodies(build_bodies(scene)),
-          order(put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
+        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()),
+          origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())), bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
+          order(put_in_order(bodies, settings)), forces(scene, order),
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
-                       scene.simulation.impacts == ImpactMode::exact ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
+                       exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), motion_limit(bodies), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
@@ -453,7 +467,7 @@ Snapshot World::snapshot() const {
     snapshot.bodies.resize(s.bodies.size());
     for (std::size_t i = 0; i < s.bodies.size(); ++i) {
         const Body& body = s.bodies[i];
-        BodyState state{body.origin(), body.position, body.orientation, body.velocity, body.angular_velocity};
+        BodyState state{s.origin + body.origin(), s.origin + body.position, body.orientation, body.velocity, body.angular_velocity};
         if (body.track) {   // the path's own velocity at this moment, not the mean over the coming step
             const BodyVelocity now = velocity_on_track(body, snapshot.time);
             state.velocity = now.velocity;
@@ -467,7 +481,7 @@ Snapshot World::snapshot() const {
 Measurement World::measure() const {
     State& s = *state_;
     // Contacts of the poses as they are now, not of the step that led here.
-    Measurement m = measure_motion(s.bodies, s.settings.gravity);
+    Measurement m = measure_motion(s.bodies, s.settings.gravity, s.origin);
     BroadPhase broad_phase(BroadPhase::Pairs::all);
     NarrowPhase narrow_phase(s.pool.size(), NarrowPhase::Mode::measure);
     measure_contacts(narrow_phase.find(broad_phase.update(s.bodies, s.h), s.bodies, s.h, s.pool), s.bodies, m);

@@ -74,6 +74,13 @@ struct Manifold {
     }
     Curve curve() const { return {points[1].separation, points[1].position, points[2].position, points[3].position}; }
 
+    /// Of one where edges cross: their directions (world), kept in the same way. They tell how the normal turns.
+    void set_edges(const Vec3& of_a, const Vec3& of_b) {
+        points[1].position = of_a;
+        points[2].position = of_b;
+    }
+    bool of_edges() const { return count == 1 && (points[0].feature >> 62) == 1; }
+
     /// The same of B's ball over a face: where its centre is, world.
     void set_ball(const Vec3& center) {
         on_ball = OnBall::b_over_face;
@@ -86,6 +93,7 @@ struct Manifold {
     void swap() {
         normal = -normal;
         if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
+        if (of_edges()) std::swap(points[1].position, points[2].position);
         if (on_ball == OnBall::curve) std::swap(points[2].position, points[3].position);
         else if (ball_over_face()) on_ball = on_ball == OnBall::a_over_face ? OnBall::b_over_face : OnBall::a_over_face;
     }

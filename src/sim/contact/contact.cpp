@@ -62,6 +62,11 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.restitution = pair_restitution(a, b);
     c.friction = pair_friction(a, b);
     c.touch_distance = touch_distance(a.radius, b.radius);
+    c.corners = m.corners;
+    if (m.of_edges()) {
+        c.edge_a = m.points[1].position;
+        c.edge_b = m.points[2].position;
+    }
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         c.feature = p.feature;

@@ -20,6 +20,8 @@ struct Contact {
     Vec3 normal;                            // away from A
     Vec3 arm_a, arm_b;                      // r = p - x, world
     Vec3 rub = Vec3::Zero();                // m, world: from there to where its friction acts (contact_area.h)
+    Corners corners = Corners::neither;     // the normal turns with the other body's face
+    Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();   // where edges cross: their directions, world; else zero
     double separation = 0.0;                // m; negative: overlap
     double touch_distance = 0.0;            // m: nearer than this is touching
     double restitution = 0.0, friction = 0.0;   // of the pair

@@ -102,8 +102,9 @@ void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sle
 // What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
 void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
     std::vector<std::uint32_t> landed;
-    for (bool more = true; more;) {
-        more = false;
+    std::vector<std::uint32_t> landing;
+    do {   // in rounds: who lands does not hang on the contacts' order
+        landing.clear();
         for (const Contact& c : cluster_.contacts()) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!a.flying && !b.flying) continue;
@@ -112,14 +113,13 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
             const double speed = std::abs(relative_velocity(c, a, b));
             const bool stutter = (a.flying && stutters(c.a, bodies, speed)) || (b.flying && stutters(c.b, bodies, speed));
             if (!stutter && !hop_is_shorter(c, a, b, acceleration, time)) continue;
-            for (const std::uint32_t k : {c.a, c.b}) {
-                if (!bodies[k].flying) continue;
-                bodies[k].flying = false;
-                landed.push_back(k);
-            }
-            more = true;
+            for (const std::uint32_t k : {c.a, c.b})
+                if (bodies[k].flying) landing.push_back(k);
         }
-    }
+        sort_unique(landing);
+        for (const std::uint32_t k : landing) bodies[k].flying = false;
+        landed.insert(landed.end(), landing.begin(), landing.end());
+    } while (!landing.empty());
     if (landed.empty()) return;
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});

@@ -14,7 +14,8 @@ namespace tumble {
 /// the turning of the bodies, and the turning of the normal. Negative: they press against each other.
 double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported);
 
-/// Whether the hop that begins with the contact's present v_rel would end before `time` s.
+/// Whether the hop that begins with the contact's present v_rel would end before `time` s, or rise no higher than the search for
+/// impacts can tell from touching: of such a hop the end cannot be found.
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
 
 /// Marks the dynamic bodies that their contacts hold, beside those marked already: what touches, or is no farther apart than `near`

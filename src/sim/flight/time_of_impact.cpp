@@ -35,12 +35,11 @@ struct Scale {
 Scale scale_of(const Traveller& a, const Traveller& b) {
     const auto of = [](const Traveller& t) {
         const double size = std::isfinite(t.body->radius) ? t.body->radius : 0.0;
-        return std::pair{size + t.path->position(t.since).cwiseAbs().maxCoeff() * tuning::impact_position_rounding / tuning::impact_gap,
-                         t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
+        return std::pair{gap_rounding(*t.body, t.path->position(t.since)), t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
     };
-    const auto [size_a, speed_a] = of(a);
-    const auto [size_b, speed_b] = of(b);
-    return {tuning::impact_gap * (size_a + size_b), tuning::impact_speed_rounding * (speed_a + speed_b)};
+    const auto [gap_a, speed_a] = of(a);
+    const auto [gap_b, speed_b] = of(b);
+    return {gap_a + gap_b, tuning::impact_speed_rounding * (speed_a + speed_b)};
 }
 
 // First time at which h + v t + a t^2 / 2 falls to zero, for h > 0; for touching bodies (h within `touch`) the next time.
@@ -167,6 +166,11 @@ void pose_half_space(Cloud& cloud, const HalfSpace& space, const Motion& motion,
 }
 
 }  // namespace
+
+double gap_rounding(const Body& body, const Vec3& position) {
+    const double size = std::isfinite(body.radius) ? body.radius : 0.0;
+    return tuning::impact_gap * size + tuning::impact_position_rounding * position.cwiseAbs().maxCoeff();
+}
 
 struct ImpactSearch::Pair {
     Traveller a, b;

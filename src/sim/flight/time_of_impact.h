@@ -20,6 +20,9 @@ struct Traveller {
     const Compound::Part* part = nullptr;   // of a compound, the part that is searched for
 };
 
+/// What the body, there, adds (m) to the gaps of its pairs that are rounding.
+double gap_rounding(const Body& body, const Vec3& position);
+
 struct TimeOfImpact {
     enum class Kind {
         none,    // apart up to the horizon
