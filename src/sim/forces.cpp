@@ -1,20 +1,35 @@
 #include "sim/forces.h"
 
+#include "sim/free_rotation.h"
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tumble {
+namespace {
+
+bool covers(const ForceDescription& f, double from, double to) { return f.start <= from && f.end >= to; }
+
+void add(Wrench& sum, const ForceDescription& f, const Body& body, const Mat3& rotation) {
+    const Vec3 force = f.body_frame ? Vec3(rotation * f.force) : f.force;
+    const Vec3 r = rotation * (f.point - body.center_of_mass);
+    sum.force += force;
+    sum.torque += r.cross(force);   // notes eq. 6
+}
+
+}  // namespace
 
 ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order)
     : gravity_(scene.simulation.gravity), wind_(scene.wind), at_points_(scene.bodies.size()) {
     std::vector<std::size_t> places(scene.bodies.size());
     for (std::size_t i = 0; i < places.size(); ++i) places[order.empty() ? i : order[i]] = i;
     for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
-    changes_ = !scene.forces.empty();
+    for (std::uint32_t i = 0; i < at_points_.size(); ++i)
+        if (!at_points_[i].empty()) pushed_.push_back(i);
 }
 
-Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation,
-                      double time) const {
+Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
     Wrench sum;
     sum.force = body.mass * gravity_;
     if (wind_) {
@@ -22,14 +37,66 @@ Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity,
         const Vec3 u = wind_->velocity - velocity;
         sum.force += 0.5 * wind_->density * wind_->drag * body.drag_area * u.norm() * u;
     }
+    return sum;
+}
+
+template <class Choose>
+void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation, const Choose& choose) const {
+    for (const ForceDescription& f : at_points_[index])
+        if (choose(f)) add(sum, f, body, rotation);
+}
+
+Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation,
+                      double time) const {
+    Wrench sum = fields(body, velocity);
+    add_points(sum, index, body, rotation, [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
+    return sum;
+}
+
+Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = fields(body);
+    add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to); });
+    return sum;
+}
+
+Wrench ForceField::endless(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = fields(body);
+    add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to) && std::isinf(f.end); });
+    return sum;
+}
+
+// The parts that a span has in successive steps are differences of the same times: they add up to the span.
+template <class Choose>
+Impulse ForceField::impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const {
+    Impulse sum;
     for (const ForceDescription& f : at_points_[index]) {
-        if (time < f.start || time >= f.end) continue;
-        const Vec3 force = f.body_frame ? Vec3(rotation * f.force) : f.force;
-        const Vec3 r = rotation * (f.point - body.center_of_mass);
-        sum.force += force;
-        sum.torque += r.cross(force);   // notes eq. 6
+        const double start = std::max(f.start, from), end = std::min(f.end, to);
+        if (!(end > start) || !choose(f)) continue;
+        Mat3 rotation = body.rotation;
+        if (!covers(f, from, to) && !body.angular_momentum.isZero(0.0)) {   // throughout: at t_n, as all that acts for a step
+            const FreeRotation turning(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
+            rotation = turning.at(0.5 * (start + end) - from).toRotationMatrix();
+        }
+        Wrench wrench;
+        add(wrench, f, body, rotation);
+        sum = sum + Impulse{(end - start) * wrench.force, (end - start) * wrench.torque};
     }
     return sum;
+}
+
+Impulse ForceField::brief(std::size_t index, const Body& body, double from, double to) const {
+    return impulse(index, body, from, to, [&](const ForceDescription& f) { return !covers(f, from, to); });
+}
+
+Impulse ForceField::ending(std::size_t index, const Body& body, double from, double to) const {
+    return impulse(index, body, from, to, [&](const ForceDescription& f) { return !std::isinf(f.end); });
+}
+
+ForceField ForceField::without_points() const {
+    ForceField field = *this;
+    field.pushed_.clear();
+    for (auto& list : field.at_points_) list.clear();
+    return field;
 }
 
 bool ForceField::changes(std::size_t index, double from, double to) const {

@@ -23,6 +23,20 @@ public:
     /// The same for another velocity (m/s) and rotation: of the body only what does not move is looked at.
     Wrench at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation, double time) const;
 
+    /// Gravity and wind, for the body's present state.
+    Wrench fields(const Body& body) const { return fields(body, body.velocity); }
+    /// Gravity, wind and the forces at points that act throughout [from, to), for the body's present state.
+    Wrench throughout(std::size_t index, const Body& body, double from, double to) const;
+    /// Without the forces that end some time: what a body that loses time in a step does without.
+    Wrench endless(std::size_t index, const Body& body, double from, double to) const;
+    /// The impulse within [from, to) of the forces at points that act in a part of it only. The body turns freely from its present
+    /// state at `from` to the middle of that part.
+    Impulse brief(std::size_t index, const Body& body, double from, double to) const;
+    /// The impulse within [from, to) of the forces at points that end some time, brief or not: such a force has a total impulse.
+    Impulse ending(std::size_t index, const Body& body, double from, double to) const;
+    /// Of gravity and wind alone: for what the forces at points have given already.
+    ForceField without_points() const;
+
     /// Whether a point force on the body begins or ends within [from, to): such a body must be awake.
     bool changes(std::size_t index, double from, double to) const;
     /// The first time after `time` at which a point force on the body begins or ends; infinity when there is none.
@@ -38,13 +52,21 @@ public:
 
     /// Whether nothing but gravity ever acts on the body; on any body, forces at points come and go.
     bool only_gravity(std::size_t index) const { return !wind_ && at_points_[index].empty(); }
-    bool ever_changes() const { return changes_; }
+    bool ever_changes() const { return !pushed_.empty(); }
+    /// Bodies with forces at points, ascending.
+    std::span<const std::uint32_t> pushed() const { return pushed_; }
 
 private:
+    template <class Choose>
+    void add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation, const Choose& choose) const;
+    template <class Choose>
+    Impulse impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const;
+    Wrench fields(const Body& body, const Vec3& velocity) const;
+
     Vec3 gravity_;
     std::optional<WindDescription> wind_;
     std::vector<std::vector<ForceDescription>> at_points_;   // by body
-    bool changes_ = false;
+    std::vector<std::uint32_t> pushed_;
 };
 
 }  // namespace tumble

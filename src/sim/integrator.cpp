@@ -7,6 +7,12 @@ void advance_momenta(Body& body, const Vec3& force, const Vec3& torque, double h
     body.angular_momentum += h * torque;
 }
 
+void advance_momenta(Body& body, const Impulse& impulse) {
+    body.momentum += impulse.linear;
+    body.angular_momentum += impulse.angular;
+    body.derive_velocities();
+}
+
 void advance_pose(Body& body, const Vec3& velocity, const Vec3& angular_velocity, double h, RotationForm form) {
     body.position += h * velocity;
     if (angular_velocity.isZero(0.0)) return;

@@ -3,11 +3,15 @@
 #pragma once
 
 #include "sim/body.h"
+#include "sim/wrench.h"
 
 namespace tumble {
 
 /// P += h F, L += h tau (notes eq. 7, rows 3 and 4).
 void advance_momenta(Body& body, const Vec3& force, const Vec3& torque, double h);
+
+/// P += J, L += the impulse's moment, and the velocities that follow from them.
+void advance_momenta(Body& body, const Impulse& impulse);
 
 /// x += h v, and R += h omega* R or q += h/2 omega q, then made a rotation again. `velocity` and `angular_velocity`
 /// decide the method. The linear update turns by atan(h|omega|) in matrix form and by 2 atan(h|omega|/2) in quaternion

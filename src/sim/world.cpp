@@ -85,13 +85,14 @@ struct World::State {
     // Momenta before and after this step's forces: what the integrators of higher order begin with, and whether contact
     // has added anything since.
     struct Momenta {
-        Vec3 momentum, angular_momentum;
+        Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
         bool operator==(const Momenta&) const = default;
     };
     struct alignas(64) ForceStep {
         Momenta before, after;
     };
     std::vector<ForceStep> force_steps;
+    std::vector<Impulse> pulses;   // of this step, of forces that end some time; by body, empty in scenes without forces at points
 
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()),
@@ -102,7 +103,8 @@ struct World::State {
                        exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), motion_limit(bodies), pool(threads),
-          old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()) {
+          old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()),
+          pulses(forces.ever_changes() ? scene.bodies.size() : 0) {
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);
         motions.resize(bodies.size());
@@ -122,6 +124,7 @@ struct World::State {
     void find_contacts();
     void resolve_collisions();
     void apply_forces();
+    void apply_brief_forces();
     bool by_whole_state(const Body& body) const {
         return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
     }
@@ -195,8 +198,7 @@ void World::State::list_awake() {
 }
 
 void World::State::wake_where_forces_change() {
-    if (!forces.ever_changes()) return;
-    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    for (const std::uint32_t i : forces.pushed())
         if (bodies[i].asleep && forces.changes(i, time(steps), time(steps + 1))) sleep.wake(i, bodies);
 }
 
@@ -275,14 +277,14 @@ void World::State::resolve_collisions() {
 }
 
 void World::State::apply_forces() {
-    const double now = time(steps);
+    const double now = time(steps), next = time(steps + 1);
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         if (body.flying) return;
         if (flights) body.derive();   // brought here from a flight, perhaps
         else if (!struck.empty()) body.derive_velocities();   // collisions have changed momenta
         old_velocities[i] = {body.velocity, body.angular_velocity};
-        const Wrench wrench = forces.at(i, body, now);
+        const Wrench wrench = forces.throughout(i, body, now, next);
         force_steps[i].before = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
         force_steps[i].after.momentum = body.momentum;
@@ -290,6 +292,24 @@ void World::State::apply_forces() {
         body.derive_velocities();
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
+}
+
+// Forces at points for the share of the step in which they act. After the bounces, which keep their speed against what acts
+// throughout: a blow is nothing that a bounce takes back.
+void World::State::apply_brief_forces() {
+    const double now = time(steps), next = time(steps + 1);
+    for (const std::uint32_t i : forces.pushed()) {
+        Body& body = bodies[i];
+        pulses[i] = {};
+        if (body.asleep || body.flying) continue;
+        pulses[i] = forces.ending(i, body, now, next);
+        if (!forces.changes(i, now, next)) continue;
+        const Impulse blow = forces.brief(i, body, now, next);
+        advance_momenta(body, blow);
+        force_steps[i].after.momentum += blow.linear;
+        force_steps[i].after.angular_momentum += blow.angular;
+        if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
+    }
 }
 
 void World::State::solve_resting_contacts() {
@@ -302,6 +322,7 @@ void World::State::solve_resting_contacts() {
             if (bodies[k].integrator != IntegratorKind::explicit_euler) find_gyration(bodies[k], h);
         }
     });
+    apply_brief_forces();
     const double least_rebound = flights ? 0.0 : tuning::restitution_rebound * gravity_step();
     contact_solver.solve({bodies, *manifolds, old_velocities, {h, threshold, least_rebound}}, islands, pool);
     forget_blows();
@@ -365,14 +386,16 @@ void World::State::turn_freely(Body& body, const Quat& from, double share) const
 }
 
 // What has to stop on its way: in contact the work of the forces on the rest of the way is taken back, else they have acted for as
-// long as it moved.
+// long as it moved. Forces at points that end some time give all of their impulse.
 void World::State::lose_time(std::uint32_t i, double share, bool in_contact) {
     Body& body = bodies[i];
     const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
-    const Vec3 push = after.momentum - before.momentum, turn = after.angular_momentum - before.angular_momentum;
+    const Impulse pulse = pulses.empty() ? Impulse{} : pulses[i];
+    const Vec3 push = after.momentum - before.momentum - pulse.linear;
+    const Vec3 turn = after.angular_momentum - before.angular_momentum - pulse.angular;
     if (in_contact) return return_work(body, push, turn, share);
-    body.momentum = before.momentum + share * push;
-    body.angular_momentum = before.angular_momentum + share * turn;
+    body.momentum = before.momentum + share * push + pulse.linear;
+    body.angular_momentum = before.angular_momentum + share * turn + pulse.angular;
     body.derive_velocities();
 }
 
@@ -404,6 +427,7 @@ void World::State::move() {
             body.angular_momentum = force_steps[i].before.angular_momentum;
             if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
             else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
+            if (share < 1.0) advance_momenta(body, forces.ending(i, body, time(steps) + share * h, time(steps + 1)));
         } else {
             const double spin_before = spin(body);
             const Quat orientation = body.orientation;

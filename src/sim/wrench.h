@@ -10,4 +10,11 @@ struct Wrench {
     Vec3 torque = Vec3::Zero();   // N m, about the centre of mass
 };
 
+/// What a wrench gives over a span of time; world frame.
+struct Impulse {
+    Vec3 linear = Vec3::Zero();    // N s
+    Vec3 angular = Vec3::Zero();   // N m s, about the centre of mass
+    friend Impulse operator+(const Impulse& l, const Impulse& r) { return {l.linear + r.linear, l.angular + r.angular}; }
+};
+
 }  // namespace tumble

@@ -63,6 +63,15 @@ void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const 
     ball.start = now;
 }
 
+// A driven path goes to the step's end, but not across the beginning or end of a force. Moments within a step are told apart by
+// their offsets: the same change always has the same.
+Moment Flights::drive_end(std::uint32_t i, const ForceField& forces, const Moment& now) const {
+    const double step_start = clock_.seconds(now.step), step_end = clock_.seconds(now.step + 1);
+    for (double change = forces.next_change(i, step_start); change < step_end; change = forces.next_change(i, change))
+        if (change - step_start > now.offset) return {now.step, change - step_start};
+    return {now.step + 1, 0.0};
+}
+
 // Sets a body free from its present state.
 void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
     Body& body = bodies[i];
@@ -72,9 +81,10 @@ void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& 
         return;
     }
     // Under other forces, step by step; the step's end is as good as double precision allows.
-    const Moment end{now.step + 1, 0.0};
+    const bool pushed = fliers_[i].pushed;
+    const Moment end = pushed ? Moment{now.step + 1, 0.0} : drive_end(i, forces, now);
     const double from = clock_.seconds(now), to = clock_.seconds(end), span = clock_.between(now, end);
-    const RigidState there = advance_exactly(body, forces, i, from, to);
+    const RigidState there = advance_exactly(body, pushed ? forces.without_points() : forces, i, from, to);
     Motion motion;
     motion.position = there.position;
     motion.velocity = body.inverse_mass * there.momentum;
@@ -208,8 +218,11 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
         f.partner_version = fliers_[f.met].version;
         next = f.until;
     }
-    // Nothing more within its path: World takes it up at the end of the step.
-    if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
+    // Nothing more within its path: World takes it up at the end of the step, itself where a force begins or ends.
+    if (f.event == Flier::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < Moment{now.step + 1, 0.0}) {
+        f.event = Flier::Event::drives_on;
+        queue_.set(i, f.until);
+    } else if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
     else queue_.set(i, next);
 }
 
@@ -220,7 +233,12 @@ std::int64_t Flights::run(std::vector<Body>& bodies, SleepMonitor& sleep, const 
         const Moment now = queue_.first_moment();
         const Flier& f = fliers_[i];
         if (f.event == Flier::Event::leaves_box) box(i, bodies, now);
-        if (f.event == Flier::Event::impact && fliers_[f.partner].version == f.partner_version) {
+        if (f.event == Flier::Event::drives_on) {
+            bring(i, bodies, now);
+            fly(i, bodies, forces, now);
+            changed_.push_back(i);
+            predict_changed(bodies, now);
+        } else if (f.event == Flier::Event::impact && fliers_[f.partner].version == f.partner_version) {
             collide(i, f.partner, bodies, sleep, forces, now);
         } else {
             predict(i, bodies, now);

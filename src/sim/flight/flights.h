@@ -56,11 +56,12 @@ private:
         Moment until;                 // the path is not known beyond; far away for free flights
         std::uint32_t version = 0;    // counts the paths
         bool driven = false;          // free, but under forces that are not constant
+        bool pushed = false;          // this step's forces at points have acted on it already, up to the step's end
         Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();   // L at the path's ends, of a driven body
         Moment boxed_until;           // in its box of the neighbourhood up to then
         double box_way = tuning::shortest_box_way;   // radii, that the next box shall hold of its way
         // The next event.
-        enum class Event { leaves_box, looks_again, impact } event = Event::leaves_box;
+        enum class Event { leaves_box, looks_again, impact, drives_on } event = Event::leaves_box;
         std::uint32_t partner = 0, partner_version = 0;
         Moment last_impact;
         double since_impact = 0.0;    // s, between the last two
@@ -72,6 +73,7 @@ private:
 
     void start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until);
     void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now);
+    Moment drive_end(std::uint32_t i, const ForceField& forces, const Moment& now) const;
     void bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const;
     void show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const;
     void box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now);

@@ -24,6 +24,7 @@ bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& 
     bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || held_[i]) continue;
+        fliers_[i].pushed = false;
         fly(i, bodies, forces, {step, 0.0});
         taken_off_.push_back(i);
         any = true;
@@ -51,6 +52,7 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<BodyVeloci
     taken_off_.clear();
     for (const std::uint32_t i : movers_) {
         const Body& body = bodies[i];
+        fliers_[i].pushed = !body.flying && !body.asleep;
         if (body.flying) {
             if (!fliers_[i].driven || fliers_[i].start == now) continue;
             bring(i, bodies, now);
@@ -139,9 +141,14 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
     }
     for (const std::uint32_t k : landed) {
         Body& body = bodies[k];
-        const Wrench wrench = forces.at(k, body, clock_.seconds(now));
+        const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
+        const bool pushed = fliers_[k].pushed;
+        const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
+        const Impulse blow = pushed ? Impulse{} : forces.brief(k, body, from, to);
         advance_momenta(body, wrench.force, wrench.torque, rest);
+        advance_momenta(body, blow);
         body.derive();
+        fliers_[k].pushed = true;
     }
     islands_.find(body_pairs(landing_manifolds_), bodies, touched);
     contact_solver_.solve({bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}},
@@ -215,7 +222,7 @@ void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, c
             continue;
         }
         if (limit.share < 1.0) {
-            const Wrench wrench = forces.at(k, bodies[k], clock_.seconds(now));
+            const Wrench wrench = forces.endless(k, bodies[k], clock_.seconds(now), clock_.seconds(now.step + 1));
             return_work(bodies[k], rest * wrench.force, rest * wrench.torque, limit.share);
         }
         hold(k, motions_[k], limit, bodies, now);
