@@ -63,7 +63,10 @@ struct InfoCommand {
 };
 void run_info(const InfoCommand& command);
 
+struct DoctorCommand {
+    double time_limit = 30.0;   // s for each program and driver: a cold driver takes seconds on a busy machine
+};
 /// 0 when clips can be rendered here, else 1.
-int run_doctor();
+int run_doctor(const DoctorCommand& command);
 
 }  // namespace tumble

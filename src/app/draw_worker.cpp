@@ -4,6 +4,7 @@
 #include "app/stage_time.h"
 #include "core/error.h"
 #include "core/image_mean.h"
+#include "core/memory_limit.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
 
@@ -11,11 +12,13 @@
 
 #include <malloc.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -27,6 +30,8 @@ namespace tumble {
 namespace {
 
 constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;   // bytes
+// A worker without a job has nothing to do but to end, which takes it milliseconds.
+constexpr auto longest_end = std::chrono::seconds(1);
 
 struct Job {
     std::int64_t frame = 0;
@@ -140,9 +145,6 @@ std::string reason(const std::exception& error) {
 
 [[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms,
                        WorkerMemory& memory, int socket) {
-    // Another worker's socket, kept open here, would hide the program's end from it.
-    ::close_range(STDERR_FILENO + 1, static_cast<unsigned>(socket) - 1, 0);
-    ::close_range(static_cast<unsigned>(socket) + 1, ~0u, 0);
     ::setpgid(0, 0);   // Ctrl-C reaches it only through us
     sigset_t none;
     sigemptyset(&none);
@@ -174,14 +176,22 @@ std::string reason(const std::exception& error) {
 }  // namespace
 
 DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
-                       int most_moments)
+                       int most_moments, std::span<const int> other_sockets)
     : memory_(std::make_shared<WorkerMemory>(scene, forms, slots, most_moments)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
     std::fflush(nullptr);
+    const pid_t program = ::getpid();
     id_ = ::fork();
-    if (id_ == 0) work(scene, options, forms, *memory_, ends[1]);
+    if (id_ == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);   // a worker that hangs or was stopped does not outlive the program either
+        if (::getppid() != program) ::_exit(0);
+        // The program's end of a socket, kept open here, would hide the program's end from that worker.
+        ::close(ends[0]);
+        for (const int socket : other_sockets) ::close(socket);
+        work(scene, options, forms, *memory_, ends[1]);
+    }
     const int error = errno;
     ::close(ends[1]);
     socket_ = ends[0];
@@ -207,7 +217,7 @@ DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
 }
 
 void DrawWorker::died(std::int64_t frame) {
-    throw RunError(fmt::format("cannot draw frame {}: its process {}", frame, finish().describe()));
+    throw RunError(fmt::format("cannot draw frame {}: its process {}{}", frame, finish().describe(), memory_limit_note()));
 }
 
 void DrawWorker::kill() {
@@ -217,8 +227,9 @@ void DrawWorker::kill() {
 
 ProcessEnd DrawWorker::finish() {
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes it for its last job
-    const std::lock_guard lock(id_mutex_);
     if (id_ < 0) return {};
+    if (!ends_within(id_, longest_end)) kill();
+    const std::lock_guard lock(id_mutex_);
     return wait_for_process(std::exchange(id_, -1));
 }
 

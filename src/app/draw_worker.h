@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 
 namespace tumble {
 
@@ -33,10 +34,10 @@ struct DrawnFrame {
 
 class DrawWorker {
 public:
-    /// Forks; the child opens OpenGL at once. The calling program must have no other thread. Throws RunError when there
-    /// are no more processes or no memory to be had.
+    /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it. The calling
+    /// program must have no other thread. Throws RunError when there are no more processes or no memory to be had.
     DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
-               int most_moments);
+               int most_moments, std::span<const int> other_sockets = {});
     /// Ends it, whatever it does.
     ~DrawWorker();
     DrawWorker(const DrawWorker&) = delete;
@@ -49,18 +50,19 @@ public:
     /// Asks it to end at once; from any thread. A draw() that waits then fails.
     void kill();
 
-    /// Ends it and tells what it used.
+    /// Ends it and tells what it used. One that does not end within a second is killed.
     ProcessEnd finish();
 
     const std::shared_ptr<WorkerMemory>& memory() const { return memory_; }
     pid_t id() const { return id_; }
+    int socket() const { return socket_; }
 
 private:
     [[noreturn]] void died(std::int64_t frame);
 
     std::shared_ptr<WorkerMemory> memory_;
     pid_t id_ = -1;
-    std::mutex id_mutex_;   // kill() against the wait in finish()
+    std::mutex id_mutex_;   // kill() against the end of finish(), after which another process may have that number
     int socket_ = -1;
 };
 

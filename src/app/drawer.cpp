@@ -74,8 +74,10 @@ Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, cons
     : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
     RenderOptions in_turns = options;
     in_turns.turns = turns_.get();
+    std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(std::make_unique<DrawWorker>(scene, in_turns, forms, slots_of_worker, most_moments));
+        workers_.push_back(std::make_unique<DrawWorker>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
+        sockets.push_back(workers_.back()->socket());
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
 }

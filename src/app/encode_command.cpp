@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <system_error>
 
 namespace tumble {
 namespace {
@@ -20,6 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t waiting_frames = 4;
+
+/// A pipe without a writer would be waited for.
+void check_regular(const fs::path& path) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+        throw InputError({path.string(), 0, 0}, "is no regular file, but a pipe or device");
+}
 
 /// Number of frames, all there from 0 on and all of one size. Throws InputError naming the file that is not.
 std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
@@ -33,6 +42,7 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
             throw InputError({path.string(), 0, 0},
                              fmt::format("the frame is missing (the frames must count from 0 to the last, {})",
                                          frame_path(folder, numbers.back()).filename().string()));
+        check_regular(path);
         const PictureSize this_size = read_png_size(path);
         if (i == 0) size = this_size;
         if (this_size != size)

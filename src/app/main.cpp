@@ -1,4 +1,5 @@
 #include "app/options.h"
+#include "app/standard_streams.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <new>
 
 int main(int argc, char** argv) {
+    tumble::open_missing_standard_streams();
     // A file that grows beyond the user's limit is then an error of the write that did it, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
     try {

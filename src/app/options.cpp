@@ -58,6 +58,7 @@ struct CommandLine {
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
+    DoctorCommand doctor;
     std::string render_size, info_size, aovs;
 };
 
@@ -227,6 +228,13 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
     return command;
 }
 
+void add_doctor(CLI::App& app, CommandLine& line) {
+    CLI::App* command =
+        app.add_subcommand("doctor", "Look whether everything is there that rendering needs, and how to get what is not");
+    command->add_option("--time-limit", line.doctor.time_limit, "Seconds that each program and driver may take to answer")
+        ->check(number_within(0.001, 1e6))->option_text(fmt::format("S [{:g}]", line.doctor.time_limit));
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -250,7 +258,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
-    app.add_subcommand("doctor", "Look whether everything is there that rendering needs, and how to get what is not");
+    add_doctor(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -265,7 +273,7 @@ int run_command_line(int argc, char** argv) {
     else if (encode->parsed()) run_encode(line.encode);
     else if (compare->parsed()) return run_compare(line.compare);
     else if (info->parsed()) run_info(line.info);
-    else return run_doctor();
+    else return run_doctor(line.doctor);
     return 0;
 }
 

@@ -5,19 +5,23 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/uio.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 extern char** environ;
@@ -29,6 +33,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kept_words = 4096;      // bytes of a program's last words
 constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe a user may ask for: fewer waits for each frame
+constexpr std::size_t kept_output = 1 << 16;  // bytes of a program's standard output
+// ms between two looks for the end of a program whose pipes say nothing: other processes may hold those open.
+constexpr int look_every = 20;
 
 /// Two ends of a pipe, closed unless taken.
 struct Pipe {
@@ -111,7 +118,48 @@ private:
     sigset_t set_, before_;
 };
 
+/// Reads what waits in the pipe, without waiting for more. False: no writer is left, and all is read.
+bool read_waiting(int pipe, std::string& text) {
+    pollfd place{pipe, POLLIN, 0};
+    if (::poll(&place, 1, 0) <= 0) return true;
+    int waiting = 0;
+    if (::ioctl(pipe, FIONREAD, &waiting) != 0 || waiting == 0) return (place.revents & POLLIN) != 0;
+    std::array<char, 4096> part;
+    while (waiting > 0) {
+        const ssize_t n = ::read(pipe, part.data(), std::min(part.size(), static_cast<std::size_t>(waiting)));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return false;
+        text.append(part.data(), static_cast<std::size_t>(n));
+        waiting -= int(n);
+    }
+    return true;
+}
+
+/// Waits until the child has ended, without taking its end: its number stays its own. True also where there is no such child.
+bool is_ended(pid_t id, int how) {
+    siginfo_t info{};
+    int result = 0;
+    while ((result = ::waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOWAIT | how)) < 0 && errno == EINTR) {}
+    return result < 0 || info.si_pid == id;
+}
+
+void kill_group(pid_t id) {
+    if (::kill(-id, SIGKILL) != 0) ::kill(id, SIGKILL);
+}
+
 }  // namespace
+
+bool has_ended(pid_t id) { return is_ended(id, WNOHANG); }
+
+bool ends_within(pid_t id, std::chrono::milliseconds limit) {
+    using std::chrono::microseconds;
+    const auto end = std::chrono::steady_clock::now() + limit;
+    for (microseconds nap(100); !has_ended(id); nap = std::min<microseconds>(2 * nap, std::chrono::milliseconds(look_every))) {
+        if (std::chrono::steady_clock::now() >= end) return false;
+        std::this_thread::sleep_for(nap);
+    }
+    return true;
+}
 
 ProcessEnd wait_for_process(pid_t id) {
     int status = 0;
@@ -145,10 +193,10 @@ std::string ProcessEnd::describe() const {
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments) {
     Pipe input, words;
     ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused at the user's limit: then it stays small
+    ::fcntl(input.write, F_SETFL, O_NONBLOCK);             // our end only: what waits for the program also looks for its end
     id_ = start(program, arguments, input.read, -1, words.write);
     input_ = input.take_write();
     words_pipe_ = words.take_read();
-    words_reader_ = std::thread([this] { keep_words(); });
 }
 
 Process::~Process() {
@@ -157,14 +205,20 @@ Process::~Process() {
     finish();
 }
 
-void Process::keep_words() {
-    std::array<char, 1024> part;
+void Process::read_words() {
+    if (words_pipe_ < 0) return;
+    if (!read_waiting(words_pipe_, words_)) ::close(std::exchange(words_pipe_, -1));
+    if (words_.size() > 2 * kept_words) words_.erase(0, words_.size() - kept_words);
+}
+
+bool Process::wait_for_room() {
     for (;;) {
-        const ssize_t n = ::read(words_pipe_, part.data(), part.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return;
-        words_.append(part.data(), static_cast<std::size_t>(n));
-        if (words_.size() > 2 * kept_words) words_.erase(0, words_.size() - kept_words);
+        // A full pipe of words would keep the program from reading.
+        std::array<pollfd, 2> places{{{input_, POLLOUT, 0}, {words_pipe_, POLLIN, 0}}};
+        ::poll(places.data(), places.size(), look_every);
+        read_words();
+        if (places[0].revents != 0) return true;
+        if (has_ended(id_)) return false;   // a process that it started holds its input open
     }
 }
 
@@ -173,6 +227,7 @@ bool Process::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t n = ::write(input_, bytes.data(), bytes.size());
         if (n < 0 && errno == EINTR) continue;
+        if (n < 0 && errno == EAGAIN && wait_for_room()) continue;
         if (n < 0) return false;
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }
@@ -186,8 +241,9 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
         const NoSigpipe guard;
         while (!bytes.empty()) {
             const iovec rest{const_cast<std::byte*>(bytes.data()), bytes.size()};
-            const ssize_t n = ::vmsplice(input_, &rest, 1, 0);
+            const ssize_t n = ::vmsplice(input_, &rest, 1, SPLICE_F_NONBLOCK);
             if (n < 0 && errno == EINTR) continue;
+            if (n < 0 && errno == EAGAIN && wait_for_room()) continue;
             if (n < 0) break;
             bytes = bytes.subspan(static_cast<std::size_t>(n));
         }
@@ -199,8 +255,15 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
 
 ProcessEnd Process::finish() {
     ::close(std::exchange(input_, -1));
-    words_reader_.join();   // ends when the program closes its standard error, which it does by ending
-    ::close(std::exchange(words_pipe_, -1));
+    // Not until its standard error is closed: a process that it started may hold that open.
+    while (words_pipe_ >= 0 && !has_ended(id_)) {
+        pollfd place{words_pipe_, POLLIN, 0};
+        ::poll(&place, 1, look_every);
+        read_words();
+    }
+    is_ended(id_, 0);
+    read_words();   // what it said last is in the pipe
+    if (words_pipe_ >= 0) ::close(std::exchange(words_pipe_, -1));
     const std::lock_guard lock(id_mutex_);
     ProcessEnd end = wait_for_process(std::exchange(id_, -1));
     while (!words_.empty() && (words_.back() == '\n' || words_.back() == '\r')) words_.pop_back();
@@ -210,26 +273,43 @@ ProcessEnd Process::finish() {
 
 void Process::kill() {
     const std::lock_guard lock(id_mutex_);
-    if (id_ >= 0) ::kill(id_, SIGKILL);
+    if (id_ >= 0) kill_group(id_);
+}
+
+ProgramOutput listen_to(pid_t id, int pipe, const std::function<bool()>& stop) {
+    ProgramOutput output;
+    bool open = true;
+    while (!has_ended(id)) {
+        pollfd place{open ? pipe : -1, POLLIN, 0};
+        ::poll(&place, 1, look_every);
+        open = open && read_waiting(pipe, output.text);
+        output.text.resize(std::min(output.text.size(), kept_output));
+        if (!stop()) continue;
+        output.stopped = true;
+        kill_group(id);
+        break;
+    }
+    output.end = wait_for_process(id);
+    if (open) read_waiting(pipe, output.text);
+    output.text.resize(std::min(output.text.size(), kept_output));
+    return output;
+}
+
+ProgramOutput run_program(const fs::path& program, const std::vector<std::string>& arguments,
+                          const std::function<bool()>& stop) {
+    Pipe output;
+    const pid_t id = start(program, arguments, -1, output.write, -1);
+    ::close(output.take_write());
+    return listen_to(id, output.read, stop);
 }
 
 std::optional<std::string> output_of(const fs::path& program, const std::vector<std::string>& arguments) {
-    Pipe output;
-    pid_t id = -1;
     try {
-        id = start(program, arguments, -1, output.write, -1);
+        const ProgramOutput output = run_program(program, arguments, [] { return false; });
+        if (output.end.ok()) return output.text;
     } catch (const RunError&) {
-        return std::nullopt;
     }
-    ::close(output.take_write());
-    std::string text;
-    std::array<char, 4096> part;
-    for (ssize_t n; (n = ::read(output.read, part.data(), part.size())) != 0;) {
-        if (n < 0 && errno != EINTR) break;
-        if (n > 0 && text.size() < (1 << 16)) text.append(part.data(), static_cast<std::size_t>(n));
-    }
-    if (!wait_for_process(id).ok()) return std::nullopt;
-    return text;
+    return std::nullopt;
 }
 
 }  // namespace tumble

@@ -3,15 +3,16 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace tumble {
@@ -33,6 +34,11 @@ struct ProcessEnd {
 /// Waits for the end of a child.
 ProcessEnd wait_for_process(pid_t id);
 
+/// Has the child ended? Its end is not taken: wait_for_process() tells it.
+bool has_ended(pid_t id);
+/// Waits for its end, but no longer than that.
+bool ends_within(pid_t id, std::chrono::milliseconds limit);
+
 /// A running program. It has its own process group, so that Ctrl-C reaches it only through us.
 class Process {
 public:
@@ -51,23 +57,39 @@ public:
     /// pages on by splice() may still have them).
     bool lend(std::shared_ptr<const std::byte> memory, std::size_t size);
 
-    /// Ends its input and waits for its end.
+    /// Ends its input and waits for its end. Processes that it started and left behind are not waited for.
     ProcessEnd finish();
 
-    /// Asks it to end at once; finish() then tells how it did. May be called from another thread.
+    /// Ends it at once, with all processes of its group; finish() then tells how it did. May be called from another thread.
     void kill();
 
 private:
-    void keep_words();
+    void read_words();
+    bool wait_for_room();        // in its input; false: it has ended
 
     pid_t id_ = -1;
-    std::mutex id_mutex_;        // kill() against the wait in finish()
+    std::mutex id_mutex_;        // kill() against the end of finish(), after which another process may have that number
     int input_ = -1;
     std::shared_ptr<const std::byte> lent_;   // may be in the pipe
-    int words_pipe_ = -1;
+    int words_pipe_ = -1;        // -1: closed, after all has been read
     std::string words_;
-    std::thread words_reader_;
 };
+
+/// What came of a child that was listened to.
+struct ProgramOutput {
+    std::string text;       // the start of what it wrote
+    ProcessEnd end;
+    bool stopped = false;   // it was killed, because it was asked to stop
+};
+
+/// Reads what a child writes into a pipe, until the child ends. `stop` is asked every few milliseconds: once it says true,
+/// the child's process group is killed.
+ProgramOutput listen_to(pid_t id, int pipe, const std::function<bool()>& stop);
+
+/// Runs a program, in a process group of its own, with nothing to read, and listens to its standard output. Throws RunError
+/// when it cannot be started.
+ProgramOutput run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                          const std::function<bool()>& stop);
 
 /// Runs a program to its end and returns the start of its standard output; nothing if it cannot run or fails.
 std::optional<std::string> output_of(const std::filesystem::path& program, const std::vector<std::string>& arguments);

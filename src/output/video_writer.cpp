@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "output/clip_check.h"
 #include "output/matroska_stream.h"
 
 #include <fmt/format.h>
@@ -87,6 +88,7 @@ void VideoWriter::finish() {
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
+    check(lossless_ ? *lossless_ : file_, format_.container, end);
     if (lossless_) convert_to_gif();
     file_.commit();
 }
@@ -100,6 +102,7 @@ void VideoWriter::convert_to_gif() {
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
+    check(file_, "gif", end);
     lossless_.reset();
 }
 
@@ -110,8 +113,16 @@ void VideoWriter::abandon() {
     if (gif_maker_) gif_maker_->kill();
 }
 
-void VideoWriter::fail(const ProcessEnd& end) const {
-    throw RunError(fmt::format("cannot write '{}': ffmpeg failed ({}){}{}", clip_.string(), end.describe(),
+void VideoWriter::check(const TemporaryFile& file, const std::string& container, const ProcessEnd& end) const {
+    if (is_written_in_place(file.path())) return;   // it is with its reader
+    const auto fault = fault_of_clip(file.path(), container, sent_);
+    if (fault) fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
+}
+
+void VideoWriter::fail(const ProcessEnd& end) const { fail(end, fmt::format("failed ({})", end.describe())); }
+
+void VideoWriter::fail(const ProcessEnd& end, const std::string& how) const {
+    throw RunError(fmt::format("cannot write '{}': {} {}{}{}", clip_.string(), program_.string(), how,
                                end.words.empty() ? "" : ":\n", end.words));
 }
 

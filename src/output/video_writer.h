@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace tumble {
 
@@ -39,7 +40,8 @@ public:
     /// The next frame is the same as the one before.
     void repeat();
 
-    /// Waits for ffmpeg and gives the clip its name. Throws RunError with ffmpeg's words where it failed.
+    /// Waits for ffmpeg, looks whether the clip is whole (clip_check.h) and gives it its name. Throws RunError with ffmpeg's words
+    /// where it is not.
     void finish();
 
     /// Stops ffmpeg at once, from any thread; a write() that waits comes back with an error.
@@ -52,7 +54,9 @@ public:
     std::int64_t frames_stored() const { return sent_; }
 
 private:
+    void check(const TemporaryFile& file, const std::string& container, const ProcessEnd& end) const;
     [[noreturn]] void fail(const ProcessEnd& end) const;
+    [[noreturn]] void fail(const ProcessEnd& end, const std::string& how) const;
     void advance();
     void send(std::int64_t frame);
     void send(std::span<const std::byte> bytes);

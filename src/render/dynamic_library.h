@@ -8,7 +8,8 @@ namespace tumble {
 
 class DynamicLibrary {
 public:
-    /// Opens the first of `names` that is there. Throws RunError naming them and the Debian package to install.
+    /// Opens the first of `names` that is there. Throws RunError with the reasons, and with the Debian package to install where
+    /// none is there; MemoryError where memory ran out.
     DynamicLibrary(std::span<const char* const> names, const std::string& package);
 
     /// The address of a function, or null.

@@ -1,6 +1,7 @@
 #include "render/osmesa_context.h"
 
 #include "core/error.h"
+#include "core/memory_limit.h"
 #include "render/dynamic_library.h"
 
 #include <GL/osmesa.h>
@@ -35,8 +36,8 @@ public:
                                   0};
         context_ = create(attributes, nullptr);
         if (context_ == nullptr)
-            throw RunError(fmt::format("OSMesa cannot make an OpenGL {}.{} core context; Mesa 20 or later is needed",
-                                       gl_major, gl_minor));
+            throw RunError(fmt::format("OSMesa cannot make an OpenGL {}.{} core context; Mesa 20 or later is needed{}",
+                                       gl_major, gl_minor, memory_limit_note()));
     }
 
     ~OsmesaContext() override { destroy_(context_); }

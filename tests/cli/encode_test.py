@@ -57,6 +57,16 @@ class Encode(program.ProgramTest):
         (self.folder / "in/frame_000001.png").write_bytes(program.png(40, 30)[:90])   # its head is good
         self.fails(2, "in/frame_000001.png: error: not a whole PNG")
 
+    def test_a_frame_that_is_a_pipe_or_device_is_refused(self):
+        self.frames(3)
+        frame = self.folder / "in/frame_000001.png"
+        for make in (lambda: os.mkfifo(frame), lambda: frame.symlink_to("/dev/zero"), lambda: frame.symlink_to("/dev/tty")):
+            frame.unlink()
+            make()
+            run = self.check(2, "encode", "in", "-o", "a.mp4", timeout=60)
+            self.assertIn("in/frame_000001.png: error: is no regular file", run.stderr)
+            self.assertFalse((self.folder / "a.mp4").exists())
+
     def test_other_files_do_not_matter(self):
         self.frames(2)
         for name in ("notes.txt", "frame_1.png", "frame_000007.jpg", "frame_00000x.png", ".frame_000002.part-1.png"):

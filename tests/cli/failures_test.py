@@ -4,11 +4,15 @@ under its final name, and the exit code is 1."""
 import os
 import pathlib
 import resource
+import shutil
 import signal
 import subprocess
 import time
 
 import program
+
+
+FFMPEG = shutil.which("ffmpeg")
 
 
 class Failures(program.ProgramTest):
@@ -38,7 +42,7 @@ class Failures(program.ProgramTest):
                        "/bin/cat >/dev/null; echo 'Unknown encoder' >&2; exit 4",
                        "/usr/bin/head -c 9000 >/dev/null; echo 'Unknown encoder' >&2; exit 4"):
             run = self.check(1, "render", "scene.toml", "-o", "a.mp4", env=self.with_ffmpeg(script))
-            self.assertIn("cannot write 'a.mp4': ffmpeg failed (exit code 4):\nUnknown encoder", run.stderr)
+            self.assertIn(f"cannot write 'a.mp4': {self.folder}/bin/ffmpeg failed (exit code 4):\nUnknown encoder", run.stderr)
             self.assertEqual(self.left(), [])
 
     def test_folders_that_cannot_be(self):
@@ -88,7 +92,7 @@ class Failures(program.ProgramTest):
             for size in (100, whole // 2, whole - 1):
                 run = self.check(1, "render", "scene.toml", "-o", name, "--size", "64x48", "--duration", "1",
                                  preexec_fn=self.limited(size))
-                self.assertIn(f"cannot write '{name}': ffmpeg failed", run.stderr)
+                self.assertIn(f"cannot write '{name}': {FFMPEG} failed", run.stderr)
                 self.assertEqual(self.names(), [])
 
     def started(self, *arguments):

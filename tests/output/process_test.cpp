@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -96,6 +98,113 @@ TEST(Process, CanBeKilledWhileItIsFed) {
     const ProcessEnd end = process.finish();
     EXPECT_EQ(end.signal, SIGKILL);
     EXPECT_EQ(end.describe(), "ended by signal 9 (Killed)");
+}
+
+/// The number that the script wrote, once it is there.
+pid_t number_in(const std::filesystem::path& file) {
+    for (int i = 0; i < 10'000; ++i) {
+        std::error_code missing;
+        if (std::filesystem::exists(file, missing) && std::filesystem::file_size(file) > 0) return std::stoi(read_text(file));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return -1;
+}
+
+// A zombie that no one waits for is gone too: who adopts it may be slow.
+bool is_gone(pid_t id) {
+    for (int i = 0; i < 10'000; ++i) {
+        const std::filesystem::path status = "/proc/" + std::to_string(id) + "/stat";
+        if (!std::filesystem::exists(status) || read_text(status).find(") Z ") != std::string::npos) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+// What a program starts and leaves behind may hold its pipes open for ever.
+TEST(Process, ItsEndIsNotThatOfAllThatItStarted) {
+    const TestFolder folder;
+    const std::string leave_behind = "sleep 1000 & echo $! > \"$0\"; ";
+    {
+        Process process(shell, {"-c", leave_behind + "echo done >&2; exit 5", (folder / "a").string()});
+        const ProcessEnd end = process.finish();
+        EXPECT_EQ(end.exit_code, 5);
+        EXPECT_EQ(end.words, "done");
+    }
+    {
+        Process process(shell, {"-c", leave_behind + "exit 6", (folder / "b").string()});
+        number_in(folder / "b");
+        const std::string text(8'000'000, 'x');
+        EXPECT_FALSE(process.write(bytes_of(text))) << "no one reads, but the pipe is open";
+        EXPECT_EQ(process.finish().exit_code, 6);
+    }
+    EXPECT_EQ(output_of(shell, {"-c", leave_behind + "echo said", (folder / "c").string()}), "said\n");
+    for (const char* name : {"a", "b", "c"}) {
+        const pid_t id = number_in(folder / name);
+        ASSERT_GT(id, 0);
+        EXPECT_EQ(kill(id, SIGKILL), 0) << "it is left alone";
+    }
+}
+
+TEST(Process, OneThatClosedItsErrorsIsWaitedForAndCanBeKilled) {
+    Process quick(shell, {"-c", "exec 2>&-; sleep .1; exit 4"});
+    EXPECT_EQ(quick.finish().exit_code, 4);
+
+    Process slow(shell, {"-c", "exec 2>&-; exec sleep 1000"});
+    std::thread killer([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        slow.kill();
+    });
+    EXPECT_EQ(slow.finish().signal, SIGKILL);
+    killer.join();
+}
+
+TEST(Process, KilledItTakesAlongWhatItStarted) {
+    const TestFolder folder;
+    Process process(shell, {"-c", "sleep 1000 & echo $! > \"$0\"; sleep 1000", (folder / "child").string()});
+    const pid_t child = number_in(folder / "child");
+    ASSERT_GT(child, 0);
+    process.kill();
+    EXPECT_EQ(process.finish().signal, SIGKILL);
+    EXPECT_TRUE(is_gone(child));
+}
+
+TEST(Process, WordsDoNotFillItsPipeWhileItIsFed) {
+    const TestFolder folder;
+    const std::string script = "i=0; while [ $i -lt 30000 ]; do echo line $i; i=$((i+1)); done >&2; cat > \"$0\"";
+    Process process(shell, {"-c", script, (folder / "out").string()});
+    const std::string text(3'000'000, 'x');
+    EXPECT_TRUE(process.write(bytes_of(text)));
+    const ProcessEnd end = process.finish();
+    EXPECT_TRUE(end.ok());
+    EXPECT_TRUE(end.words.ends_with("line 29999"));
+    EXPECT_EQ(read_text(folder / "out").size(), text.size());
+}
+
+TEST(Process, AProgramThatHangsIsStopped) {
+    const TestFolder folder;
+    int asked = 0;
+    const ProgramOutput output = run_program(shell, {"-c", "sleep 1000 & echo $! | tee \"$0\"; sleep 1000", (folder / "child").string()},
+                                             [&] { return number_in(folder / "child") > 0 && ++asked > 2; });
+    EXPECT_TRUE(output.stopped);
+    EXPECT_EQ(output.end.signal, SIGKILL);
+    EXPECT_EQ(output.text, read_text(folder / "child"));
+    EXPECT_TRUE(is_gone(number_in(folder / "child")));
+
+    EXPECT_FALSE(run_program("/bin/true", {}, [] { return false; }).stopped);
+}
+
+TEST(Process, ItsEndIsSeenWithoutTakingIt) {
+    const pid_t id = fork();
+    if (id == 0) {
+        ::pause();
+        ::_exit(0);
+    }
+    EXPECT_FALSE(has_ended(id));
+    EXPECT_FALSE(ends_within(id, std::chrono::milliseconds(30)));
+    kill(id, SIGTERM);
+    EXPECT_TRUE(ends_within(id, std::chrono::seconds(100)));
+    EXPECT_TRUE(has_ended(id));
+    EXPECT_EQ(wait_for_process(id).signal, SIGTERM);
 }
 
 TEST(Process, ForgottenItIsKilled) {

@@ -8,9 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <signal.h>
+
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <thread>
 
 namespace tumble {
 namespace {
@@ -262,10 +266,10 @@ private:
     TestFolder folder_;
 };
 
-std::string error_of_writing(const std::filesystem::path& clip) {
+std::string error_of_writing(const std::filesystem::path& clip, int width = 640, int height = 480) {
     try {
-        VideoWriter writer(clip, 640, 480, 30.0);
-        for (int n = 0; n < 20; ++n) writer.write(moving_box(640, 480, n));
+        VideoWriter writer(clip, width, height, 30.0);
+        for (int n = 0; n < 20; ++n) writer.write(moving_box(width, height, n));
         writer.finish();
     } catch (const RunError& error) {
         return error.what();
@@ -286,9 +290,78 @@ TEST(VideoWriter, ItsDeathIsReportedInItsWords) {
                                "/bin/cat > /dev/null; echo 'no such encoder' >&2; exit 3"}) {
         const OtherFfmpeg broken(script);
         const std::string error = error_of_writing(folder / "a.mp4");
-        EXPECT_NE(error.find("a.mp4': ffmpeg failed (exit code 3):\nno such encoder"), std::string::npos) << error;
+        EXPECT_NE(error.find("a.mp4': /"), std::string::npos) << error;
+        EXPECT_NE(error.find("/ffmpeg failed (exit code 3):\nno such encoder"), std::string::npos) << error;
         EXPECT_EQ(folder.files(), 0u);
     }
+}
+
+// Exit code 0 is a claim, the clip the proof.
+TEST(VideoWriter, AClipThatIsNotWholeIsAnError) {
+    const TestFolder folder, other;
+    write_clip(other / "short.mp4", 64, 48, 30.0, 4);
+    // The last of its arguments is "file:NAME".
+    const std::string out = "/bin/cat > /dev/null; for last; do :; done; out=${last#file:}; ";
+    const std::string real = "for last; do :; done; out=${last#file:}; /usr/bin/ffmpeg \"$@\" || exit; ";
+    for (const char* name : {"a.mp4", "a.mov", "a.mkv", "a.webm", "a.gif"}) {
+        const bool same_kind = std::string(name) == "a.mp4" || std::string(name) == "a.mov";
+        for (const auto& [script, reason] :
+             {std::pair<std::string, std::string>{"/bin/cat > /dev/null; echo 'all is well' >&2", "the file is empty"},
+              {out + "/bin/rm \"$out\"", "cannot be read: No such file"},
+              {out + "echo hello there > \"$out\"", "it is of another kind"},
+              {out + "/bin/cp " + (other / "short.mp4").string() + " \"$out\"",
+               same_kind ? "it has 4 frames of 20" : "it is of another kind"},
+              {real + "/usr/bin/truncate -s -1 \"$out\"", "the file ends too early"},
+              {real + "/usr/bin/truncate -s 100 \"$out\"", "the file ends too early"}}) {
+            SCOPED_TRACE(std::string(name) + ": " + script);
+            const OtherFfmpeg broken(script);
+            const std::string error = error_of_writing(folder / name, 64, 48);
+            EXPECT_NE(error.find("cannot write '"), std::string::npos) << error;
+            EXPECT_NE(error.find("/ffmpeg ended with exit code 0, but the clip is not whole: "), std::string::npos) << error;
+            EXPECT_NE(error.find(reason), std::string::npos) << error;
+            EXPECT_EQ(error.ends_with(":\nall is well"), script.find("all is well") != std::string::npos) << error;
+            EXPECT_EQ(folder.files(), 0u);
+        }
+    }
+}
+
+// The second run of ffmpeg, from the lossless frames to the GIF.
+TEST(VideoWriter, AGifThatIsNotWholeIsAnError) {
+    const TestFolder folder;
+    const OtherFfmpeg broken("for last; do :; done; case $last in *.gif) exit 0 ;; esac; exec /usr/bin/ffmpeg \"$@\"");
+    EXPECT_NE(error_of_writing(folder / "a.gif").find("the file is empty"), std::string::npos);
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+TEST(VideoWriter, WhatFfmpegLeavesRunningIsNotWaitedFor) {
+    const TestFolder folder, other;
+    for (const char* name : {"a.mp4", "a.gif"}) {
+        const OtherFfmpeg daemon("/bin/sleep 1000 & echo $! >> '" + (other / "left").string() + "'; exec /usr/bin/ffmpeg \"$@\"");
+        EXPECT_EQ(error_of_writing(folder / name), "");
+    }
+    EXPECT_EQ(folder.files(), 2u);
+    std::istringstream left(read_text(other / "left"));
+    int count = 0;
+    for (pid_t id = 0; left >> id; ++count) EXPECT_EQ(kill(id, SIGKILL), 0);
+    EXPECT_EQ(count, 3);
+}
+
+// A stopped program takes no more frames, and no notice of any signal but the one that kills it.
+TEST(VideoWriter, AStoppedFfmpegCanBeGivenUp) {
+    const TestFolder folder;
+    const OtherFfmpeg stopped("/bin/sleep 1000 & kill -STOP $$");
+    VideoWriter writer(folder / "a.mp4", 640, 480, 30.0);
+    std::thread giving_up([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        writer.abandon();
+    });
+    EXPECT_THROW(
+        {
+            for (int n = 0; n < 20; ++n) writer.write(moving_box(640, 480, n));
+            writer.finish();
+        },
+        RunError);
+    giving_up.join();
 }
 
 TEST(VideoWriter, AFolderThatIsNotThereIsNamed) {
