@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/say.h"
 #include "core/error.h"
 #include "core/image.h"
 #include "output/process.h"
@@ -101,8 +102,8 @@ Finding look_for_ffmpeg() {
 
 /// One line of the report, and one more with the remedy where it is needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
-    fmt::print("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : "MISSING", finding.text);
-    if (!finding.good) fmt::print("  {:<16} {:<8} try: {}\n", "", "", remedy);
+    put("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : "MISSING", finding.text);
+    if (!finding.good) put("  {:<16} {:<8} try: {}\n", "", "", remedy);
 }
 
 std::string versions() {
@@ -114,8 +115,8 @@ std::string versions() {
 }  // namespace
 
 int run_doctor() {
-    fmt::print("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
-    fmt::print("  {:<16} {}\n", "libraries", versions());
+    put("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
+    put("  {:<16} {}\n", "libraries", versions());
 
     const Finding shaders = look_for_shaders();
     const Finding osmesa = try_drawing(GlBackend::osmesa);
@@ -127,7 +128,7 @@ int run_doctor() {
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
     const bool able = shaders.good && osmesa.good && ffmpeg.good;
-    fmt::print("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
+    put("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
 }
 
