@@ -1,12 +1,14 @@
 // Where the AOVs go: aov_000000.npz, aov_000001.npz, ... and, with segmentation, the table of what its numbers mean.
 #pragma once
 
+#include "output/temporary_file.h"
 #include "render/aov/aov_kind.h"
 #include "scene/description.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,9 @@ namespace tumble {
 
 /// The file of frame n. Six digits, more where needed.
 std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame);
+
+/// The table of what the numbers of a segmentation mean.
+std::filesystem::path segmentation_table_path(const std::filesystem::path& folder);
 
 /// The numbers of those that are in a folder, ascending.
 std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder);
@@ -27,8 +32,9 @@ public:
     const std::filesystem::path& path() const { return folder_; }
     const AovSet& aovs() const { return aovs_; }
 
-    /// Writes one frame's file, and the table before the first. Throws RunError naming the file.
-    void write(std::int64_t frame, std::span<const std::byte> file);
+    /// One frame's file, written and not yet published; the table is written before the first. Throws RunError naming the
+    /// file.
+    std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
 private:
     void write_table() const;

@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/say.h"
 #include "app/stage_time.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -156,9 +157,9 @@ Finding look_for_ffmpeg(Patience& patience) try {
 
 /// One line of the report, and one more with the remedy where it is needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
-    fmt::print("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : finding.can_be_installed ? "MISSING" : "FAILS",
+    put("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : finding.can_be_installed ? "MISSING" : "FAILS",
                finding.text);
-    if (!finding.good && finding.can_be_installed) fmt::print("  {:<16} {:<8} try: {}\n", "", "", remedy);
+    if (!finding.good && finding.can_be_installed) put("  {:<16} {:<8} try: {}\n", "", "", remedy);
 }
 
 std::string versions() {
@@ -171,8 +172,8 @@ std::string versions() {
 
 int run_doctor(const DoctorCommand& command) {
     Patience patience(command.time_limit);
-    fmt::print("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
-    fmt::print("  {:<16} {}\n", "libraries", versions());
+    put("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
+    put("  {:<16} {}\n", "libraries", versions());
 
     const Finding shaders = look_for_shaders();
     const Finding osmesa = try_drawing(GlBackend::osmesa, patience);
@@ -185,7 +186,7 @@ int run_doctor(const DoctorCommand& command) {
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
     const bool able = shaders.good && osmesa.good && ffmpeg.good;
-    fmt::print("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
+    put("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
 }
 

@@ -2,8 +2,10 @@
 #include "app/commands.h"
 #include "app/frame_folder.h"
 #include "app/interrupt.h"
+#include "app/output_plan.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/say.h"
 #include "app/stage_group.h"
 #include "core/error.h"
 #include "output/png_reader.h"
@@ -12,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdio>
 #include <system_error>
 
 namespace tumble {
@@ -83,6 +84,9 @@ void run_encode(const EncodeCommand& command) {
     video_format(command.clip, command.fps);
     PictureSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
+    OutputPlan plan;
+    for (std::int64_t n = 0; n < frames; ++n) plan.add_input(frame_path(command.frames, n));
+    plan.add("--output", command.clip);
     find_ffmpeg();
 
     Interrupt interrupt;
@@ -92,7 +96,7 @@ void run_encode(const EncodeCommand& command) {
         encode(command.frames, frames, video, interrupt, progress);
     }
     if (!command.quiet)
-        fmt::print(stderr, "wrote {}: {} frames of {} x {}\n", command.clip.string(), video.frames_in_clip(), size.width,
+        say("wrote {}: {} frames of {} x {}\n", command.clip.string(), video.frames_in_clip(), size.width,
                    size.height);
 }
 

@@ -1,7 +1,7 @@
 #include "app/frame_folder.h"
 
 #include "core/error.h"
-#include "output/temporary_file.h"
+#include "output/part_file.h"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,15 @@
 #include <system_error>
 
 namespace tumble {
-namespace {
 
 namespace fs = std::filesystem;
 
-/// The n of "frame_N.png" with six digits or more, if that is what the name is.
-std::optional<std::int64_t> number_of(const std::string& name, std::string_view before, std::string_view after) {
+fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder / fmt::format("frame_{:06}.png", frame); }
+
+std::vector<std::int64_t> frames_in(const fs::path& folder) { return numbers_in(folder, "frame_", ".png"); }
+
+/// Of six digits or more.
+std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after) {
     if (!name.starts_with(before) || !name.ends_with(after) || name.size() < before.size() + after.size())
         return std::nullopt;
     const char* first = name.data() + before.size();
@@ -28,42 +31,46 @@ std::optional<std::int64_t> number_of(const std::string& name, std::string_view 
     return number;
 }
 
-}  // namespace
-
-fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder / fmt::format("frame_{:06}.png", frame); }
-
-std::vector<std::int64_t> frames_in(const fs::path& folder) { return numbers_in(folder, "frame_", ".png"); }
-
 std::vector<std::int64_t> numbers_in(const fs::path& folder, std::string_view before, std::string_view after) {
     std::error_code error;
     std::vector<std::int64_t> numbers;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-        if (const auto number = number_of(entry->path().filename().string(), before, after)) numbers.push_back(*number);
+        if (const auto number = number_in(entry->path().filename().string(), before, after)) numbers.push_back(*number);
     if (error) throw InputError({folder.string(), 0, 0}, "cannot be read as a folder: " + error.message());
     std::sort(numbers.begin(), numbers.end());
     return numbers;
 }
 
 FrameFolder::FrameFolder(const fs::path& folder) : folder_(folder) {
-    std::error_code error;
-    std::vector<fs::path> missing;
-    for (fs::path p = fs::absolute(folder).lexically_normal(); !p.empty() && !fs::exists(p, error); p = p.parent_path())
-        missing.push_back(p);
-    for (auto p = missing.rbegin(); p != missing.rend(); ++p)
-        if (fs::create_directory(*p, error)) made_.push_back(*p);
     try {
-        if (!fs::is_directory(folder, error)) {
-            if (!error) error = std::make_error_code(std::errc::not_a_directory);
-            throw RunError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
-        }
-        const TemporaryFile probe(frame_path(folder, 0));   // only trying tells whether a file can be made there
+        make();
+        lock_.emplace(folder);
     } catch (...) {
         remove_empty();
         throw;
     }
+    remove_left_parts(folder, [](std::string_view name) {
+        return number_in(name, "frame_", ".png") || number_in(name, "aov_", ".npz");
+    });
 }
 
-FrameFolder::~FrameFolder() { remove_empty(); }
+void FrameFolder::make() {
+    std::error_code error;
+    std::vector<fs::path> missing;
+    for (fs::path p = fs::absolute(folder_).lexically_normal(); fs::status(p, error).type() == fs::file_type::not_found;
+         p = p.parent_path())
+        missing.push_back(p);
+    std::error_code failed;
+    for (auto p = missing.rbegin(); p != missing.rend() && !failed; ++p)
+        if (fs::create_directory(*p, failed)) made_.push_back(*p);
+    if (!failed && !fs::is_directory(folder_, failed) && !failed) failed = std::make_error_code(std::errc::not_a_directory);
+    if (failed) throw RunError(fmt::format("cannot make the folder '{}': {}", folder_.string(), failed.message()));
+}
+
+FrameFolder::~FrameFolder() {
+    lock_.reset();
+    remove_empty();
+}
 
 void FrameFolder::remove_empty() const {
     std::error_code not_empty;

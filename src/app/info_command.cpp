@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/say.h"
 #include "app/stage_time.h"
 #include "core/error.h"
 #include "sim/world.h"
@@ -59,21 +60,21 @@ std::string camera_motion(const SceneDescription& scene) {
 }
 
 void print_head(const SceneDescription& scene) {
-    fmt::print("{}{}\n", scene.title.empty() ? scene.file : scene.title,
+    put("{}{}\n", scene.title.empty() ? scene.file : scene.title,
                scene.title.empty() ? "" : " (" + scene.file + ")");
     const std::int64_t frames = scene.frame_count();
     const int steps = scene.simulation.steps_per_frame;
-    fmt::print("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
+    put("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
                scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
-    fmt::print("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
+    put("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
                scene.output.samples, scene.light.shadows ? "on" : "off");
-    fmt::print("  camera    from {} to {}, {:.4g} degrees high{}\n", vector_text(scene.camera.eye),
+    put("  camera    from {} to {}, {:.4g} degrees high{}\n", vector_text(scene.camera.eye),
                vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
-    fmt::print("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
+    put("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
     if (scene.wind)
-        fmt::print("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
+        put("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
                    scene.wind->density, scene.wind->drag);
-    if (!scene.forces.empty()) fmt::print("  forces    {} at points of bodies\n", scene.forces.size());
+    if (!scene.forces.empty()) put("  forces    {} at points of bodies\n", scene.forces.size());
 }
 
 void print_groups(const SceneDescription& scene, const World& world) {
@@ -88,17 +89,17 @@ void print_groups(const SceneDescription& scene, const World& world) {
         ++group.count;
         group.mass += world.report(i).mass;
     }
-    fmt::print("\n{} bodies\n", scene.bodies.size());
+    put("\n{} bodies\n", scene.bodies.size());
     for (const auto& [key, group] : groups) {
-        fmt::print("  {:>7} {} {}", group.count, type_text(key.first), key.second);
-        if (key.first == BodyType::dynamic) fmt::print(", {:.6g} kg in all", group.mass);
-        fmt::print("\n");
+        put("  {:>7} {} {}", group.count, type_text(key.first), key.second);
+        if (key.first == BodyType::dynamic) put(", {:.6g} kg in all", group.mass);
+        put("\n");
     }
 }
 
 void print_bodies(const SceneDescription& scene, const World& world) {
     if (scene.bodies.empty()) return;
-    fmt::print("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
+    put("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
                "principal inertia (kg m^2)", "hull");
     const std::size_t count = std::min(scene.bodies.size(), listed_bodies);
     for (std::size_t i = 0; i < count; ++i) {
@@ -106,13 +107,13 @@ void print_bodies(const SceneDescription& scene, const World& world) {
         const BodyReport report = world.report(i);
         const ShapeText shape = shape_text(body.shape);
         const bool moves = body.type == BodyType::dynamic;
-        fmt::print("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", body.name, type_text(body.type), shape.kind,
+        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", body.name, type_text(body.type), shape.kind,
                    shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
                    moves ? vector_text(report.principal_inertia) : "-",
                    report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
     }
-    if (count < scene.bodies.size()) fmt::print("  ... and {} more\n", scene.bodies.size() - count);
-    fmt::print("  hull: vertices of the convex shape that collides\n");
+    if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
+    put("  hull: vertices of the convex shape that collides\n");
 }
 
 /// Steps the world for a moment, and takes that for the whole: heaps that form later cost more.
@@ -138,11 +139,11 @@ void print_cost(const SceneDescription& scene, World& world) {
     const double pixels = double(scene.output.width) * scene.output.height;
     // Colour and depth of each sample, the resolved picture, and the pictures on their way.
     const double drawing = pixels * (8.0 * scene.output.samples + 8.0) + pixels * 4.0 * frames_in_flight;
-    fmt::print("\ncost\n");
-    fmt::print("  simulation  {}\n", simulation_cost(scene, world));
-    fmt::print("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
+    put("\ncost\n");
+    put("  simulation  {}\n", simulation_cost(scene, world));
+    put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
                1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
-    fmt::print("  memory      about {:.3g} MiB for pictures, for any number of frames\n", drawing / (1024.0 * 1024.0));
+    put("  memory      about {:.3g} MiB for pictures, for any number of frames\n", drawing / (1024.0 * 1024.0));
 }
 
 }  // namespace

@@ -1,31 +1,33 @@
 #include "app/options.h"
+#include "app/say.h"
 #include "app/standard_streams.h"
 #include "core/error.h"
 
-#include <fmt/format.h>
-
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <new>
 
 int main(int argc, char** argv) {
     tumble::open_missing_standard_streams();
-    // A file that grows beyond the user's limit is then an error of the write that did it, like a full disk.
+    // A file that grows beyond the user's limit, and a pipe whose reader is gone, are then errors of the write that met
+    // them, like a full disk.
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     try {
-        return tumble::run_command_line(argc, argv);
+        const int code = tumble::run_command_line(argc, argv);
+        tumble::finish_standard_output();
+        return code;
     } catch (const tumble::InputError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        tumble::say("{}\n", error.what());
         return 2;
     } catch (const tumble::RunError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        tumble::say("{}\n", error.what());
         return 1;
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "error: out of memory\n");
+        tumble::say_text("error: out of memory\n");
         return 1;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
+        tumble::say("error: {}\n", error.what());
         return 1;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/exposure.h"
+#include "app/say.h"
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <sstream>
 #include <string>
 
 namespace tumble {
@@ -262,7 +264,11 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
+        std::ostringstream asked_for, wrong;
+        const int code = app.exit(error, asked_for, wrong);
+        put_text(asked_for.str());
+        say_text(wrong.str());
+        return code == 0 ? 0 : 2;
     }
     if (!line.render_size.empty()) read_size(line.render_size, line.render.overrides);
     if (render->get_option("--aov")->count() > 0) line.render.aovs = read_aovs(line.aovs);

@@ -6,7 +6,9 @@
 #include "output/temporary_file.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -21,6 +23,12 @@ constexpr auto supervision_period = std::chrono::milliseconds(50);
 std::size_t poses_that_may_wait(std::size_t bodies, const Shutter& shutter) {
     const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.moments);
     return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
+}
+
+template <class Work>
+auto timed(StageTime& time, const Work& work) {
+    const StageTimer timer(time);
+    return work();
 }
 
 }  // namespace
@@ -54,6 +62,8 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
         for_png_.cancel();
         for_aovs_.cancel();
         for_video_.cancel();
+        frame_files_.cancel();
+        aov_files_.cancel();
         drawer_.abandon();
         if (video_ != nullptr) video_->abandon();
     });
@@ -65,10 +75,21 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
         for_aovs_.close();
         for_video_.close();
     });
-    if (folder_ != nullptr) stages.start([this] { write_frames(); });
-    if (aovs_ != nullptr) stages.start([this] { write_aovs(); });
+    const auto publish = [&](PublishQueue& files, StageTime& time) {
+        for (int i = 0; i < PublishQueue::threads; ++i) stages.start([&] { files.run(time); });
+    };
+    if (folder_ != nullptr) {
+        stages.start([this] { write_frames(); });
+        publish(frame_files_, times_.files);
+    }
+    if (aovs_ != nullptr) {
+        stages.start([this] { write_aovs(); });
+        publish(aov_files_, times_.aov_files);
+    }
     if (video_ != nullptr) stages.start([this] { write_video(); });
     supervise(stages, interrupt, [&] { report(finished()); });
+    if (folder_ != nullptr) bring_to_disk(folder_->path());
+    if (aovs_ != nullptr) bring_to_disk(aovs_->path());
 }
 
 void Pipeline::simulate() {
@@ -116,20 +137,27 @@ bool Pipeline::hand_on(const Frame& frame) {
     return video_ == nullptr || for_video_.push(frame);
 }
 
+// The slot of a frame is free when its file is written; until it is on the disk may take longer than drawing the next.
 void Pipeline::write_frames() {
-    while (const std::optional<Frame> frame = for_png_.pop()) {
-        const StageTimer timer(times_.files);
-        write_file(frame_path(folder_->path(), frame->number), frame->png);
-        ++written_;
+    while (std::optional<Frame> frame = for_png_.pop()) {
+        auto file = timed(times_.files, [&] {
+            auto part = std::make_unique<TemporaryFile>(frame_path(folder_->path(), frame->number), LeftParts::kept);
+            part->write(frame->png);
+            return part;
+        });
+        frame.reset();
+        if (!frame_files_.put(std::move(file))) return;
     }
+    frame_files_.close();
 }
 
 void Pipeline::write_aovs() {
-    while (const std::optional<Frame> frame = for_aovs_.pop()) {
-        const StageTimer timer(times_.aov_files);
-        aovs_->write(frame->number, frame->aovs);
-        ++aovs_written_;
+    while (std::optional<Frame> frame = for_aovs_.pop()) {
+        auto file = timed(times_.aov_files, [&] { return aovs_->write(frame->number, frame->aovs); });
+        frame.reset();
+        if (!aov_files_.put(std::move(file))) return;
     }
+    aov_files_.close();
 }
 
 void Pipeline::write_video() {
@@ -147,8 +175,8 @@ void Pipeline::write_video() {
 
 std::int64_t Pipeline::finished() const {
     std::int64_t done = frames_.count();
-    if (folder_ != nullptr) done = std::min(done, written_.load());
-    if (aovs_ != nullptr) done = std::min(done, aovs_written_.load());
+    if (folder_ != nullptr) done = std::min(done, frame_files_.published());
+    if (aovs_ != nullptr) done = std::min(done, aov_files_.published());
     if (video_ != nullptr) done = std::min(done, filmed_.load());
     return done;
 }

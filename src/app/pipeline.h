@@ -13,6 +13,7 @@
 #include "app/drawer.h"
 #include "app/frame_folder.h"
 #include "app/frame_range.h"
+#include "app/publish_queue.h"
 #include "app/stage_time.h"
 #include "output/video_writer.h"
 #include "scene/description.h"
@@ -44,7 +45,7 @@ public:
              AovFolder* aovs = nullptr, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
-    /// Throws the first error of any stage; RunError when interrupted. Frames written by then are whole, and stay.
+    /// Throws the first error of any stage; RunError when interrupted. Frames published by then are whole, and stay.
     void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
 
     const PipelineTimes& times() const { return times_; }
@@ -68,7 +69,8 @@ private:
     Shutter shutter_;
     BoundedQueue<Exposure> poses_;
     BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
-    std::atomic<std::int64_t> written_{0}, aovs_written_{0}, filmed_{0};
+    PublishQueue frame_files_, aov_files_;
+    std::atomic<std::int64_t> filmed_{0};
     PipelineTimes times_;
 };
 

@@ -1,5 +1,6 @@
 #include "app/progress.h"
 
+#include "app/say.h"
 #include "app/stage_time.h"
 
 #include <fmt/format.h>
@@ -9,18 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tumble {
 namespace {
 
 constexpr double bar_period = 0.1;    // s between two bars
 constexpr double line_period = 5.0;   // s between two lines of a log
-
-void say(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
-}
 
 int terminal_columns() {
     winsize size{};
@@ -40,7 +35,7 @@ Progress::Progress(std::int64_t total, bool quiet)
     : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), start_(wall_seconds()), last_shown_(start_) {}
 
 Progress::~Progress() {
-    if (bar_shown_) say("\r\033[K");
+    if (bar_shown_) say_text("\r\033[K");
 }
 
 void Progress::update(std::int64_t done) {
@@ -68,10 +63,10 @@ void Progress::draw_bar(std::int64_t done, double now) {
         const int full = int(part * width);
         bar = fmt::format("[{:#<{}}{:.<{}}]", "", full, "", width - full);
     }
-    say("\r" + bar + text + "\033[K");
+    say_text("\r" + bar + text + "\033[K");
     bar_shown_ = true;
 }
 
-void Progress::print_line(std::int64_t done, double now) const { say(figures(done, now) + "\n"); }
+void Progress::print_line(std::int64_t done, double now) const { say_text(figures(done, now) + "\n"); }
 
 }  // namespace tumble

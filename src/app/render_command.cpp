@@ -1,8 +1,9 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/output_path.h"
+#include "app/output_plan.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/say.h"
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
@@ -12,7 +13,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <string>
+#include <system_error>
 
 namespace tumble {
 namespace {
@@ -35,13 +37,13 @@ struct Summary {
 
     void print() const {
         if (video != nullptr)
-            fmt::print(stderr, "wrote {}: {} frames of {} x {}{}{}\n", clip->string(), video->frames_in_clip(),
+            say("wrote {}: {} frames of {} x {}{}{}\n", clip->string(), video->frames_in_clip(),
                        scene.output.width, scene.output.height, every_so_manieth(), stored());
         if (folder != nullptr)
-            fmt::print(stderr, "wrote {} to {}\n", frame_path(folder->path(), frames.first).string(),
+            say("wrote {} to {}\n", frame_path(folder->path(), frames.first).string(),
                        frame_path(folder->path(), frames.end - 1).filename().string());
         if (aovs != nullptr)
-            fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), frames.first).string(),
+            say("wrote {} to {}: {}\n", aov_path(aovs->path(), frames.first).string(),
                        aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
         print_times();
         if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
@@ -72,7 +74,7 @@ struct Summary {
                                 t.video.cpu.load() + video->encoder_seconds());
         rusage used{};
         getrusage(RUSAGE_SELF, &used);
-        fmt::print(stderr, "{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
+        say("{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
     }
 
     /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
@@ -80,7 +82,7 @@ struct Summary {
                      fs::path (&path)(const fs::path&, std::int64_t)) const {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
         if (older != there.end())
-            fmt::print(stderr, "note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
+            say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
                        path(where, *older).string());
     }
 };
@@ -95,12 +97,25 @@ std::optional<fs::path> aov_folder(const RenderCommand& command) {
     return command.aov_folder ? command.aov_folder : command.frames;
 }
 
+/// Throws InputError where outputs would replace each other or what is read.
+void check_outputs(const RenderCommand& command, const FileList& inputs, const FrameRange& frames,
+                   const std::optional<fs::path>& clip, const std::optional<fs::path>& aovs_to) {
+    OutputPlan plan;
+    for (const fs::path& file : inputs) plan.add_input(file);
+    if (clip) plan.add("--output", *clip);
+    if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
+    if (command.frames)
+        plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
+    if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
+}
+
 }  // namespace
 
 void run_render(const RenderCommand& command) {
     const double start = wall_seconds();
     const std::optional<fs::path> aovs_to = aov_folder(command);
-    SceneDescription scene = load_scene(command.scene, command.overrides);
+    FileList inputs;
+    SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
     const double clip_fps = scene.output.fps;
     apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
     const FrameRange frames = frames_from(scene, command.start);
@@ -111,10 +126,10 @@ void run_render(const RenderCommand& command) {
     // What can be wrong with the outputs is found out before anything is simulated or written.
     FrameForms forms{std::nullopt, command.frames.has_value(), command.aovs};
     if (clip) {
-        check_output("--output", *clip, command.scene);
         forms.video = video_format(*clip, clip_fps).pixels;
         find_ffmpeg();
     }
+    check_outputs(command, inputs, frames, clip, aovs_to);
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
     Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, frames.count())),
@@ -128,7 +143,8 @@ void run_render(const RenderCommand& command) {
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;
-    if (aovs_to && aovs_to != command.frames) own_aov_folder.emplace(*aovs_to);
+    std::error_code missing;
+    if (aovs_to && !(folder && fs::equivalent(*aovs_to, folder->path(), missing))) own_aov_folder.emplace(*aovs_to);
     std::optional<AovFolder> aovs;
     if (aovs_to) aovs.emplace(*aovs_to, scene, command.aovs);
     std::optional<VideoWriter> video;

@@ -1,7 +1,8 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
-#include "app/output_path.h"
+#include "app/output_plan.h"
 #include "app/progress.h"
+#include "app/say.h"
 #include "app/stage_time.h"
 #include "core/error.h"
 #include "output/table_writer.h"
@@ -9,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -88,13 +89,12 @@ private:
 
 void run_simulate(const SimulateCommand& command) {
     const double start = wall_seconds();
-    const SceneDescription scene = load_scene(command.scene, command.overrides);
-    const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); };
-    if (command.trajectory && command.energy && whole(*command.trajectory) == whole(*command.energy))
-        throw InputError(fmt::format("--trajectory and --energy must be two files (both are '{}')",
-                                     command.trajectory->string()));
-    if (command.trajectory) check_output("--trajectory", *command.trajectory, command.scene);
-    if (command.energy) check_output("--energy", *command.energy, command.scene);
+    FileList inputs;
+    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    OutputPlan plan;
+    for (const auto& file : inputs) plan.add_input(file);
+    if (command.trajectory) plan.add("--trajectory", *command.trajectory);
+    if (command.energy) plan.add("--energy", *command.energy);
     const std::int64_t frames = scene.frame_count();
     {
         Watch watch(frames, command.quiet);
@@ -116,8 +116,8 @@ void run_simulate(const SimulateCommand& command) {
     if (command.quiet) return;
     const double seconds = wall_seconds() - start;
     for (const auto& file : {command.trajectory, command.energy})
-        if (file) fmt::print(stderr, "wrote {}\n", file->string());
-    fmt::print(stderr, "{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
+        if (file) say("wrote {}\n", file->string());
+    say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
                (frames - 1) * scene.simulation.steps_per_frame, scene.step(), seconds,
                double(frames - 1) / scene.output.fps / seconds);
 }

@@ -190,11 +190,11 @@ std::string ProcessEnd::describe() const {
     return fmt::format("exit code {}", exit_code);
 }
 
-Process::Process(const fs::path& program, const std::vector<std::string>& arguments) {
+Process::Process(const fs::path& program, const std::vector<std::string>& arguments, std::optional<int> output) {
     Pipe input, words;
     ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused at the user's limit: then it stays small
     ::fcntl(input.write, F_SETFL, O_NONBLOCK);             // our end only: what waits for the program also looks for its end
-    id_ = start(program, arguments, input.read, -1, words.write);
+    id_ = start(program, arguments, input.read, output.value_or(-1), words.write);
     input_ = input.take_write();
     words_pipe_ = words.take_read();
 }

@@ -42,8 +42,9 @@ bool ends_within(pid_t id, std::chrono::milliseconds limit);
 /// A running program. It has its own process group, so that Ctrl-C reaches it only through us.
 class Process {
 public:
-    /// Starts it; standard output goes nowhere. Throws RunError when it cannot be started.
-    Process(const std::filesystem::path& program, const std::vector<std::string>& arguments);
+    /// Starts it; standard output goes to a descriptor, or nowhere. Throws RunError when it cannot be started.
+    Process(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+            std::optional<int> output = std::nullopt);
     /// A program that still runs is killed.
     ~Process();
     Process(const Process&) = delete;

@@ -14,29 +14,12 @@
 #include <chrono>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& path, int error) {
-    throw RunError(fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)));
-}
-
-/// A link is written through: the name it points to is the one to replace, or to make.
-fs::path resolved(const fs::path& path) {
-    constexpr int most_links = 40;   // Linux's own limit
-    std::error_code error;
-    if (fs::exists(path, error)) {
-        if (!fs::is_symlink(path, error)) return path;
-        const fs::path target = fs::canonical(path, error);
-        return error ? path : target;
-    }
-    fs::path name = path;
-    for (int i = 0; i < most_links && fs::is_symlink(name, error); ++i) name = name.parent_path() / fs::read_symlink(name, error);
-    return name;
-}
 
 // The app layer lets Ctrl-C wait, so that it ends none of the system's calls: it is looked for, and taken.
 void stop_if_interrupted() {
@@ -61,6 +44,16 @@ int open_pipe(const fs::path& path) {
     }
 }
 
+/// A pipe is opened anew where it can be, so as not to block: what others hold of it stays as it is.
+int copy_of_descriptor(int descriptor) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) == 0 && S_ISFIFO(status.st_mode)) {
+        const int file = ::open(fmt::format("/proc/self/fd/{}", descriptor).c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+        if (file >= 0) return file;
+    }
+    return ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+}
+
 void wait_until_read(int pipe) {
     pollfd place{pipe, POLLOUT, 0};
     if (::poll(&place, 1, look_every) <= 0) stop_if_interrupted();
@@ -68,28 +61,27 @@ void wait_until_read(int pipe) {
 
 }  // namespace
 
-bool is_written_in_place(const fs::path& path) {
+TemporaryFile::TemporaryFile(const fs::path& final_path, LeftParts left) : target_(output_target(final_path)) {
     std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    return fs::is_character_file(status) || fs::is_fifo(status) || fs::is_socket(status) || fs::is_block_file(status);
-}
-
-TemporaryFile::TemporaryFile(const fs::path& final_path) : final_path_(resolved(final_path)) {
-    std::error_code ignored;
-    if (fs::is_directory(final_path_, ignored)) fail(final_path_, EISDIR);
-    in_place_ = is_written_in_place(final_path_);
-    // The process number keeps two runs that write to one name apart.
-    path_ = in_place_ ? final_path_
-                      : final_path_.parent_path() / fmt::format(".{}.part-{}{}", final_path_.stem().string(), getpid(),
-                                                                final_path_.extension().string());
-    const int how = in_place_ ? O_WRONLY : O_WRONLY | O_CREAT | O_TRUNC;
-    file_ = fs::is_fifo(path_, ignored) ? open_pipe(path_) : ::open(path_.c_str(), how | O_CLOEXEC, 0666);
-    if (file_ < 0) fail(final_path_, errno);
+    if (fs::is_directory(target_.path, ignored)) fail(EISDIR);
+    if (target_.descriptor) {
+        const int how = ::fcntl(*target_.descriptor, F_GETFL);
+        if (how >= 0 && (how & O_ACCMODE) == O_RDONLY) fail(EBADF);
+        file_ = copy_of_descriptor(*target_.descriptor);
+    } else if (target_.in_place) {
+        // Of a regular file only another process's descriptor is written in place: what is there already stays.
+        file_ = fs::is_fifo(target_.path, ignored) ? open_pipe(target_.path)
+                                                   : ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    } else {
+        if (left == LeftParts::removed) remove_left_parts(target_.path);
+        part_.emplace(target_.path);
+        file_ = part_->descriptor();
+    }
+    if (file_ < 0) fail(errno);
 }
 
 TemporaryFile::~TemporaryFile() {
-    if (file_ >= 0) ::close(file_);
-    if (!done_ && !in_place_) ::unlink(path_.c_str());
+    if (!part_ && file_ >= 0) ::close(file_);
 }
 
 void TemporaryFile::write(std::span<const std::byte> bytes) {
@@ -100,22 +92,45 @@ void TemporaryFile::write(std::span<const std::byte> bytes) {
             wait_until_read(file_);
             continue;
         }
-        if (n < 0) fail(final_path_, errno);
+        if (n < 0) fail(errno);
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }
 }
 
-void TemporaryFile::close_file() {
-    const int file = file_;
-    file_ = -1;
-    // Network file systems report a full disk only here.
-    if (::close(file) != 0 && errno != EINTR) fail(final_path_, errno);
+void TemporaryFile::begin_sync() {
+    if (part_) ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);   // sync() tells of errors
+}
+
+void TemporaryFile::sync() {
+    // Not every file system brings single files to the disk.
+    while (part_ && ::fsync(file_) != 0)
+        if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP) break;
+        else if (errno != EINTR) fail(errno);
+}
+
+void TemporaryFile::publish() {
+    if (part_) {
+        part_->move_to_final_path();
+    } else if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) {
+        fail(errno);
+    }
 }
 
 void TemporaryFile::commit() {
-    close_file();
-    if (!in_place_ && ::rename(path_.c_str(), final_path_.c_str()) != 0) fail(final_path_, errno);
-    done_ = true;
+    sync();
+    publish();
+    if (part_) bring_to_disk(target_.path.parent_path());
+}
+
+void TemporaryFile::fail(int error) const {
+    throw RunError(fmt::format("cannot write '{}': {}", target_.path.string(), std::generic_category().message(error)));
+}
+
+void bring_to_disk(const fs::path& folder) {
+    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return;   // a folder that can be written but not read
+    ::fsync(file);
+    ::close(file);
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> bytes) {

@@ -1,7 +1,7 @@
 #include "output/video_format.h"
 
 #include "core/error.h"
-#include "output/temporary_file.h"
+#include "output/output_target.h"
 #include "output/yuv420.h"
 
 #include <fmt/format.h>
@@ -25,7 +25,9 @@ constexpr double fastest_gif = 50.0;               // its delays are whole 1/100
 void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 /// ffmpeg takes "name:rest" for a protocol and a leading "-" for an option; this form is always a file.
-std::string file_argument(const fs::path& path) { return "file:" + path.string(); }
+std::string file_argument(const fs::path& path) {
+    return path == clip_to_standard_output ? "pipe:1" : "file:" + path.string();
+}
 
 /// Without -xerror, ffmpeg 5.1 ends with exit code 0 when the disk was full at the end of the clip.
 Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
@@ -109,7 +111,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
                                          slowest, limit, fps,
                                          limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
 
-    if (has_its_head_last(format) && is_written_in_place(clip))
+    if (has_its_head_last(format) && output_target(clip).in_place)
         throw InputError(at, fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
                                          ".mkv, .webm and .gif can", ending));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));

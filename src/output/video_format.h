@@ -52,6 +52,9 @@ struct VideoFormat {
 /// Throws InputError where the ending is unknown, or the format cannot keep so many or so few frames a second.
 VideoFormat video_format(const std::filesystem::path& clip, double fps);
 
+/// In place of the output below: ffmpeg's own standard output. By a name it would open, and empty, a file that stands there.
+constexpr const char* clip_to_standard_output = "/dev/stdout";
+
 /// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`.
 /// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
 /// when all frames are, and reading them twice keeps memory flat.

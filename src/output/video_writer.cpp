@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr double longest_frame = 1.0;   // s: players jump to frames, and streams start with one
 
-/// A name beside the clip that no one else has in mind: what is there under it would be written to if it were a pipe.
-fs::path lossless_name(const fs::path& clip) { return clip.parent_path() / fmt::format(".{}.lossless.mkv", clip.filename().string()); }
-
 }  // namespace
 
 fs::path find_ffmpeg() {
@@ -38,8 +35,12 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
       longest_(times == FrameTimes::constant_rate
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
-    if (format_.kind == VideoKind::gif) lossless_.emplace(lossless_name(clip));
-    encoder_.emplace(program_, encoding_arguments(format_, lossless_ ? lossless_->path() : file_.path()));
+    if (format_.kind == VideoKind::gif) {
+        remove_left_parts(clip);
+        lossless_.emplace(clip);
+    }
+    if (lossless_) encoder_.emplace(program_, encoding_arguments(format_, lossless_->path()));
+    else encoder_.emplace(program_, encoding_arguments(format_, argument_of_clip()), file_.descriptor());
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
@@ -97,13 +98,17 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was given up", clip_.string()));
-        gif_maker_.emplace(program_, gif_arguments(lossless_->path(), file_.path()));
+        gif_maker_.emplace(program_, gif_arguments(lossless_->path(), argument_of_clip()), file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
     check(file_, "gif", end);
     lossless_.reset();
+}
+
+fs::path VideoWriter::argument_of_clip() const {
+    return file_.descriptor() ? fs::path(clip_to_standard_output) : file_.path();
 }
 
 void VideoWriter::abandon() {

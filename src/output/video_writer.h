@@ -61,13 +61,14 @@ private:
     void send(std::int64_t frame);
     void send(std::span<const std::byte> bytes);
     void convert_to_gif();
+    std::filesystem::path argument_of_clip() const;   // for ffmpeg
 
     std::filesystem::path clip_;
     VideoFormat format_;
     VideoPixels pixels_;                          // of pictures that come as such
     std::filesystem::path program_;
     TemporaryFile file_;
-    std::optional<TemporaryFile> lossless_;       // a GIF's first stage
+    std::optional<PartFile> lossless_;            // a GIF's first stage
     std::shared_ptr<const std::byte> latest_;     // the frame written last,
     std::shared_ptr<const std::byte> shown_;      // and the one sent last (a GIF takes fewer); null before the first
     std::int64_t longest_;                        // frames that one is shown for, at most

@@ -2,6 +2,7 @@
 
 #include "scene/message_text.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -10,6 +11,8 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -88,10 +91,28 @@ void add_node(const aiNode& node, const aiScene& scene, const Transform& parent,
     }
 }
 
+/// Remembers what is opened besides the file itself: a glTF's buffers.
+class Files : public Assimp::DefaultIOSystem {
+public:
+    Files(std::string file, std::vector<std::filesystem::path>& others) : file_(std::move(file)), others_(others) {}
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        Assimp::IOStream* const stream = DefaultIOSystem::Open(name, mode);
+        if (stream != nullptr && name != file_) others_.push_back(name);
+        return stream;
+    }
+
+private:
+    std::string file_;
+    std::vector<std::filesystem::path>& others_;
+};
+
 }  // namespace
 
 MeshFile read_with_assimp(const std::filesystem::path& file, bool with_normals) {
+    MeshFile result;
     Assimp::Importer importer;
+    importer.SetIOHandler(new Files(file.string(), result.other_files));   // the importer deletes it
     // Its check of the data and nothing else: its own cutting of polygons ends the program (an assertion) on a mesh
     // of nothing but degenerate faces, and welding and normals are ours.
     const aiScene* scene = nullptr;
@@ -103,7 +124,6 @@ MeshFile read_with_assimp(const std::filesystem::path& file, bool with_normals) 
         problem = error.what();
     }
     if (!scene || !scene->mRootNode) throw MeshError("cannot be read: " + readable(problem));
-    MeshFile result;
     add_node(*scene->mRootNode, *scene, {}, with_normals, 0, result);
     return result;
 }

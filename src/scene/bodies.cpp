@@ -73,11 +73,10 @@ private:
 }  // namespace
 
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, std::uint64_t seed) {
+                                         const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes) {
     std::vector<BodyDescription> bodies;
     const auto list = root.find("body");
     if (!list) return bodies;
-    MeshCache meshes;
     Names names;
     std::uint64_t number = 0;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {

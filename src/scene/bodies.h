@@ -3,6 +3,7 @@
 
 #include "scene/description.h"
 #include "scene/materials.h"
+#include "scene/mesh_loader.h"
 #include "scene/toml_reader.h"
 
 #include <cstdint>
@@ -13,6 +14,6 @@ namespace tumble {
 
 /// Reads all body tables in file order. Relative mesh files start from `folder`.
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, std::uint64_t seed);
+                                         const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes);
 
 }  // namespace tumble

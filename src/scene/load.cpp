@@ -5,6 +5,7 @@
 #include "scene/camera.h"
 #include "scene/limits.h"
 #include "scene/materials.h"
+#include "scene/mesh_loader.h"
 #include "scene/run_settings.h"
 #include "scene/toml_reader.h"
 #include "scene/view_settings.h"
@@ -49,7 +50,7 @@ std::string read_text(const std::filesystem::path& file) {
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
-                             const SceneOverrides& overrides) {
+                             const SceneOverrides& overrides, FileList* read) {
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
@@ -62,7 +63,12 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_run_settings(root, overrides, scene.simulation, scene.output);
     scene.light = read_light(root);
     scene.wind = read_wind(root);
-    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed);
+    MeshCache meshes;
+    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed, meshes);
+    if (read != nullptr) {
+        read->push_back(file);
+        read->insert(read->end(), meshes.files().begin(), meshes.files().end());
+    }
     if (overrides.integrator)   // the command line speaks for every body
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
@@ -71,8 +77,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     return scene;
 }
 
-SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides) {
-    return parse_scene(read_text(file), file, overrides);
+SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides, FileList* read) {
+    return parse_scene(read_text(file), file, overrides, read);
 }
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -17,11 +18,15 @@ struct SceneOverrides {
     std::optional<std::string> integrator, impacts, impact_law;
 };
 
+using FileList = std::vector<std::filesystem::path>;
+
 /// Throws InputError with file, line and column for anything the format forbids: nothing is guessed.
-SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+/// The files that were read are appended to `read`, where that is given: the scene's own and those of its meshes.
+SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {},
+                            FileList* read = nullptr);
 
 /// The same from text, for tests; relative mesh paths are resolved against the folder of `file`.
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
-                             const SceneOverrides& overrides = {});
+                             const SceneOverrides& overrides = {}, FileList* read = nullptr);
 
 }  // namespace tumble

@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <string>
+#include <system_error>
 
 namespace tumble {
 namespace {
@@ -29,8 +32,10 @@ void check_file(const std::filesystem::path& file, const std::string& extension)
     }
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) throw MeshError("does not exist");
+    if (status.type() == std::filesystem::file_type::not_found) throw MeshError("does not exist");
+    if (error) throw MeshError("cannot be read: " + error.message());
     if (!std::filesystem::is_regular_file(status)) throw MeshError("is not a file");
+    if (!std::ifstream(file)) throw MeshError("cannot be read: " + std::generic_category().message(errno));
     const auto size = std::filesystem::file_size(file, error);
     if (error) throw MeshError("cannot be read: " + error.message());
     if (size == 0) throw MeshError("is empty");

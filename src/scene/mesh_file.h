@@ -25,6 +25,7 @@ struct MeshFile {
     std::vector<Vec3> positions;         // not welded
     std::vector<std::array<Corner, 3>> triangles;
     std::vector<std::size_t> objects;    // the first triangle of each object of the file, ascending
+    std::vector<std::filesystem::path> other_files;   // that were opened for it: a glTF's buffers
 
     /// Throws MeshError when the position is not finite or beyond 1e30, whose squares would be none.
     void add_position(const Vec3& position);

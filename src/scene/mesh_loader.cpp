@@ -188,18 +188,33 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
 
 }  // namespace
 
-LoadedMesh load_mesh(const std::filesystem::path& file) { return loaded(read_mesh_file(file), file); }
+namespace {
 
-std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file) {
-    const MeshFile read = read_mesh_file(file);
+MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
+    MeshFile mesh = read_mesh_file(file);
+    if (read != nullptr) {
+        read->push_back(file);
+        read->insert(read->end(), mesh.other_files.begin(), mesh.other_files.end());
+    }
+    return mesh;
+}
+
+}  // namespace
+
+LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
+    return loaded(read_and_note(file, read), file);
+}
+
+std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
+    const MeshFile whole = read_and_note(file, read);
     std::vector<LoadedMesh> result;
-    for (std::size_t i = 0; i < read.objects.size(); ++i) result.push_back(loaded(object_of(read, i), file));
+    for (std::size_t i = 0; i < whole.objects.size(); ++i) result.push_back(loaded(object_of(whole, i), file));
     return result;
 }
 
 const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scale) {
     auto found = files_.find(file);
-    if (found == files_.end()) found = files_.emplace(file, load_mesh(file)).first;
+    if (found == files_.end()) found = files_.emplace(file, load_mesh(file, &read_)).first;
     if (scale == 1.0) return found->second;
     const auto key = std::pair(file, scale);
     auto made = scaled_.find(key);
@@ -209,7 +224,7 @@ const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scal
 
 const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::path& file, double scale) {
     const auto find = [&](double at) { return objects_.find(std::pair(file, at)); };
-    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file));
+    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file, &read_));
     if (find(scale) == objects_.end()) {
         std::vector<LoadedMesh> made;
         for (const LoadedMesh& mesh : find(1.0)->second) made.push_back(scaled(mesh, scale));

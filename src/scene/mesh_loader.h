@@ -26,10 +26,13 @@ public:
     const LoadedMesh& load(const std::filesystem::path& file, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
     const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
+    /// The files that were read, in the order in which they were met first.
+    const std::vector<std::filesystem::path>& files() const { return read_; }
     /// All parts larger by a factor, their places too.
     CompoundShape enlarged(const CompoundShape& shape, double factor);
 
 private:
+    std::vector<std::filesystem::path> read_;
     std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
     std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
@@ -43,11 +46,12 @@ private:
 };
 
 /// One file at scale 1: welded, turned to face outward when it is closed, without triangles that have no area, with
-/// normals for drawing. Throws MeshError.
-LoadedMesh load_mesh(const std::filesystem::path& file);
+/// normals for drawing. Throws MeshError. The files that were read are appended to `read`, where that is given.
+LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr);
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF; of other kinds the whole.
-std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file);
+std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
+                                          std::vector<std::filesystem::path>* read = nullptr);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size; the first of each group in file order stays.
 /// Returns for each vertex the one that stands for it.

@@ -8,10 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <span>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -25,7 +28,7 @@ TEST(TemporaryFile, AppearsAtCommit) {
         TemporaryFile file(folder / "a.txt");
         put(file, "new");
         EXPECT_EQ(read_text(folder / "a.txt"), "old");
-        EXPECT_EQ(file.path().extension(), ".txt");
+        EXPECT_EQ(file.path().filename().string().front(), '.');
         file.commit();
     }
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
@@ -65,6 +68,33 @@ TEST(TemporaryFile, ALinkToWhatIsNotThereYetIsWrittenThrough) {
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "in/other.txt"));
+}
+
+TEST(TemporaryFile, LinksInACircleAreRefused) {
+    const TestFolder folder;
+    std::filesystem::create_symlink("b", folder / "a");
+    std::filesystem::create_symlink("a", folder / "b");
+    EXPECT_THROW(TemporaryFile(folder / "a"), InputError);
+    EXPECT_EQ(folder.files(), 2u);
+}
+
+TEST(TemporaryFile, ADescriptorIsWrittenWhereItStands) {
+    const TestFolder folder;
+    write_text(folder / "log", "old ");
+    const int log = ::open((folder / "log").c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    ASSERT_GE(log, 0);
+    const std::string name = "/dev/fd/" + std::to_string(log);
+    std::filesystem::create_symlink(name, folder / "link");
+    for (const std::filesystem::path& path : {std::filesystem::path(name), folder / "link"}) {
+        TemporaryFile file(path);
+        EXPECT_EQ(file.descriptor(), log);
+        put(file, "new ");
+        file.commit();
+    }
+    ::close(log);
+    EXPECT_EQ(read_text(folder / "log"), "old new new ");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_THROW(TemporaryFile{name}, RunError);
 }
 
 TEST(TemporaryFile, ErrorsNameTheFinalFile) {

@@ -1,0 +1,69 @@
+// What a run reads and writes, compared before anything is written: no output may be something that is read, and no two
+// may be one file, however their names are spelt and whatever links lead there.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// Frames or AOVs: one file a number.
+struct OutputSeries {
+    std::string option;
+    std::filesystem::path folder;
+    std::string_view before, after;                                                     // the number in a name
+    std::filesystem::path (*path)(const std::filesystem::path& folder, std::int64_t);   // the file of a number
+    std::int64_t first = 0, end = 0;                                                    // of the numbers
+};
+
+/// All members throw InputError; outputs may be added in any order, after all inputs.
+class OutputPlan {
+public:
+    /// Devices and pipes do not count.
+    void add_input(const std::filesystem::path& file);
+    void add(const std::string& option, const std::filesystem::path& file);
+    void add(const OutputSeries& series);
+
+private:
+    /// A file that is there.
+    struct File {
+        dev_t device;
+        ino_t number;
+        friend bool operator==(const File&, const File&) = default;
+    };
+    /// A name, there or not: the folder nearest to it that is there, and the rest of the way.
+    struct Place {
+        File folder;
+        std::filesystem::path rest;
+        friend bool operator==(const Place&, const Place&) = default;
+    };
+    struct Input {
+        std::filesystem::path name;
+        File file;
+    };
+    struct Output {
+        std::string option;
+        std::filesystem::path name;
+        std::optional<Place> place;   // of the name that will be replaced or made; none: written in place
+        std::optional<File> file;     // that is there
+    };
+
+    static std::optional<File> file_at(const std::filesystem::path& path);
+    static std::optional<Place> place_of(const std::filesystem::path& path);
+    static bool is_one_of(const Place& place, const OutputSeries& series);
+    static Output look_at(const std::string& option, const std::filesystem::path& name);
+    void compare_with_inputs(const Output& output) const;
+    void compare_with_outputs(const Output& output) const;
+
+    std::vector<Input> inputs_;
+    std::vector<Output> outputs_;   // single files, and links among those of a series
+    std::vector<OutputSeries> series_;
+};
+
+}  // namespace tumble

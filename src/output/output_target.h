@@ -1,0 +1,18 @@
+// The file that an output's name leads to.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace tumble {
+
+struct OutputTarget {
+    std::filesystem::path path;      // the name to replace or to make: links are followed
+    std::optional<int> descriptor;   // of this process, which the name stands for: /dev/stdout, /dev/fd/N
+    bool in_place = false;           // a descriptor, a device or a pipe: written to as it is, never replaced
+};
+
+/// Throws InputError where links lead in a circle.
+OutputTarget output_target(const std::filesystem::path& name);
+
+}  // namespace tumble
