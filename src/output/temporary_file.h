@@ -28,6 +28,8 @@ public:
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
+    /// The output is a pipe, a device or an open descriptor: its bytes go straight there.
+    bool in_place() const { return !part_; }
     /// Where another program writes until commit(), unless it is given descriptor().
     const std::filesystem::path& path() const { return part_ ? part_->path() : target_.path; }
     /// The one that this process was given as the output, if it was.

@@ -89,7 +89,8 @@ void VideoWriter::finish() {
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    check(lossless_ ? *lossless_ : file_, format_.container, end);
+    if (lossless_) check(lossless_->path(), format_.container, end);
+    else if (!file_.in_place()) check(file_.path(), format_.container, end);
     if (lossless_) convert_to_gif();
     file_.commit();
 }
@@ -103,7 +104,7 @@ void VideoWriter::convert_to_gif() {
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    check(file_, "gif", end);
+    if (!file_.in_place()) check(file_.path(), "gif", end);
     lossless_.reset();
 }
 
@@ -118,9 +119,8 @@ void VideoWriter::abandon() {
     if (gif_maker_) gif_maker_->kill();
 }
 
-void VideoWriter::check(const TemporaryFile& file, const std::string& container, const ProcessEnd& end) const {
-    if (is_written_in_place(file.path())) return;   // it is with its reader
-    const auto fault = fault_of_clip(file.path(), container, sent_);
+void VideoWriter::check(const fs::path& file, const std::string& container, const ProcessEnd& end) const {
+    const auto fault = fault_of_clip(file, container, sent_);
     if (fault) fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
 }
 

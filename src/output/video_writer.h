@@ -54,7 +54,7 @@ public:
     std::int64_t frames_stored() const { return sent_; }
 
 private:
-    void check(const TemporaryFile& file, const std::string& container, const ProcessEnd& end) const;
+    void check(const std::filesystem::path& file, const std::string& container, const ProcessEnd& end) const;
     [[noreturn]] void fail(const ProcessEnd& end) const;
     [[noreturn]] void fail(const ProcessEnd& end, const std::string& how) const;
     void advance();
