@@ -1,6 +1,7 @@
 #include "app/commands.h"
 #include "core/error.h"
 #include "core/image.h"
+#include "core/safe_text.h"
 #include "output/process.h"
 
 #include <CLI/CLI.hpp>
@@ -101,7 +102,7 @@ Finding look_for_ffmpeg() {
 
 /// One line of the report, and one more with the remedy where it is needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
-    fmt::print("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : "MISSING", finding.text);
+    fmt::print("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : "MISSING", safe_lines(finding.text));
     if (!finding.good) fmt::print("  {:<16} {:<8} try: {}\n", "", "", remedy);
 }
 

@@ -6,6 +6,7 @@
 #include "app/progress.h"
 #include "app/stage_group.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/png_reader.h"
 #include "output/video_writer.h"
 
@@ -82,7 +83,7 @@ void run_encode(const EncodeCommand& command) {
         encode(command.frames, frames, video, interrupt, progress);
     }
     if (!command.quiet)
-        fmt::print(stderr, "wrote {}: {} frames of {} x {}\n", command.clip.string(), video.frames_in_clip(), size.width,
+        fmt::print(stderr, "wrote {}: {} frames of {} x {}\n", safe_path(command.clip), video.frames_in_clip(), size.width,
                    size.height);
 }
 

@@ -1,6 +1,7 @@
 #include "app/frame_folder.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ FrameFolder::FrameFolder(const fs::path& folder) : folder_(folder) {
     try {
         if (!fs::is_directory(folder, error)) {
             if (!error) error = std::make_error_code(std::errc::not_a_directory);
-            throw RunError(fmt::format("cannot make the folder '{}': {}", folder.string(), error.message()));
+            throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
         }
         const TemporaryFile probe(frame_path(folder, 0));   // only trying tells whether a file can be made there
     } catch (...) {

@@ -1,6 +1,7 @@
 #include "app/commands.h"
 #include "app/stage_time.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ ShapeText shape_text(const Shape& shape) {
         }
         ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
         ShapeText operator()(const MeshShape& s) const {
-            return {"mesh", fmt::format("{}, {} triangles", std::filesystem::path(s.asset->file).filename().string(),
+            return {"mesh", fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
                                         s.asset->surface.triangles.size())};
         }
         ShapeText operator()(const CompoundShape& s) const { return {"compound", fmt::format("{} parts", s.parts->size())}; }
@@ -54,13 +55,13 @@ std::string camera_motion(const SceneDescription& scene) {
     std::string text;
     if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
     if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
-    if (scene.camera.follow) text += fmt::format(", following {}", scene.bodies[*scene.camera.follow].name);
+    if (scene.camera.follow) text += fmt::format(", following {}", safe_text(scene.bodies[*scene.camera.follow].name));
     return text;
 }
 
 void print_head(const SceneDescription& scene) {
-    fmt::print("{}{}\n", scene.title.empty() ? scene.file : scene.title,
-               scene.title.empty() ? "" : " (" + scene.file + ")");
+    const std::string file = safe_path(scene.file);
+    fmt::print("{}{}\n", scene.title.empty() ? file : safe_text(scene.title), scene.title.empty() ? "" : " (" + file + ")");
     const std::int64_t frames = scene.frame_count();
     const int steps = scene.simulation.steps_per_frame;
     fmt::print("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
@@ -106,7 +107,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
         const BodyReport report = world.report(i);
         const ShapeText shape = shape_text(body.shape);
         const bool moves = body.type == BodyType::dynamic;
-        fmt::print("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", body.name, type_text(body.type), shape.kind,
+        fmt::print("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type), shape.kind,
                    shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
                    moves ? vector_text(report.principal_inertia) : "-",
                    report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");

@@ -1,5 +1,6 @@
 #include "app/options.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "error: out of memory\n");
         return 1;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "error: {}\n", error.what());
+        fmt::print(stderr, "error: {}\n", tumble::safe_lines(error.what()));
         return 1;
     }
 }

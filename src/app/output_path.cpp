@@ -1,6 +1,7 @@
 #include "app/output_path.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void check_output(const char* option, const fs::path& output, const fs::path& input) {
     if (same_file(output, input))
-        throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", option, output.string(), input.string()));
+        throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", option, safe_path(output), safe_path(input)));
 }
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -35,13 +36,13 @@ struct Summary {
 
     void print() const {
         if (video != nullptr)
-            fmt::print(stderr, "wrote {}: {} frames of {} x {}{}{}\n", clip->string(), video->frames_in_clip(),
+            fmt::print(stderr, "wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(),
                        scene.output.width, scene.output.height, every_so_manieth(), stored());
         if (folder != nullptr)
-            fmt::print(stderr, "wrote {} to {}\n", frame_path(folder->path(), frames.first).string(),
+            fmt::print(stderr, "wrote {} to {}\n", safe_path(frame_path(folder->path(), frames.first)),
                        frame_path(folder->path(), frames.end - 1).filename().string());
         if (aovs != nullptr)
-            fmt::print(stderr, "wrote {} to {}: {}\n", aov_path(aovs->path(), frames.first).string(),
+            fmt::print(stderr, "wrote {} to {}: {}\n", safe_path(aov_path(aovs->path(), frames.first)),
                        aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
         print_times();
         if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
@@ -81,7 +82,7 @@ struct Summary {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
         if (older != there.end())
             fmt::print(stderr, "note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
-                       path(where, *older).string());
+                       safe_path(path(where, *older)));
     }
 };
 

@@ -4,6 +4,7 @@
 #include "app/progress.h"
 #include "app/stage_time.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/table_writer.h"
 #include "sim/world.h"
 
@@ -92,7 +93,7 @@ void run_simulate(const SimulateCommand& command) {
     const auto whole = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).lexically_normal(); };
     if (command.trajectory && command.energy && whole(*command.trajectory) == whole(*command.energy))
         throw InputError(fmt::format("--trajectory and --energy must be two files (both are '{}')",
-                                     command.trajectory->string()));
+                                     safe_path(*command.trajectory)));
     if (command.trajectory) check_output("--trajectory", *command.trajectory, command.scene);
     if (command.energy) check_output("--energy", *command.energy, command.scene);
     const std::int64_t frames = scene.frame_count();
@@ -116,7 +117,7 @@ void run_simulate(const SimulateCommand& command) {
     if (command.quiet) return;
     const double seconds = wall_seconds() - start;
     for (const auto& file : {command.trajectory, command.energy})
-        if (file) fmt::print(stderr, "wrote {}\n", file->string());
+        if (file) fmt::print(stderr, "wrote {}\n", safe_path(*file));
     fmt::print(stderr, "{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
                (frames - 1) * scene.simulation.steps_per_frame, scene.step(), seconds,
                double(frames - 1) / scene.output.fps / seconds);

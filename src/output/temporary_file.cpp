@@ -1,6 +1,7 @@
 #include "output/temporary_file.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int error) {
-    throw RunError(fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)));
+    throw RunError(fmt::format("cannot write '{}': {}", safe_path(path), std::generic_category().message(error)));
 }
 
 /// A link is written through: the name it points to is the one to replace, or to make.

@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/matroska_stream.h"
 
 #include <fmt/format.h>
@@ -94,7 +95,7 @@ void VideoWriter::finish() {
 void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
-        if (abandoned_) throw RunError(fmt::format("'{}' was given up", clip_.string()));
+        if (abandoned_) throw RunError(fmt::format("'{}' was given up", safe_path(clip_)));
         gif_maker_.emplace(program_, gif_arguments(lossless_->path(), file_.path()));
     }
     const ProcessEnd end = gif_maker_->finish();
@@ -111,7 +112,7 @@ void VideoWriter::abandon() {
 }
 
 void VideoWriter::fail(const ProcessEnd& end) const {
-    throw RunError(fmt::format("cannot write '{}': ffmpeg failed ({}){}{}", clip_.string(), end.describe(),
+    throw RunError(fmt::format("cannot write '{}': ffmpeg failed ({}){}{}", safe_path(clip_), end.describe(),
                                end.words.empty() ? "" : ":\n", end.words));
 }
 

@@ -1,6 +1,7 @@
 #define TOML_IMPLEMENTATION   // toml++ is compiled here, and only declared elsewhere
 #include "scene/toml_reader.h"
 
+#include "core/safe_text.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>
@@ -14,27 +15,32 @@ SourceLocation location_of(const toml::source_region& source, const std::string&
     return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
+/// The array as a message shows it: as many items as fit into `room` bytes, and the number of all.
+std::string given_text(const toml::array& array, std::size_t room);
+
 /// The value as a message shows it, of readable length and on one line.
-std::string given_text(const toml::node& node) {
-    constexpr std::size_t longest = 60;
-    std::string text;
-    if (const auto* s = node.as_string()) text = fmt::format("\"{}\"", s->get());
-    else if (const auto* i = node.as_integer()) text = fmt::format("{}", i->get());
-    else if (const auto* f = node.as_floating_point()) text = number_text(f->get());
-    else if (const auto* b = node.as_boolean()) text = b->get() ? "true" : "false";
-    else if (node.is_table()) text = "a table";
-    else if (const auto* array = node.as_array()) {
-        text = "[";
-        for (const toml::node& item : *array) {
-            if (text.size() > longest) break;
-            text += (text.size() > 1 ? ", " : "") + given_text(item);
-        }
-        text += "]";
-    } else {
-        text = "a date or time";
-    }
-    return one_line(text, longest);
+std::string given_text(const toml::node& node, std::size_t room = value_text_bytes) {
+    if (const auto* s = node.as_string()) return fmt::format("\"{}\"", safe_text(s->get()));
+    if (const auto* i = node.as_integer()) return fmt::format("{}", i->get());
+    if (const auto* f = node.as_floating_point()) return number_text(f->get());
+    if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+    if (node.is_table()) return "a table";
+    if (const auto* array = node.as_array()) return given_text(*array, room);
+    return "a date or time";
 }
+
+std::string given_text(const toml::array& array, std::size_t room) {
+    std::string text = "[";
+    for (const toml::node& item : array) {
+        if (text.size() > 1) text += ", ";
+        const std::string next = text.size() < room ? given_text(item, room - text.size()) : std::string();
+        if (text.size() + next.size() >= room) return fmt::format("{}... ({} items)]", text, array.size());
+        text += next;
+    }
+    return text + "]";
+}
+
+constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser's, with what it saw
 
 }  // namespace
 
@@ -42,7 +48,7 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw InputError(location_of(error.source(), file), one_line(std::string(error.description()), 200));
+        throw InputError(location_of(error.source(), file), safe_text(error.description(), longest_syntax_error));
     }
 }
 
@@ -127,7 +133,7 @@ void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         const toml::key& written = table_->find(key)->first;
         throw InputError(location_of(written.source(), origin_.where.file),
-                         fmt::format("unknown key \"{}\" in {}{}", key, title_, suggestion(key, known)));
+                         fmt::format("unknown key \"{}\" in {}{}", safe_text(key), safe_text(title_), suggestion(key, known)));
     }
 }
 
@@ -143,7 +149,7 @@ std::optional<TomlValue> TomlTable::find(std::string_view key) const {
 
 TomlValue TomlTable::require(std::string_view key) const {
     if (auto value = find(key)) return *value;
-    throw InputError(origin_.where, fmt::format("{} needs \"{}\" (not given)", title_, key));
+    throw InputError(origin_.where, fmt::format("{} needs \"{}\" (not given)", safe_text(title_), key));
 }
 
 std::optional<TomlTable> TomlTable::find_table(std::string_view key) const {
