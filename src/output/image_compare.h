@@ -29,9 +29,9 @@ struct CompareOptions {
     /// Of all pixels, that may differ by more. Measured: 2 of 307,200 (6.5e-6), by up to 35 levels.
     double fraction = 1e-4;
     /// Pixels of a window that may differ by more than the tolerance. Not given: 4 + 64 fraction.
-    std::optional<int> cluster;
+    std::optional<int> cluster = std::nullopt;
     /// Levels that a window may differ on average. Not given: tolerance / 2 + 255 fraction.
-    std::optional<double> window;
+    std::optional<double> window = std::nullopt;
 };
 
 /// What a rule found, and where: the pixel that differs most for `pixels`, else the worst window's top left pixel (the
