@@ -3,6 +3,7 @@
 
 #include "core/safe_text.h"
 #include "scene/limits.h"
+#include "scene/toml_scan.h"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,7 @@ constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the 
 }  // namespace
 
 toml::table parse_toml(const std::string& text, const std::string& file) {
+    check_toml_amounts(text, file);
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
@@ -107,10 +109,12 @@ TomlTable TomlValue::table() const {
 std::vector<TomlValue> TomlValue::items() const {
     if (!node_->is_array()) fail("must be an array");
     std::vector<TomlValue> result;
-    for (const toml::node& item : *node_->as_array()) {
-        result.emplace_back(item, Origin{origin_.name, location_of(item.source(), origin_.where.file)});
-    }
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item));
     return result;
+}
+
+TomlValue TomlValue::item_of(const toml::node& item) const {
+    return {item, {origin_.name, location_of(item.source(), origin_.where.file)}};
 }
 
 std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind) const {
@@ -122,19 +126,22 @@ std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind
 std::vector<TomlTable> TomlValue::tables(std::string_view hint) const {
     if (!node_->is_array()) fail(fmt::format("must be an array of tables{}", hint));
     std::vector<TomlTable> result;
-    for (const TomlValue& item : items()) result.push_back(item.table());
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item).table());
     return result;
 }
 
 // -- TomlTable
 
 void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const {
-    for (const auto& [key, value] : entries()) {
-        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-        const toml::key& written = table_->find(key)->first;
-        throw InputError(location_of(written.source(), origin_.where.file),
-                         fmt::format("unknown key \"{}\" in {}{}", safe_text(key), safe_text(title_), suggestion(key, known)));
+    const toml::key* first = nullptr;
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+        if (first == nullptr || key.source().begin < first->source().begin) first = &key;
     }
+    if (first == nullptr) return;
+    throw InputError(location_of(first->source(), origin_.where.file),
+                     fmt::format("unknown key \"{}\" in {}{}", safe_text(first->str()), safe_text(title_),
+                                 suggestion(first->str(), known)));
 }
 
 Origin TomlTable::origin_of(std::string_view key, const toml::node& node) const {
@@ -161,13 +168,13 @@ std::optional<TomlTable> TomlTable::find_table(std::string_view key) const {
 }
 
 std::vector<std::pair<std::string, TomlValue>> TomlTable::entries() const {
+    std::vector<std::pair<const toml::key*, const toml::node*>> places;
+    for (const auto& [key, node] : *table_) places.emplace_back(&key, &node);
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.first->source().begin < b.first->source().begin; });
     std::vector<std::pair<std::string, TomlValue>> result;
-    for (const auto& [key, node] : *table_) {
-        result.emplace_back(std::string(key.str()), TomlValue(node, origin_of(key.str(), node)));
-    }
-    std::sort(result.begin(), result.end(), [this](const auto& a, const auto& b) {
-        return table_->find(a.first)->first.source().begin < table_->find(b.first)->first.source().begin;
-    });
+    for (const auto& [key, node] : places)
+        result.emplace_back(std::string(key->str()), TomlValue(*node, origin_of(key->str(), *node)));
     return result;
 }
 

@@ -52,6 +52,8 @@ public:
     [[noreturn]] void fail(std::string_view problem) const;
 
 private:
+    TomlValue item_of(const toml::node& item) const;
+
     const toml::node* node_;
     Origin origin_;
 };
