@@ -2,9 +2,11 @@
 #include "app/commands.h"
 #include "app/frame_folder.h"
 #include "app/interrupt.h"
+#include "app/picture_memory.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/stage_group.h"
+#include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/png_reader.h"
@@ -12,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 
@@ -44,6 +47,14 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
     return static_cast<std::int64_t>(numbers.size());
 }
 
+/// Bytes, of at most this many frames: those that wait, the one that is read and the one that is written, which is there as
+/// ffmpeg takes it in three copies: made, given away, and in the pipe.
+std::uint64_t pictures_on_their_way(const PictureSize& size, const VideoFormat& format, std::int64_t frames) {
+    const auto images = std::uint64_t(std::min<std::int64_t>(frames, waiting_frames + 2));
+    return images * 4 * std::uint64_t(size.width) * std::uint64_t(size.height) +
+           (1 + std::min<std::uint64_t>(images, 2)) * frame_bytes(format.pixels, size.width, size.height);
+}
+
 /// Reading and encoding overlap.
 void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Interrupt& interrupt, Progress& progress) {
     BoundedQueue<Image> images(waiting_frames);
@@ -71,10 +82,12 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
 }  // namespace
 
 void run_encode(const EncodeCommand& command) {
-    video_format(command.clip, command.fps);
+    const VideoFormat format = video_format(command.clip, command.fps);
     PictureSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
     find_ffmpeg();
+    require_memory(pictures_on_their_way(size, format, frames) + encoder_memory(format.kind, size.width, size.height),
+                   fmt::format("encoding {} x {} pixels", size.width, size.height), "smaller frames take less");
 
     Interrupt interrupt;
     VideoWriter video(command.clip, size.width, size.height, command.fps);

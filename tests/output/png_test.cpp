@@ -196,9 +196,11 @@ TEST(Png, EveryFormReadsAsBySimplifiedLibpng) {
                 for (const bool transparent : {false, true})
                     for (const double gamma : {0.0, 1.0, 0.45455}) {
                         if (transparent && (form.kind & PNG_COLOR_MASK_ALPHA) != 0) continue;
+                        // libpng 1.6.39's simplified reader shuffles 16-bit interlaced files: it reads the same without interlacing.
+                        write_noise(folder / "plain.png", 21, 13, depth, form.kind, false, transparent, gamma);
                         write_noise(path, 21, 13, depth, form.kind, interlaced, transparent, gamma);
                         const std::string which = testing::PrintToString(std::tuple(form.kind, depth, interlaced, transparent, gamma));
-                        const std::vector<std::uint8_t> expected = read_simply(path);
+                        const std::vector<std::uint8_t> expected = read_simply(folder / "plain.png");
                         EXPECT_EQ(read_png(path).pixels, expected) << which;
                         PngRows rows(path);
                         std::vector<std::uint8_t> by_row;
