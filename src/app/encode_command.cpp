@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -86,8 +87,10 @@ void run_encode(const EncodeCommand& command) {
     PictureSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
     find_ffmpeg();
-    require_memory(pictures_on_their_way(size, format, frames) + encoder_memory(format.kind, size.width, size.height),
-                   fmt::format("encoding {} x {} pixels", size.width, size.height), "smaller frames take less");
+    const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);
+    const std::uint64_t on_their_way = pictures_on_their_way(size, format, frames);
+    require_memory(on_their_way, what, "smaller frames take less");
+    require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what, "smaller frames take less");
 
     Interrupt interrupt;
     VideoWriter video(command.clip, size.width, size.height, command.fps);

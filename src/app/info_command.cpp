@@ -142,7 +142,7 @@ void print_cost(const SceneDescription& scene, World& world) {
     work.clip = VideoKind::h264;
     work.forms.video = PixelForm::yuv420;
     work.frames = scene.frame_count();
-    const PictureMemory memory = picture_memory(scene.output, work);
+    const PictureMemory memory = picture_memory(scene, work);
     fmt::print("\ncost\n");
     fmt::print("  simulation  {}\n", simulation_cost(scene, world));
     fmt::print("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),

@@ -1,11 +1,12 @@
 #include "app/picture_memory.h"
 
 #include "app/aov_file.h"
-#include "core/available_memory.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 namespace tumble {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint64_t sample = 8;          // color and depth
 constexpr std::uint64_t targets = 2;         // the background and the picture, each with all samples (framebuffer.h)
 constexpr std::uint64_t picture = 4;         // RGBA
+constexpr std::uint64_t drawing = 10;        // what smoothing edges and reading back keep: measured, as docs/output.md tells
 constexpr std::uint64_t light = 12;          // the sums of a mean of moments (image_mean.h)
 constexpr std::uint64_t surface = 16;        // where AOVs find it: depth, surface, triangle (surface_map.h)
 
@@ -21,12 +23,13 @@ constexpr std::int64_t slots = 4;            // of a worker (drawer.cpp); a fram
 
 }  // namespace
 
-PictureMemory picture_memory(const OutputSettings& output, const PictureWork& work) {
+PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work) {
+    const OutputSettings& output = scene.output;
     const std::uint64_t pixels = std::uint64_t(output.width) * std::uint64_t(output.height);
-    const auto samples = std::uint64_t(output.samples);
+    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);   // as the renderer chooses
     PictureMemory memory;
     if (work.forms.picture()) {
-        memory.worker += pixels * (targets * samples * sample + picture);   // OpenGL's, and the image that is read from it
+        memory.worker += pixels * (targets * samples * sample + picture + drawing);
         if (samples > 1) memory.worker += pixels * picture;                 // their mean
         if (work.moments > 1) memory.worker += pixels * (light + picture);
     }
@@ -37,7 +40,7 @@ PictureMemory picture_memory(const OutputSettings& output, const PictureWork& wo
     if (!work.forms.aovs.empty()) {
         memory.worker += pixels * surface;
         for (const Aov aov : all_aovs)
-            if (work.forms.aovs.has(aov)) memory.worker += pixels * bytes_of_pixel(aov);
+            if (work.forms.aovs.has(aov)) memory.worker += 2 * pixels * bytes_of_pixel(aov);   // values, and room for the file
     }
     if (work.clip) memory.encoder = encoder_memory(*work.clip, output.width, output.height);
     return memory;
@@ -56,14 +59,15 @@ std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
     return of_pixel * std::uint64_t(width) * std::uint64_t(height);
 }
 
-int workers_that_fit(const OutputSettings& output, const PictureWork& work, int workers) {
-    const PictureMemory memory = picture_memory(output, work);
-    require_memory(memory.total(1),
-                   fmt::format("drawing {} x {} pixels with {} samples each", output.width, output.height, output.samples),
-                   "a smaller --size or fewer --samples take less");
-    const std::uint64_t available = available_memory().bytes;
+int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers, const AvailableMemory& own,
+                     const AvailableMemory& shared) {
+    const PictureMemory memory = picture_memory(scene, work);
+    const std::string what = fmt::format("drawing pictures of {} x {} pixels", scene.output.width, scene.output.height);
+    const std::string_view remedy = "a smaller --size takes less";
+    require_memory(memory.worker, own, what, remedy);
+    require_memory(memory.total(1), shared, what, remedy);
     int fitting = workers;
-    while (fitting > 1 && memory.total(fitting) > available) --fitting;
+    while (fitting > 1 && memory.total(fitting) > shared.bytes) --fitting;
     return fitting;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/worker_memory.h"
+#include "core/available_memory.h"
 #include "output/video_format.h"
 #include "scene/description.h"
 
@@ -25,13 +26,14 @@ struct PictureMemory {
     std::uint64_t total(int workers) const { return std::uint64_t(workers) * worker + encoder; }
 };
 
-PictureMemory picture_memory(const OutputSettings& output, const PictureWork& work);
+PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work);
 
 /// Bytes that the ffmpeg program takes for pictures of this size.
 std::uint64_t encoder_memory(VideoKind kind, int width, int height);
 
-/// Of so many workers, as many as there is memory for: pictures do not depend on their number. Throws RunError where there
-/// is none for one.
-int workers_that_fit(const OutputSettings& output, const PictureWork& work, int workers);
+/// Of so many workers, as many as there is memory for: pictures do not depend on their number. `own` bounds each process,
+/// `shared` all together. Throws RunError where there is none for one.
+int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers,
+                     const AvailableMemory& own = available_memory(), const AvailableMemory& shared = shared_memory());
 
 }  // namespace tumble

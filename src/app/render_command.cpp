@@ -121,7 +121,7 @@ void run_render(const RenderCommand& command) {
         find_ffmpeg();
     }
     const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
-    const int workers = workers_that_fit(scene.output, work, wanted_workers);
+    const int workers = workers_that_fit(scene, work, wanted_workers);
     if (workers < wanted_workers && !command.quiet)
         fmt::print(stderr, "note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made

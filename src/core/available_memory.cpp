@@ -97,10 +97,15 @@ std::uint64_t left_of_limit(__rlimit_resource which, const char* used, const Mem
 
 }  // namespace
 
+AvailableMemory shared_memory(const MemoryFiles& files) {
+    const AvailableMemory of_machine{machine(files), "the machine"};
+    const AvailableMemory of_groups{groups(files), "the control group (the container's limit)"};
+    return of_groups.bytes < of_machine.bytes ? of_groups : of_machine;
+}
+
 AvailableMemory available_memory(const MemoryFiles& files) {
     const AvailableMemory bounds[] = {
-        {machine(files), "the machine"},
-        {groups(files), "the control group (the container's limit)"},
+        shared_memory(files),
         {left_of_limit(RLIMIT_AS, "VmSize:", files), "the limit of the address space (ulimit -v)"},
         {left_of_limit(RLIMIT_DATA, "VmData:", files), "the limit of the process's data (ulimit -d)"},
     };
@@ -114,11 +119,14 @@ std::string memory_text(std::uint64_t bytes) {
     return amount < 1024.0 ? fmt::format("{:.3g} MiB", amount) : fmt::format("{:.3g} GiB", amount / 1024.0);
 }
 
-void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy) {
-    const AvailableMemory available = available_memory();
+void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what, std::string_view remedy) {
     if (bytes > available.bytes)
         throw RunError(fmt::format("{} takes {} of memory, and {} has {} left; {}", what, memory_text(bytes), available.bound,
                                    memory_text(available.bytes), remedy));
+}
+
+void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy) {
+    require_memory(bytes, available_memory(), what, remedy);
 }
 
 }  // namespace tumble

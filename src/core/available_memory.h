@@ -19,8 +19,11 @@ struct MemoryFiles {
     std::filesystem::path proc = "/proc", cgroups = "/sys/fs/cgroup";
 };
 
-/// The least of: what the machine has free or can free (MemAvailable and free swap), what the limits of the process's
-/// control groups leave, and what the limits of its address space and data (ulimit -v, -d) leave. What cannot be read bounds nothing.
+/// For all processes together, the lesser of: what the machine has free or can free (MemAvailable and free swap), and what
+/// the limits of the process's control groups leave. What cannot be read bounds nothing.
+AvailableMemory shared_memory(const MemoryFiles& files = {});
+
+/// For this process: no more than that, and than the limits of its address space and data (ulimit -v, -d) leave.
 AvailableMemory available_memory(const MemoryFiles& files = {});
 
 /// "7.9 GiB".
@@ -28,6 +31,9 @@ std::string memory_text(std::uint64_t bytes);
 
 /// Throws RunError where `bytes` are more than available: "WHAT takes 7.9 GiB of memory, and the machine has 3.1 GiB
 /// left; REMEDY".
+void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what, std::string_view remedy);
+
+/// The same of this process's.
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy);
 
 }  // namespace tumble
