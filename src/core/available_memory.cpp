@@ -116,7 +116,7 @@ AvailableMemory available_memory(const MemoryFiles& files) {
 std::string memory_text(std::uint64_t bytes) {
     constexpr double mebi = 1024.0 * 1024.0;
     const double amount = double(bytes) / mebi;
-    return amount < 1024.0 ? fmt::format("{:.3g} MiB", amount) : fmt::format("{:.3g} GiB", amount / 1024.0);
+    return amount < 1000.0 ? fmt::format("{:.3g} MiB", amount) : fmt::format("{:.3g} GiB", amount / 1024.0);
 }
 
 void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what, std::string_view remedy) {

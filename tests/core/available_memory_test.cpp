@@ -96,6 +96,7 @@ TEST(AvailableMemory, WhatFitsPassesAndWhatDoesNotIsRefusedWithFigures) {
         EXPECT_NE(words.find(" left; a smaller one takes less"), std::string::npos) << words;
     }
     EXPECT_EQ(memory_text(300 * mebi), "300 MiB");
+    EXPECT_EQ(memory_text(1020 * mebi), "0.996 GiB");
     EXPECT_EQ(memory_text(7 * gibi + gibi / 2), "7.5 GiB");
 }
 
