@@ -2,6 +2,7 @@
 
 #include "core/available_memory.h"
 #include "core/error.h"
+#include "scene/limits.h"
 
 #include <fmt/format.h>
 
@@ -11,10 +12,6 @@
 
 namespace tumble {
 namespace {
-
-// The deepest key that a scene knows has three. With the parser's 256 arrays and inline tables, each under such a key, that
-// is some 4,000 tables in one another, which are destroyed by recursion.
-constexpr std::size_t most_key_parts = 16;
 
 // Bytes of toml++ 3.3's nodes on the heap (glibc, x86-64), measured with some million of each: keys of numbers take 173 and
 // of tables 220, items 59 to 103. What is refused surely does not fit.
@@ -51,7 +48,7 @@ Scan scanned(std::string_view text) {
         ++i;
         switch (c) {
             case '.':
-                if (++dots >= most_key_parts && !scan.deep_key) scan.deep_key = i - 1;
+                if (++dots >= std::size_t(limits::key_parts) && !scan.deep_key) scan.deep_key = i - 1;
                 break;
             case '#':
                 i = std::min(text.find('\n', i), text.size());
@@ -95,7 +92,7 @@ void check_toml_amounts(std::string_view text, const std::string& file) {
     const Scan scan = scanned(text);
     if (scan.deep_key)
         throw InputError(location_in(text, *scan.deep_key, file),
-                         fmt::format("a key has more than {} parts, which is deeper than a scene goes", most_key_parts));
+                         fmt::format("a key has more than {} parts, which is deeper than a scene goes", limits::key_parts));
     const auto [keys, items] = scan.amounts;
     require_memory(key_bytes * keys + item_bytes * items, fmt::format("a scene of {} keys and {} items", keys, items),
                    "a grid or scatter makes many bodies of one table");

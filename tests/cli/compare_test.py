@@ -97,7 +97,7 @@ class Compare(program.ProgramTest):
         self.bomb("large.png", 16384, 16384, interlaced=True)
         run = self.check(2, "compare", "large.png", "large.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 512 << 20))
         self.assertRegex(run.stderr, r"^error: an interlaced picture of 16384 x 16384 pixels takes 1 GiB of memory, and the limit "
-                                     r"of the process's data \(ulimit -d\) has \d+ MiB left; ")
+                                     r"of the process's data \(ulimit -d\) has [\d.]+ [MG]iB left; ")
 
     # 1 is "different": what kept us from telling is 2.
     def test_out_of_memory_is_not_different(self):
