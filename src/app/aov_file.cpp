@@ -7,19 +7,6 @@ namespace {
 
 constexpr std::size_t camera_numbers = 9 + 16;
 
-std::size_t bytes_of_pixel(Aov aov) {
-    switch (aov) {
-        case Aov::normal:
-            return 3 * sizeof(float);
-        case Aov::motion:
-            return 2 * sizeof(float);
-        case Aov::albedo:
-            return 3;
-        default:
-            return 4;   // depth, segmentation
-    }
-}
-
 void add_camera(NpzArchive& archive, const PinholeCamera& c) {
     const std::array<double, 9> intrinsics = {c.focal, 0.0, c.center_x, 0.0, c.focal, c.center_y, 0.0, 0.0, 1.0};
     archive.add("intrinsics", {3, 3}, intrinsics);
@@ -48,6 +35,19 @@ std::span<const std::byte> AovFile::make(const AovPoses& poses) {
     add(Aov::albedo, {rows, columns, 3}, frame.albedo);
     add_camera(archive_, frame.camera);
     return archive_.finish();
+}
+
+std::size_t bytes_of_pixel(Aov aov) {
+    switch (aov) {
+        case Aov::normal:
+            return 3 * sizeof(float);
+        case Aov::motion:
+            return 2 * sizeof(float);
+        case Aov::albedo:
+            return 3;
+        default:
+            return 4;   // depth, segmentation
+    }
 }
 
 std::size_t aov_file_bound(const AovSet& aovs, int width, int height) {

@@ -27,6 +27,9 @@ private:
     NpzArchive archive_;
 };
 
+/// Of its values, before they are compressed.
+std::size_t bytes_of_pixel(Aov aov);
+
 /// The most bytes that such a file takes.
 std::size_t aov_file_bound(const AovSet& aovs, int width, int height);
 

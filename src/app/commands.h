@@ -2,6 +2,7 @@
 // errors leave them as InputError (exit code 2) or RunError (1).
 #pragma once
 
+#include "output/image_compare.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/renderer.h"
@@ -51,10 +52,9 @@ void run_encode(const EncodeCommand& command);
 struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::filesystem::path> difference;
-    int tolerance = 3;
-    double fraction = 1e-4;
+    CompareOptions options;
 };
-/// 0 alike, 1 different.
+/// 0 alike, 1 different, 2 nothing can be said.
 int run_compare(const CompareCommand& command);
 
 struct InfoCommand {

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/memory_limit.h"
+#include "core/safe_text.h"
 #include "output/process.h"
 
 #include <CLI/CLI.hpp>
@@ -158,7 +159,7 @@ Finding look_for_ffmpeg(Patience& patience) try {
 /// One line of the report, and one more with the remedy where it is needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
     put("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : finding.can_be_installed ? "MISSING" : "FAILS",
-               finding.text);
+        safe_lines(finding.text));
     if (!finding.good && finding.can_be_installed) put("  {:<16} {:<8} try: {}\n", "", "", remedy);
 }
 

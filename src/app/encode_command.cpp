@@ -3,17 +3,22 @@
 #include "app/frame_folder.h"
 #include "app/interrupt.h"
 #include "app/output_plan.h"
+#include "app/picture_memory.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/say.h"
 #include "app/stage_group.h"
+#include "core/available_memory.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/png_reader.h"
 #include "output/video_writer.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <string>
 #include <system_error>
 
 namespace tumble {
@@ -54,6 +59,14 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
     return static_cast<std::int64_t>(numbers.size());
 }
 
+/// Bytes, of at most this many frames: those that wait, the one that is read and the one that is written, which is there as
+/// ffmpeg takes it in three copies: made, given away, and in the pipe.
+std::uint64_t pictures_on_their_way(const PictureSize& size, const VideoFormat& format, std::int64_t frames) {
+    const auto images = std::uint64_t(std::min<std::int64_t>(frames, waiting_frames + 2));
+    return images * 4 * std::uint64_t(size.width) * std::uint64_t(size.height) +
+           (1 + std::min<std::uint64_t>(images, 2)) * frame_bytes(format.pixels, size.width, size.height);
+}
+
 /// Reading and encoding overlap.
 void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Interrupt& interrupt, Progress& progress) {
     BoundedQueue<Image> images(waiting_frames);
@@ -81,13 +94,17 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
 }  // namespace
 
 void run_encode(const EncodeCommand& command) {
-    video_format(command.clip, command.fps);
+    const VideoFormat format = video_format(command.clip, command.fps);
     PictureSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
     OutputPlan plan;
     for (std::int64_t n = 0; n < frames; ++n) plan.add_input(frame_path(command.frames, n));
     plan.add("--output", command.clip);
     find_ffmpeg();
+    const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);
+    const std::uint64_t on_their_way = pictures_on_their_way(size, format, frames);
+    require_memory(on_their_way, what, "smaller frames take less");
+    require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what, "smaller frames take less");
 
     Interrupt interrupt;
     VideoWriter video(command.clip, size.width, size.height, command.fps);
@@ -96,7 +113,7 @@ void run_encode(const EncodeCommand& command) {
         encode(command.frames, frames, video, interrupt, progress);
     }
     if (!command.quiet)
-        say("wrote {}: {} frames of {} x {}\n", command.clip.string(), video.frames_in_clip(), size.width,
+        say("wrote {}: {} frames of {} x {}\n", safe_path(command.clip), video.frames_in_clip(), size.width,
                    size.height);
 }
 

@@ -1,6 +1,7 @@
 #include "app/folder_lock.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/file_lock.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : path_(folder / ".t
     for (;;) {
         file_ = open_lock(path_);
         if (file_ < 0)
-            throw RunError(fmt::format("cannot write into '{}': {}", folder.string(), std::generic_category().message(errno)));
+            throw RunError(fmt::format("cannot write into '{}': {}", safe_path(folder), std::generic_category().message(errno)));
         const Lock lock = lock_file(file_);
         // The run that held it may have ended between the two calls, and removed the file.
         if (lock != Lock::held && is_still_at(file_, path_)) return;
@@ -34,7 +35,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : path_(folder / ".t
         if (lock == Lock::held)
             throw RunError(fmt::format("cannot write into '{}': another run is writing frames there; wait for its end, or "
                                        "name another folder",
-                                       folder.string()));
+                                       safe_path(folder)));
     }
 }
 

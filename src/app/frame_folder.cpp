@@ -1,6 +1,7 @@
 #include "app/frame_folder.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/part_file.h"
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ void FrameFolder::make() {
     for (auto p = missing.rbegin(); p != missing.rend() && !failed; ++p)
         if (fs::create_directory(*p, failed)) made_.push_back(*p);
     if (!failed && !fs::is_directory(folder_, failed) && !failed) failed = std::make_error_code(std::errc::not_a_directory);
-    if (failed) throw RunError(fmt::format("cannot make the folder '{}': {}", folder_.string(), failed.message()));
+    if (failed) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder_), failed.message()));
 }
 
 FrameFolder::~FrameFolder() {

@@ -1,7 +1,10 @@
 #include "app/commands.h"
+#include "app/picture_memory.h"
 #include "app/say.h"
 #include "app/stage_time.h"
+#include "core/available_memory.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -17,7 +20,6 @@ namespace {
 
 constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
 constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
-constexpr std::int64_t frames_in_flight = 8; // between drawing and the outputs, at most about so many
 
 const char* type_text(BodyType type) {
     switch (type) {
@@ -41,7 +43,7 @@ ShapeText shape_text(const Shape& shape) {
         }
         ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
         ShapeText operator()(const MeshShape& s) const {
-            return {"mesh", fmt::format("{}, {} triangles", std::filesystem::path(s.asset->file).filename().string(),
+            return {"mesh", fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
                                         s.asset->surface.triangles.size())};
         }
         ShapeText operator()(const CompoundShape& s) const { return {"compound", fmt::format("{} parts", s.parts->size())}; }
@@ -55,13 +57,13 @@ std::string camera_motion(const SceneDescription& scene) {
     std::string text;
     if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
     if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
-    if (scene.camera.follow) text += fmt::format(", following {}", scene.bodies[*scene.camera.follow].name);
+    if (scene.camera.follow) text += fmt::format(", following {}", safe_text(scene.bodies[*scene.camera.follow].name));
     return text;
 }
 
 void print_head(const SceneDescription& scene) {
-    put("{}{}\n", scene.title.empty() ? scene.file : scene.title,
-               scene.title.empty() ? "" : " (" + scene.file + ")");
+    const std::string file = safe_path(scene.file);
+    put("{}{}\n", scene.title.empty() ? file : safe_text(scene.title), scene.title.empty() ? "" : " (" + file + ")");
     const std::int64_t frames = scene.frame_count();
     const int steps = scene.simulation.steps_per_frame;
     put("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
@@ -107,7 +109,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
         const BodyReport report = world.report(i);
         const ShapeText shape = shape_text(body.shape);
         const bool moves = body.type == BodyType::dynamic;
-        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", body.name, type_text(body.type), shape.kind,
+        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type), shape.kind,
                    shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
                    moves ? vector_text(report.principal_inertia) : "-",
                    report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
@@ -137,13 +139,17 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
 
 void print_cost(const SceneDescription& scene, World& world) {
     const double pixels = double(scene.output.width) * scene.output.height;
-    // Colour and depth of each sample, the resolved picture, and the pictures on their way.
-    const double drawing = pixels * (8.0 * scene.output.samples + 8.0) + pixels * 4.0 * frames_in_flight;
+    PictureWork work;
+    work.clip = VideoKind::h264;
+    work.forms.video = PixelForm::yuv420;
+    work.frames = scene.frame_count();
+    const PictureMemory memory = picture_memory(scene, work);
     put("\ncost\n");
     put("  simulation  {}\n", simulation_cost(scene, world));
     put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
                1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
-    put("  memory      about {:.3g} MiB for pictures, for any number of frames\n", drawing / (1024.0 * 1024.0));
+    put("  memory      about {} for the pictures of each drawing process and {} for those of ffmpeg, for any number of frames\n",
+               memory_text(memory.worker), memory_text(memory.encoder));
 }
 
 }  // namespace

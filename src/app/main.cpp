@@ -2,6 +2,7 @@
 #include "app/say.h"
 #include "app/standard_streams.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <csignal>
 #include <exception>
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
         tumble::say_text("error: out of memory\n");
         return 1;
     } catch (const std::exception& error) {
-        tumble::say("error: {}\n", error.what());
+        tumble::say("error: {}\n", tumble::safe_lines(error.what()));
         return 1;
     }
 }

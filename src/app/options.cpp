@@ -6,6 +6,7 @@
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "scene/limits.h"
 
 #include <CLI/CLI.hpp>
@@ -33,7 +34,7 @@ void read_size(const std::string& text, SceneOverrides& overrides) {
         good = bad_height == std::errc() && end == last;
     }
     if (!good)
-        throw InputError(fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", text));
+        throw InputError(fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", safe_text(text)));
     overrides.width = width;
     overrides.height = height;
 }
@@ -46,7 +47,7 @@ AovSet read_aovs(const std::string& text) {
         const std::size_t end = std::min(text.find(',', first), text.size());
         const std::string name = text.substr(first, end - first);
         const std::optional<Aov> aov = aov_named(name);
-        if (!aov) throw InputError(fmt::format("--aov: there is no '{}' (there are {})", name, names_of(all)));
+        if (!aov) throw InputError(fmt::format("--aov: there is no '{}' (there are {})", safe_text(name), names_of(all)));
         aovs.add(*aov);
         first = end + 1;
     }
@@ -70,7 +71,7 @@ CLI::Validator number_within(double least, double most) {
         [=](const std::string& text) {
             double value = 0.0;
             const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return within ? std::string() : fmt::format("Value {} not in range {:g} to {:g}", text, least, most);
+            return within ? std::string() : fmt::format("Value {} not in range {:g} to {:g}", safe_text(text), least, most);
         },
         "");
 }
@@ -208,14 +209,19 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
     command->add_option("--diff", c.difference, "Write a picture of the differences: red beyond the tolerance, blue within")
         ->check(some_name())->type_name("D.png");
-    command->add_option("--tolerance", c.tolerance, "Levels (of 255) that a pixel may differ in each channel; its surroundings\non average by half of it")
+    command->add_option("--tolerance", c.options.tolerance, "Levels (of 255) that a pixel may differ in each channel without counting")
         ->check(CLI::Range(0, 255))->option_text("N [3]");
-    command->add_option("--fraction", c.fraction, "Part of the pixels that may differ by more")
+    command->add_option("--fraction", c.options.fraction, "Rule pixels: part of the pixels that may differ by more (rounded up to whole\npixels)")
         ->check(number_within(0.0, 1.0))->option_text("F [0.0001]");
+    command->add_option("--cluster", c.options.cluster, "Rule cluster: pixels of any 8 x 8 that may differ by more")
+        ->check(CLI::Range(0, 64))->option_text("N [4 + 64 F]");
+    command->add_option("--window", c.options.window, "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off by 64 times that breaks it, too")
+        ->check(number_within(0.0, 255.0))->option_text("L [tolerance / 2 + 255 F]");
     command->footer(
-        "Pictures of one scene from two processors pass; a small object moved by one pixel, a lost shadow\n"
-        "or a shifted colour do not: several such pixels close together, or a slight difference all over an\n"
-        "8 x 8 window, are not allowed either. Both limits grow with --tolerance and --fraction.\n"
+        "Pictures are alike where all three rules hold; each one that does not is named, with its figure, its limit\n"
+        "and its place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
+        "small object moved by one pixel (cluster), a lost shadow or a shifted color (window) do not. The 8 x 8 pixels\n"
+        "begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
         "Example:\n  tumble compare golden.png frame_000100.png --diff difference.png");
     return command;
 }
@@ -253,7 +259,8 @@ int run_command_line(int argc, char** argv) {
         "\"tumble COMMAND --help\" tells more. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
         "or bad input. Messages and progress go to standard error.");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("error: {} (\"tumble --help\" and \"tumble COMMAND --help\" tell more)\n", error.what());
+        return fmt::format("error: {} (\"tumble --help\" and \"tumble COMMAND --help\" tell more)\n",
+                           safe_text(error.what(), path_text_bytes));
     });
     const CLI::App* render = add_render(app, line);
     const CLI::App* simulate = add_simulate(app, line);

@@ -2,6 +2,7 @@
 
 #include "app/frame_folder.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/output_target.h"
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path
         struct stat status {};
         // Later a file of our own might have this number.
         if (::fstat(*target.descriptor, &status) != 0)
-            throw RunError(fmt::format("cannot write '{}': {}", name.string(), std::generic_category().message(errno)));
+            throw RunError(fmt::format("cannot write '{}': {}", safe_path(name), std::generic_category().message(errno)));
         if (!swallows_all(status)) output.file = File{status.st_dev, status.st_ino};
         return output;
     }
@@ -68,14 +69,14 @@ OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path
 void OutputPlan::compare_with_inputs(const Output& output) const {
     for (const Input& input : inputs_)
         if (output.file == input.file)
-            throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", output.option, output.name.string(),
-                                         input.name.string()));
+            throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", output.option, safe_path(output.name),
+                                         safe_path(input.name)));
 }
 
 void OutputPlan::compare_with_outputs(const Output& output) const {
     const auto fail = [&](const std::string& option, const fs::path& name) {
         throw InputError(fmt::format("{} and {} must be two files ('{}' and '{}' are one)", option, output.option,
-                                     name.string(), output.name.string()));
+                                     safe_path(name), safe_path(output.name)));
     };
     for (const Output& other : outputs_)
         if ((output.place && output.place == other.place) || (output.file && output.file == other.file))
@@ -102,7 +103,7 @@ void OutputPlan::add(const OutputSeries& series) {
     for (const Output& output : outputs_)
         if (output.place && is_one_of(*output.place, series))
             throw InputError(fmt::format("{} and {} must be two files ('{}' is a name in '{}')", output.option, series.option,
-                                         output.name.string(), series.folder.string()));
+                                         safe_path(output.name), safe_path(series.folder)));
     std::error_code error;
     if (!fs::is_directory(series.folder, error)) return;
     for (const std::int64_t number : numbers_in(series.folder, series.before, series.after)) {

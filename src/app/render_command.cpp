@@ -1,12 +1,14 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/output_plan.h"
+#include "app/picture_memory.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/say.h"
 #include "app/simulation_threads.h"
 #include "app/speed.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -37,13 +39,13 @@ struct Summary {
 
     void print() const {
         if (video != nullptr)
-            say("wrote {}: {} frames of {} x {}{}{}\n", clip->string(), video->frames_in_clip(),
+            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(),
                        scene.output.width, scene.output.height, every_so_manieth(), stored());
         if (folder != nullptr)
-            say("wrote {} to {}\n", frame_path(folder->path(), frames.first).string(),
+            say("wrote {} to {}\n", safe_path(frame_path(folder->path(), frames.first)),
                        frame_path(folder->path(), frames.end - 1).filename().string());
         if (aovs != nullptr)
-            say("wrote {} to {}: {}\n", aov_path(aovs->path(), frames.first).string(),
+            say("wrote {} to {}: {}\n", safe_path(aov_path(aovs->path(), frames.first)),
                        aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
         print_times();
         if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
@@ -83,7 +85,7 @@ struct Summary {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
         if (older != there.end())
             say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
-                       path(where, *older).string());
+                       safe_path(path(where, *older)));
     }
 };
 
@@ -124,16 +126,22 @@ void run_render(const RenderCommand& command) {
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
     // What can be wrong with the outputs is found out before anything is simulated or written.
-    FrameForms forms{std::nullopt, command.frames.has_value(), command.aovs};
+    PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
+    const FrameForms& forms = work.forms;
     if (clip) {
-        forms.video = video_format(*clip, clip_fps).pixels;
+        const VideoFormat format = video_format(*clip, clip_fps);
+        work.forms.video = format.pixels;
+        work.clip = format.kind;
         find_ffmpeg();
     }
     check_outputs(command, inputs, frames, clip, aovs_to);
+    const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
+    const int workers = workers_that_fit(scene, work, wanted_workers);
+    if (workers < wanted_workers && !command.quiet)
+        say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
-    Drawer drawer(scene, command.drawing, forms, int(std::min<std::int64_t>(command.workers, frames.count())),
-                  shutter.moments);
+    Drawer drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
         SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies

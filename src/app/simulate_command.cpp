@@ -5,6 +5,7 @@
 #include "app/say.h"
 #include "app/stage_time.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/table_writer.h"
 #include "sim/world.h"
 
@@ -116,7 +117,7 @@ void run_simulate(const SimulateCommand& command) {
     if (command.quiet) return;
     const double seconds = wall_seconds() - start;
     for (const auto& file : {command.trajectory, command.energy})
-        if (file) say("wrote {}\n", file->string());
+        if (file) say("wrote {}\n", safe_path(*file));
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
                (frames - 1) * scene.simulation.steps_per_frame, scene.step(), seconds,
                double(frames - 1) / scene.output.fps / seconds);

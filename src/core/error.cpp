@@ -1,23 +1,29 @@
 #include "core/error.h"
 
+#include "core/safe_text.h"
+
 #include <fmt/format.h>
 
 namespace tumble {
 namespace {
 
+// Messages hold what users wrote: whoever threw may have forgotten to make it safe.
 std::string located(const SourceLocation& where, const std::string& message) {
-    if (where.file.empty()) return "error: " + message;
-    if (where.line == 0) return fmt::format("{}: error: {}", where.file, message);
-    return fmt::format("{}:{}:{}: error: {}", where.file, where.line, where.column, message);
+    const std::string words = safe_text(message, message_text_bytes);
+    if (where.file.empty()) return "error: " + words;
+    const std::string file = safe_path(where.file);
+    if (where.line == 0) return fmt::format("{}: error: {}", file, words);
+    return fmt::format("{}:{}:{}: error: {}", file, where.line, where.column, words);
 }
 
 }  // namespace
 
-InputError::InputError(const std::string& message) : std::runtime_error("error: " + message) {}
+InputError::InputError(const std::string& message) : InputError(SourceLocation(), message) {}
 
 InputError::InputError(const SourceLocation& where, const std::string& message)
     : std::runtime_error(located(where, message)) {}
 
-RunError::RunError(const std::string& message) : std::runtime_error("error: " + message) {}
+// Of several lines where another program's words are part of it.
+RunError::RunError(const std::string& message) : std::runtime_error("error: " + safe_lines(message)) {}
 
 }  // namespace tumble

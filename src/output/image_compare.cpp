@@ -1,5 +1,6 @@
 #include "output/image_compare.h"
 
+#include "core/check.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 namespace tumble {
 namespace {
@@ -16,12 +16,6 @@ constexpr int window = 8;           // pixels: about the smallest object worth s
 constexpr int stride = window / 2;  // windows overlap by half, so that no small change is cut in four
 // Two outliers side by side are seen in noise; a box moved by one pixel, however small, leaves more than four.
 constexpr int cluster_limit = 4;    // failing pixels in a window
-
-void check_sizes(const Image& a, const Image& b) {
-    if (a.width != b.width || a.height != b.height)
-        throw InputError(fmt::format("pictures of different sizes cannot be compared ({} x {} and {} x {})", a.width,
-                                     a.height, b.width, b.height));
-}
 
 /// The largest difference over the four channels of a pixel.
 int pixel_difference(const std::uint8_t* a, const std::uint8_t* b) {
@@ -38,84 +32,151 @@ std::vector<int> window_starts(int size) {
     return starts;
 }
 
-/// Sums over windows of the differences and of the failing pixels.
-void look_through_windows(const std::vector<std::uint8_t>& difference, int width, int height, int tolerance,
-                          Comparison& result) {
-    for (const int top : window_starts(height)) {
-        for (const int left : window_starts(width)) {
-            const int bottom = std::min(top + window, height), right = std::min(left + window, width);
-            int sum = 0, failing = 0;
-            for (int y = top; y < bottom; ++y)
-                for (int x = left; x < right; ++x) {
-                    const int d = difference[std::size_t(y) * std::size_t(width) + std::size_t(x)];
-                    sum += d;
-                    failing += d > tolerance ? 1 : 0;
-                }
-            // Pictures smaller than a window are one window, with the same weight for each pixel.
-            const double mean = double(sum) / (window * window);
-            result.worst_cluster = std::max(result.worst_cluster, failing);
-            if (mean > result.worst_window) {
-                result.worst_window = mean;
-                result.worst_window_x = left;
-                result.worst_window_y = top;
-            }
-        }
-    }
+/// Whether windows begin at this row of so many.
+bool is_window_start(int row, int size) {
+    return row == std::max(0, size - window) || (row >= 0 && row % stride == 0 && row + window < size);
 }
 
-std::string failed_test(const Comparison& c, std::size_t pixels, const CompareOptions& options) {
+std::array<CompareRule, 3> rules(const Comparison& c, std::size_t pixels, const CompareOptions& options) {
     // Pixels that the caller lets differ may lie anywhere, and differ by anything: both window limits grow by them.
-    const double window_limit = 0.5 * options.tolerance + 255.0 * options.fraction;
-    const double cluster_most = cluster_limit + window * window * options.fraction;
+    const double cluster = options.cluster ? *options.cluster : cluster_limit + window * window * options.fraction;
+    const double mean = options.window ? *options.window : 0.5 * options.tolerance + 255.0 * options.fraction;
     // Rounded up: in a picture of a few thousand pixels one may still be noise.
-    if (double(c.failing_pixels) > std::ceil(options.fraction * double(pixels)))
-        return fmt::format("{} pixels ({:.4g} of all; at most {:.4g} may) differ by more than {} levels, up to {}",
-                           c.failing_pixels, c.failing_fraction, options.fraction, options.tolerance, c.max_difference);
-    if (c.worst_cluster > cluster_most)
-        return fmt::format("{} pixels close together differ by more than {} levels, up to {}", c.worst_cluster,
-                           options.tolerance, c.max_difference);
-    if (c.worst_window > window_limit)
-        return fmt::format("around pixel {}, {} the pictures differ by {:.2f} levels on average (at most {:.2f} may)",
-                           c.worst_window_x + stride, c.worst_window_y + stride, c.worst_window, window_limit);
-    return {};
+    const double count = std::ceil(options.fraction * double(pixels));
+    return {{{"pixels", double(c.failing_pixels), count, c.max_x, c.max_y},
+             {"cluster", double(c.worst_cluster), std::floor(cluster), c.worst_cluster_x, c.worst_cluster_y},
+             {"window", c.worst_window, mean, c.worst_window_x, c.worst_window_y}}};
+}
+
+std::string sentence(const CompareRule& rule, const Comparison& c, const CompareOptions& options) {
+    const std::string_view name = rule.name;
+    if (name == "pixels")
+        return fmt::format("rule pixels: {:.0f} pixels differ by more than {} levels (at most {:.0f} may, a fraction of {:.4g}; "
+                           "see --tolerance, --fraction); the most by {}, at x {}, y {}",
+                           rule.figure, options.tolerance, rule.limit, options.fraction, c.max_difference, rule.x, rule.y);
+    if (name == "cluster")
+        return fmt::format("rule cluster: {:.0f} pixels of the 8 x 8 from x {}, y {} on differ by more than {} levels "
+                           "(at most {:.0f} may; see --cluster)",
+                           rule.figure, rule.x, rule.y, options.tolerance, rule.limit);
+    return fmt::format("rule window: the 8 x 8 pixels from x {}, y {} on differ by {:.4g} levels on average "
+                       "(at most {:.4g} may; see --window)",
+                       rule.x, rule.y, rule.figure, rule.limit);
 }
 
 }  // namespace
 
-Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options) {
-    check_sizes(a, b);
-    Comparison result;
-    const std::size_t pixels = std::size_t(a.width) * std::size_t(a.height);
-    std::vector<std::uint8_t> difference(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const int d = pixel_difference(&a.pixels[4 * i], &b.pixels[4 * i]);
-        difference[i] = static_cast<std::uint8_t>(d);
-        result.max_difference = std::max(result.max_difference, d);
-        result.differing_pixels += d > 0 ? 1 : 0;
-        result.failing_pixels += d > options.tolerance ? 1 : 0;
+void check_sizes(int width_a, int height_a, int width_b, int height_b) {
+    if (width_a != width_b || height_a != height_b)
+        throw InputError(fmt::format("pictures of different sizes cannot be compared ({} x {} and {} x {})", width_a,
+                                     height_a, width_b, height_b));
+}
+
+ImageComparer::ImageComparer(int width, int height, const CompareOptions& options)
+    : width_(width),
+      height_(height),
+      options_(options),
+      lefts_(window_starts(width)),
+      differences_(std::size_t(width) * window),
+      sums_(std::size_t(width)),
+      failing_(std::size_t(width)) {}
+
+std::span<const std::uint8_t> ImageComparer::differences(int row) const {
+    return {differences_.data() + std::size_t(row % window) * std::size_t(width_), std::size_t(width_)};
+}
+
+void ImageComparer::add_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
+    TUMBLE_CHECK_LT(row_, height_);
+    std::uint8_t* const to = differences_.data() + std::size_t(row_ % window) * std::size_t(width_);
+    for (int x = 0; x < width_; ++x) {
+        const int d = pixel_difference(&a[4 * std::size_t(x)], &b[4 * std::size_t(x)]);
+        to[x] = static_cast<std::uint8_t>(d);
+        found_.differing_pixels += d > 0 ? 1 : 0;
+        found_.failing_pixels += d > options_.tolerance ? 1 : 0;
+        if (d > 0) last_difference_ = row_;
+        if (d > found_.max_difference) {
+            found_.max_difference = d;
+            found_.max_x = x;
+            found_.max_y = row_;
+        }
     }
+    ++row_;
+    const int top = std::max(0, row_ - window);
+    const bool full = row_ >= window || row_ == height_;
+    if (full && is_window_start(top, height_) && last_difference_ >= top) look_through_windows(top, row_);
+}
+
+/// Sums over the windows between two rows of the differences and of the failing pixels.
+void ImageComparer::look_through_windows(int top, int bottom) {
+    std::fill(sums_.begin(), sums_.end(), 0);
+    std::fill(failing_.begin(), failing_.end(), 0);
+    for (int y = top; y < bottom; ++y) {
+        const std::span<const std::uint8_t> row = differences(y);
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            sums_[x] += row[x];
+            failing_[x] += row[x] > options_.tolerance ? 1 : 0;
+        }
+    }
+    for (const int left : lefts_) {
+        const int right = std::min(left + window, width_);
+        int sum = 0, failing = 0;
+        for (int x = left; x < right; ++x) {
+            sum += sums_[std::size_t(x)];
+            failing += failing_[std::size_t(x)];
+        }
+        // Pictures smaller than a window are one window, with the same weight for each pixel.
+        const double mean = double(sum) / (window * window);
+        if (failing > found_.worst_cluster) {
+            found_.worst_cluster = failing;
+            found_.worst_cluster_x = left;
+            found_.worst_cluster_y = top;
+        }
+        if (mean > found_.worst_window) {
+            found_.worst_window = mean;
+            found_.worst_window_x = left;
+            found_.worst_window_y = top;
+        }
+    }
+}
+
+Comparison ImageComparer::result() const {
+    TUMBLE_CHECK_EQ(row_, height_);
+    Comparison result = found_;
+    const std::size_t pixels = std::size_t(width_) * std::size_t(height_);
     if (pixels > 0) result.failing_fraction = double(result.failing_pixels) / double(pixels);
-    if (result.max_difference > 0)
-        look_through_windows(difference, a.width, a.height, options.tolerance, result);
-    result.reason = failed_test(result, pixels, options);
+    result.rules = rules(result, pixels, options_);
+    for (const CompareRule& rule : result.rules)
+        if (!rule.holds())
+            result.reason += fmt::format("{}{}", result.reason.empty() ? "" : "\n", sentence(rule, result, options_));
     result.alike = result.reason.empty();
     return result;
 }
 
-Image difference_image(const Image& a, const Image& b, const CompareOptions& options) {
-    check_sizes(a, b);
-    Image image(a.width, a.height);
-    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
-        const std::uint8_t* from = &a.pixels[i];
-        std::uint8_t* to = &image.pixels[i];
-        const int d = pixel_difference(from, &b.pixels[i]);
-        const int grey = (2 * from[0] + 5 * from[1] + from[2]) / 24;   // a third of the brightness
+Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options) {
+    check_sizes(a.width, a.height, b.width, b.height);
+    ImageComparer comparer(a.width, a.height, options);
+    const std::size_t bytes = 4 * std::size_t(a.width);
+    for (int y = 0; y < a.height; ++y) comparer.add_row({a.at(0, y), bytes}, {b.at(0, y), bytes});
+    return comparer.result();
+}
+
+void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance, std::span<std::uint8_t> to) {
+    for (std::size_t i = 0; i < to.size(); i += 4) {
+        const int d = pixel_difference(&a[i], &b[i]);
+        const int grey = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
         const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);   // the smallest difference can be seen
-        to[0] = static_cast<std::uint8_t>(d > options.tolerance ? shown : grey);
-        to[1] = static_cast<std::uint8_t>(grey);
-        to[2] = static_cast<std::uint8_t>(d > 0 && d <= options.tolerance ? shown : grey);
-        to[3] = 255;
+        to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : grey);
+        to[i + 1] = static_cast<std::uint8_t>(grey);
+        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : grey);
+        to[i + 3] = 255;
     }
+}
+
+Image difference_image(const Image& a, const Image& b, const CompareOptions& options) {
+    check_sizes(a.width, a.height, b.width, b.height);
+    Image image(a.width, a.height);
+    const std::size_t bytes = 4 * std::size_t(a.width);
+    for (int y = 0; y < a.height; ++y)
+        difference_row({a.at(0, y), bytes}, {b.at(0, y), bytes}, options.tolerance, {image.at(0, y), bytes});
     return image;
 }
 

@@ -1,6 +1,7 @@
 #include "output/output_target.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -77,7 +78,7 @@ OutputTarget output_target(const fs::path& name) {
         if (error) return target;   // whoever opens it meets the same error
         target.path = next.is_absolute() ? next : target.path.parent_path() / next;
     }
-    throw InputError(fmt::format("cannot write '{}': it is a link that leads in a circle", name.string()));
+    throw InputError(fmt::format("cannot write '{}': it is a link that leads in a circle", safe_path(name)));
 }
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #include "output/part_file.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/file_lock.h"
 
 #include <fmt/format.h>
@@ -87,7 +88,7 @@ void PartFile::move_to_final_path() {
 }
 
 void PartFile::fail(int error) const {
-    throw RunError(fmt::format("cannot write '{}': {}", final_path_.string(), std::generic_category().message(error)));
+    throw RunError(fmt::format("cannot write '{}': {}", safe_path(final_path_), std::generic_category().message(error)));
 }
 
 void remove_left_parts(const fs::path& final_path) {

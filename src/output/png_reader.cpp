@@ -1,69 +1,174 @@
 #include "output/png_reader.h"
 
+#include "core/available_memory.h"
+#include "core/check.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <memory>
+#include <csetjmp>
+#include <cstdlib>
+#include <cstring>
+#include <new>
 #include <system_error>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+/// What libpng's callbacks may touch: plain values, for its longjmp passes over them.
+struct Failure {
+    char message[256] = {};
+    bool out_of_memory = false;
 };
 
-/// libpng's "simplified" reader: it keeps its own setjmp inside and reports errors as values.
-class Reader {
-public:
-    explicit Reader(const fs::path& path) : path_(path) {
-        std::error_code ignored;
-        if (fs::is_directory(path, ignored)) throw InputError(at(), "is a folder, not a PNG file");
-        file_.reset(std::fopen(path.c_str(), "rbe"));
-        if (!file_) throw InputError(at(), "cannot be read: " + std::generic_category().message(errno));
-        image_.version = PNG_IMAGE_VERSION;
-        if (png_image_begin_read_from_stdio(&image_, file_.get()) == 0) fail();
-        const std::int64_t pixels = std::int64_t(image_.width) * std::int64_t(image_.height);
-        if (pixels > max_picture_pixels) {
-            png_image_free(&image_);   // a constructor that throws is not followed by the destructor
-            throw InputError(at(), fmt::format("the picture is too large ({} x {}; at most {} pixels)", image_.width,
-                                               image_.height, max_picture_pixels));
-        }
-    }
-    ~Reader() { png_image_free(&image_); }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
+void keep_error(png_structp png, png_const_charp message) {
+    auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+    std::strncpy(failure->message, message, sizeof failure->message - 1);
+    png_longjmp(png, 1);
+}
 
-    PictureSize size() const { return {static_cast<int>(image_.width), static_cast<int>(image_.height)}; }
+void ignore_warning(png_structp, png_const_charp) {}
 
-    Image pixels() {
-        Image image(size().width, size().height);
-        image_.format = PNG_FORMAT_RGBA;
-        // 16-bit files are sRGB like the 8-bit ones, unless they say otherwise.
-        image_.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-        if (png_image_finish_read(&image_, nullptr, image.pixels.data(), 0, nullptr) == 0) fail();
-        return image;
-    }
+// libpng words its lack of memory in many ways.
+void* take_memory(png_structp png, png_alloc_size_t size) {
+    void* const memory = std::malloc(size);
+    if (memory == nullptr) static_cast<Failure*>(png_get_mem_ptr(png))->out_of_memory = true;
+    return memory;
+}
 
-private:
-    SourceLocation at() const { return {path_.string(), 0, 0}; }
-    [[noreturn]] void fail() const { throw InputError(at(), fmt::format("not a whole PNG file: {}", image_.message)); }
+void give_back_memory(png_structp, void* memory) { std::free(memory); }
 
-    fs::path path_;
-    std::unique_ptr<std::FILE, CloseFile> file_;
-    png_image image_{};
-};
+OpenFile opened(const fs::path& path) {
+    const SourceLocation at{path.string(), 0, 0};
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) throw InputError(at, "is a folder, not a PNG file");
+    OpenFile file(std::fopen(path.c_str(), "rbe"));
+    if (!file) throw InputError(at, "cannot be read: " + std::generic_category().message(errno));
+    return file;
+}
 
 }  // namespace
 
-Image read_png(const fs::path& path) { return Reader(path).pixels(); }
+/// libpng reports errors by longjmp: the functions that call it hold nothing that must be destroyed.
+struct PngRows::File {
+    OpenFile file;
+    std::string name;
+    Failure failure;
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    int width = 0, height = 0, passes = 1;
 
-PictureSize read_png_size(const fs::path& path) { return Reader(path).size(); }
+    File(OpenFile opened_file, const std::string& its_name) : file(std::move(opened_file)), name(its_name) {
+        png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, keep_error, ignore_warning, &failure, take_memory,
+                                       give_back_memory);
+        info = png != nullptr ? png_create_info_struct(png) : nullptr;
+        if (info == nullptr) failure.out_of_memory = true;
+    }
+    ~File() { png_destroy_read_struct(&png, &info, nullptr); }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    SourceLocation at() const { return {name, 0, 0}; }
+
+    [[noreturn]] void fail() const {
+        if (failure.out_of_memory) throw std::bad_alloc();
+        throw InputError(at(), fmt::format("not a whole PNG file: {}", failure.message));
+    }
+
+    /// False: `failure` says why.
+    bool read_head() {
+        if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
+        // Of the chunks that a picture can do without, only those that say how its numbers are meant.
+        static constexpr png_byte meaning[] = "bKGD\0cHRM\0gAMA\0iCCP\0sBIT\0sRGB";
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, meaning, int(sizeof meaning / 5));
+        png_init_io(png, file.get());
+        png_read_info(png, info);
+        width = static_cast<int>(png_get_image_width(png, info));
+        height = static_cast<int>(png_get_image_height(png, info));
+        return true;
+    }
+
+    /// As libpng's simplified reader has it: 16-bit files are sRGB like the 8-bit ones, unless they say otherwise.
+    bool choose_form() {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_set_expand(png);
+        png_set_gray_to_rgb(png);
+        png_set_alpha_mode_fixed(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);   // the file's, where it does not say, and the rows'
+        png_set_scale_16(png);
+        png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+        passes = png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        return true;
+    }
+
+    bool read_row(std::uint8_t* to) {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_read_row(png, to, nullptr);
+        return true;
+    }
+};
+
+PngRows::PngRows(const fs::path& path) : PngRows(opened(path), path.string()) {}
+
+PngRows::PngRows(OpenFile file, const std::string& name) : file_(std::make_unique<File>(std::move(file), name)) {
+    if (!file_->read_head()) file_->fail();
+    if (std::int64_t(file_->width) * file_->height > max_picture_pixels)
+        throw InputError(file_->at(), fmt::format("the picture is too large ({} x {}; at most {} pixels)", file_->width,
+                                                  file_->height, max_picture_pixels));
+    if (!file_->choose_form()) file_->fail();
+    TUMBLE_CHECK_EQ(png_get_rowbytes(file_->png, file_->info), 4 * std::size_t(file_->width));
+}
+
+PngRows::~PngRows() = default;
+
+PictureSize PngRows::size() const { return {file_->width, file_->height}; }
+
+bool PngRows::interlaced() const { return file_->passes > 1; }
+
+void PngRows::read_interlaced() {
+    require_memory(4 * std::uint64_t(file_->width) * std::uint64_t(file_->height),
+                   fmt::format("an interlaced picture of {} x {} pixels", file_->width, file_->height),
+                   "saved without interlacing, it is read row by row");
+    whole_ = Image(file_->width, file_->height);
+    for (int pass = 0; pass < file_->passes; ++pass)
+        for (int y = 0; y < file_->height; ++y)
+            if (!file_->read_row(whole_.at(0, y))) file_->fail();
+}
+
+std::span<const std::uint8_t> PngRows::next() {
+    TUMBLE_CHECK_LT(next_, file_->height);
+    const std::size_t bytes = 4 * std::size_t(file_->width);
+    if (interlaced()) {
+        if (next_ == 0) read_interlaced();
+        return {whole_.at(0, next_++), bytes};
+    }
+    row_.resize(bytes);
+    if (!file_->read_row(row_.data())) file_->fail();
+    ++next_;
+    return row_;
+}
+
+Image PngRows::all() {
+    TUMBLE_CHECK_EQ(next_, 0);
+    if (interlaced()) {
+        read_interlaced();
+        return std::move(whole_);
+    }
+    Image image(file_->width, file_->height);
+    for (int y = 0; y < image.height; ++y)
+        if (!file_->read_row(image.at(0, y))) file_->fail();
+    return image;
+}
+
+Image read_png(const fs::path& path) { return PngRows(path).all(); }
+
+PictureSize read_png_size(const fs::path& path) { return PngRows(path).size(); }
 
 }  // namespace tumble

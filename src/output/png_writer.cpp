@@ -83,8 +83,14 @@ bool write_head(png_structp png, png_infop info, int width, int height, Sink& si
     return true;
 }
 
+std::array<std::uint8_t, 4> big_end_first(std::uint32_t number) {
+    std::array<std::uint8_t, 4> bytes;
+    for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(number >> (24 - 8 * i));
+    return bytes;
+}
+
 void append_number(std::vector<std::byte>& to, std::uint32_t number) {
-    for (int shift = 24; shift >= 0; shift -= 8) to.push_back(std::byte((number >> shift) & 0xff));
+    for (const std::uint8_t byte : big_end_first(number)) to.push_back(std::byte(byte));
 }
 
 /// A chunk: libpng would take its checksum a tenth as fast.
@@ -171,8 +177,7 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
         checksum = static_cast<std::uint32_t>(adler32_combine(checksum, bands_[i].checksum, static_cast<z_off_t>(bytes)));
         parts.emplace_back(bands_[i].compressed);
     }
-    std::array<std::uint8_t, 4> end;
-    for (std::size_t i = 0; i < 4; ++i) end[i] = static_cast<std::uint8_t>(checksum >> (24 - 8 * i));
+    const std::array<std::uint8_t, 4> end = big_end_first(checksum);
     parts.emplace_back(last_block);
     parts.emplace_back(end);
 
@@ -197,6 +202,52 @@ void PngEncoder::make_head() {
 
 std::size_t png_bytes_bound(int width, int height) {
     return head_and_end + std::size_t(band_count(height)) * Deflater::bound(row_bytes(width) * rows_of_band);
+}
+
+PngRowWriter::PngRowWriter(const std::filesystem::path& path, int width, int height)
+    : file_(path), band_(width, std::min(rows_of_band, height)), height_(height) {
+    if (band_.pixels.empty()) fail(width, height, "it is empty");
+    encoder_.width_ = width;
+    encoder_.height_ = height;
+    encoder_.make_head();
+    file_.write(encoder_.head_);
+}
+
+void PngRowWriter::add_row(std::span<const std::uint8_t> row) {
+    TUMBLE_CHECK_LT(rows_, height_);
+    TUMBLE_CHECK_EQ(row.size(), 4 * std::size_t(band_.width));
+    std::ranges::copy(row, band_.at(0, rows_ % rows_of_band));
+    ++rows_;
+    if (rows_ % rows_of_band == 0 || rows_ == height_) write_band();
+}
+
+void PngRowWriter::write_band() {
+    const int rows = (rows_ - 1) % rows_of_band + 1;
+    const bool first = rows_ == rows;
+    if (rows < band_.height) {   // the last one
+        band_.height = rows;
+        band_.pixels.resize(4 * std::size_t(band_.width) * std::size_t(rows));
+    }
+    encoder_.compress(band_, 0, compressed_);
+    const std::size_t bytes = row_bytes(band_.width) * std::size_t(rows);
+    checksum_ = static_cast<std::uint32_t>(adler32_combine(checksum_, compressed_.checksum, static_cast<z_off_t>(bytes)));
+    std::vector<std::span<const std::uint8_t>> parts;
+    if (first) parts.emplace_back(zlib_head);
+    parts.emplace_back(compressed_.compressed);
+    chunk_.clear();
+    append_chunk(chunk_, "IDAT", parts);
+    file_.write(chunk_);
+}
+
+void PngRowWriter::finish() {
+    TUMBLE_CHECK_EQ(rows_, height_);
+    const std::array<std::uint8_t, 4> end = big_end_first(checksum_);
+    const std::span<const std::uint8_t> parts[] = {last_block, end};
+    chunk_.clear();
+    append_chunk(chunk_, "IDAT", parts);
+    append_chunk(chunk_, "IEND", {});
+    file_.write(chunk_);
+    file_.commit();
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

@@ -6,6 +6,7 @@
 #include "core/image.h"
 #include "core/rectangle.h"
 #include "output/deflater.h"
+#include "output/temporary_file.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,7 @@ public:
     std::span<const std::byte> encode(const Image& image);
 
 private:
+    friend class PngRowWriter;
     struct Band {
         std::vector<std::uint8_t> compressed;
         std::uint32_t checksum = 0;   // Adler-32 of its rows
@@ -41,6 +43,31 @@ private:
 
 /// The most bytes that a PNG of this size takes.
 std::size_t png_bytes_bound(int width, int height);
+
+/// Writes a PNG file of a picture that comes row by row, and keeps only one band of it.
+class PngRowWriter {
+public:
+    /// Throws RunError naming the path.
+    PngRowWriter(const std::filesystem::path& path, int width, int height);
+
+    /// Four bytes a pixel; as many times as there are rows.
+    void add_row(std::span<const std::uint8_t> row);
+
+    /// The file has its name.
+    void finish();
+
+private:
+    void write_band();
+
+    TemporaryFile file_;
+    PngEncoder encoder_;
+    Image band_;                     // the rows on their way
+    int height_;
+    int rows_ = 0;                   // of the picture, that have come
+    std::uint32_t checksum_ = 1;     // Adler-32 of those written
+    PngEncoder::Band compressed_;
+    std::vector<std::byte> chunk_;
+};
 
 /// Writes through a temporary file. Throws RunError naming the path.
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -1,6 +1,7 @@
 #include "output/process.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -92,7 +93,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&how);
     if (failed != 0)
-        throw RunError(fmt::format("cannot start '{}': {}", program.string(), std::generic_category().message(failed)));
+        throw RunError(fmt::format("cannot start '{}': {}", safe_path(program), std::generic_category().message(failed)));
     return id;
 }
 

@@ -1,6 +1,7 @@
 #include "output/temporary_file.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -123,7 +124,7 @@ void TemporaryFile::commit() {
 }
 
 void TemporaryFile::fail(int error) const {
-    throw RunError(fmt::format("cannot write '{}': {}", target_.path.string(), std::generic_category().message(error)));
+    throw RunError(fmt::format("cannot write '{}': {}", safe_path(target_.path), std::generic_category().message(error)));
 }
 
 void bring_to_disk(const fs::path& folder) {

@@ -1,6 +1,7 @@
 #include "output/video_format.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/output_target.h"
 #include "output/yuv420.h"
 
@@ -105,7 +106,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
     else if (ending == ".webm") { format.kind = VideoKind::vp9; format.container = "webm"; limit = fastest_matroska; }
     else if (ending == ".gif") { format.kind = VideoKind::gif; format.pixels = PixelForm::rgba; }
     else throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
-                                          "(the ending was '{}')", ending));
+                                          "(the ending was '{}')", safe_text(ending)));
     if (!(fps >= slowest && fps <= limit))
         throw InputError(at, fmt::format("a {} clip holds {} to {} frames a second ({} were asked for{})", ending,
                                          slowest, limit, fps,

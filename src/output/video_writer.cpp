@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/clip_check.h"
 #include "output/matroska_stream.h"
 
@@ -98,7 +99,7 @@ void VideoWriter::finish() {
 void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
-        if (abandoned_) throw RunError(fmt::format("'{}' was given up", clip_.string()));
+        if (abandoned_) throw RunError(fmt::format("'{}' was given up", safe_path(clip_)));
         gif_maker_.emplace(program_, gif_arguments(lossless_->path(), argument_of_clip()), file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
@@ -127,7 +128,7 @@ void VideoWriter::check(const fs::path& file, const std::string& container, cons
 void VideoWriter::fail(const ProcessEnd& end) const { fail(end, fmt::format("failed ({})", end.describe())); }
 
 void VideoWriter::fail(const ProcessEnd& end, const std::string& how) const {
-    throw RunError(fmt::format("cannot write '{}': {} {}{}{}", clip_.string(), program_.string(), how,
+    throw RunError(fmt::format("cannot write '{}': {} {}{}{}", safe_path(clip_), safe_path(program_), how,
                                end.words.empty() ? "" : ":\n", end.words));
 }
 

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ std::filesystem::path find_shader_folder() {
     for (const fs::path& place : places) {
         std::error_code failed;
         if (fs::is_regular_file(place / "look.glsl", failed)) return place.lexically_normal();
-        tried += "\n  " + place.lexically_normal().string();
+        tried += "\n  " + safe_path(place.lexically_normal());
     }
     throw RunError(fmt::format("no shaders found; set TUMBLE_SHADERS to their folder. Looked in:{}", tried));
 }

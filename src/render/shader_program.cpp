@@ -1,6 +1,7 @@
 #include "render/shader_program.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "render/shader_source.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ void attach(const GlFunctions& gl, GLuint program, GLenum stage, const std::file
     gl.DeleteShader(shader);  // the program keeps it from here on
     if (compiled == 0)
         throw RunError(
-            fmt::format("shader {} does not compile:\n{}", (folder / name).string(), source.with_file_names(log)));
+            fmt::format("shader {} does not compile:\n{}", safe_path(folder / name), source.with_file_names(log)));
 }
 
 }  // namespace
@@ -49,8 +50,8 @@ ShaderProgram::ShaderProgram(const GlFunctions& gl, const std::filesystem::path&
     if (linked == 0) {
         std::string log(4096, '\0');
         gl.GetProgramInfoLog(program, GLsizei(log.size()), nullptr, log.data());
-        throw RunError(fmt::format("shaders {} and {} do not link:\n{}", (folder / files.vertex).string(),
-                                   (folder / files.fragment).string(), log.c_str()));
+        throw RunError(fmt::format("shaders {} and {} do not link:\n{}", safe_path(folder / files.vertex),
+                                   safe_path(folder / files.fragment), log.c_str()));
     }
 }
 

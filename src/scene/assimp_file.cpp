@@ -1,6 +1,7 @@
 #include "scene/assimp_file.h"
 
-#include "scene/message_text.h"
+#include "core/safe_text.h"
+
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
@@ -44,7 +45,7 @@ Mat3 normal_transform(const Mat3& m) {
 /// What assimp says, as far as one wants to read it: some of its messages quote the rest of the file, bytes and all.
 std::string readable(std::string message) {
     for (char& c : message) if (static_cast<unsigned char>(c) > 0x7e) c = '?';
-    return one_line(message, 120);
+    return safe_text(message, 120);
 }
 
 void add_mesh(const aiMesh& mesh, const Transform& transform, bool with_normals, MeshFile& result) {

@@ -1,5 +1,7 @@
 #include "scene/body_index.h"
 
+#include "core/safe_text.h"
+
 #include <fmt/format.h>
 
 namespace tumble {
@@ -17,11 +19,11 @@ std::size_t BodyIndex::find(const TomlValue& value) const {
     if (const auto found = index_.find(name); found != index_.end()) return found->second;
     if (index_.count(name + ".0")) {
         value.origin().fail(
-            fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", name));
+            fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", safe_text(name)));
     }
     std::vector<std::string_view> known;
     for (const auto& [other, i] : index_) known.push_back(other);
-    value.origin().fail(fmt::format("\"{}\" is not the name of a body{}", name, suggestion(name, known)));
+    value.origin().fail(fmt::format("\"{}\" is not the name of a body{}", safe_text(name), suggestion(name, known)));
 }
 
 }  // namespace tumble

@@ -11,6 +11,8 @@ namespace tumble::limits {
 
 // -- Files
 inline constexpr std::int64_t scene_bytes = 256 << 20;    // a file of a million bodies is about 100 MB
+inline constexpr std::int64_t key_parts = 16;             // a.b.c has three, and a scene needs no more; each is a table in the one
+                                                          // before, and tables are destroyed by recursion
 inline constexpr std::int64_t mesh_bytes = 256 << 20;     // assimp needs about ten times the file in memory
 inline constexpr std::int64_t mesh_triangles = 5'000'000; // 32-bit indices and about a gigabyte when welded
 

@@ -1,5 +1,6 @@
 #include "scene/materials.h"
 
+#include "core/safe_text.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ const Material& find_material(const Materials& materials, const TomlValue& value
     if (const auto found = materials.find(name); found != materials.end()) return found->second;
     std::vector<std::string_view> known;
     for (const auto& [other, material] : materials) known.push_back(other);
-    value.origin().fail(fmt::format("\"{}\" is not among the materials{}", name, suggestion(name, known)));
+    value.origin().fail(fmt::format("\"{}\" is not among the materials{}", safe_text(name), suggestion(name, known)));
 }
 
 void apply_material(const Material& material, BodyDescription& body) {

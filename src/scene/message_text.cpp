@@ -1,5 +1,7 @@
 #include "scene/message_text.h"
 
+#include "core/safe_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -38,7 +40,7 @@ std::string number_text(double value) {
 
 std::string quoted_list(const std::vector<std::string_view>& names) {
     std::vector<std::string> quoted;
-    for (std::string_view name : names) quoted.push_back(fmt::format("\"{}\"", name));
+    for (std::string_view name : names) quoted.push_back(fmt::format("\"{}\"", safe_text(name)));
     return fmt::format("{}", fmt::join(quoted, ", "));
 }
 
@@ -54,18 +56,10 @@ std::string suggestion(std::string_view given, const std::vector<std::string_vie
     }
     // Up to a third of the letters wrong is a slip; more is another word.
     if (best != std::string_view::npos && best <= std::max<std::size_t>(1, nearest.size() / 3)) {
-        return fmt::format(" (did you mean \"{}\"?)", nearest);
+        return fmt::format(" (did you mean \"{}\"?)", safe_text(nearest));
     }
     if (known.empty() || known.size() > readable_list) return "";
     return fmt::format(" (known: {})", quoted_list(known));
-}
-
-std::string one_line(std::string text, std::size_t longest) {
-    for (char& c : text) if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    if (text.size() <= longest) return text;
-    // Not inside a letter of UTF-8.
-    while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
-    return text.substr(0, longest) + "...";
 }
 
 }  // namespace tumble

@@ -17,7 +17,4 @@ std::string quoted_list(const std::vector<std::string_view>& names);
 /// enough to read, ` (known: ...)`; otherwise nothing.
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& known);
 
-/// The beginning of a text on one line: control characters become spaces, and what is longer ends in "...".
-std::string one_line(std::string text, std::size_t longest);
-
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/message_text.h"
+#include "core/safe_text.h"
 #include "scene/origin.h"
 
 #include <cstdint>
@@ -43,7 +44,7 @@ Value chosen(std::string_view given, std::span<const Choice<Value>> choices, con
         if (choice.name == given) return choice.value;
         names.push_back(choice.name);
     }
-    origin.fail("must be one of " + quoted_list(names) + " (given \"" + std::string(given) + "\")");
+    origin.fail("must be one of " + quoted_list(names) + " (given \"" + safe_text(given) + "\")");
 }
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "scene/shapes.h"
 
+#include "core/safe_text.h"
 #include "scene/compound.h"
 #include "scene/limits.h"
 
@@ -106,8 +107,8 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
         check_mesh_size(mesh, scale ? *scale : file);
         request.shape = MeshShape{mesh.asset};
     } catch (const MeshError& error) {
-        throw InputError(file.origin().where, fmt::format("mesh \"{}\" {} (looked at {})", name, error.what(),
-                                                          request.mesh_file.string()));
+        throw InputError(file.origin().where, fmt::format("mesh \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
+                                                          safe_path(request.mesh_file)));
     }
     return request;
 }

@@ -1,7 +1,9 @@
 #define TOML_IMPLEMENTATION   // toml++ is compiled here, and only declared elsewhere
 #include "scene/toml_reader.h"
 
+#include "core/safe_text.h"
 #include "scene/limits.h"
+#include "scene/toml_scan.h"
 
 #include <fmt/format.h>
 
@@ -14,35 +16,41 @@ SourceLocation location_of(const toml::source_region& source, const std::string&
     return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
+/// The array as a message shows it: as many items as fit into `room` bytes, and the number of all.
+std::string given_text(const toml::array& array, std::size_t room);
+
 /// The value as a message shows it, of readable length and on one line.
-std::string given_text(const toml::node& node) {
-    constexpr std::size_t longest = 60;
-    std::string text;
-    if (const auto* s = node.as_string()) text = fmt::format("\"{}\"", s->get());
-    else if (const auto* i = node.as_integer()) text = fmt::format("{}", i->get());
-    else if (const auto* f = node.as_floating_point()) text = number_text(f->get());
-    else if (const auto* b = node.as_boolean()) text = b->get() ? "true" : "false";
-    else if (node.is_table()) text = "a table";
-    else if (const auto* array = node.as_array()) {
-        text = "[";
-        for (const toml::node& item : *array) {
-            if (text.size() > longest) break;
-            text += (text.size() > 1 ? ", " : "") + given_text(item);
-        }
-        text += "]";
-    } else {
-        text = "a date or time";
-    }
-    return one_line(text, longest);
+std::string given_text(const toml::node& node, std::size_t room = value_text_bytes) {
+    if (const auto* s = node.as_string()) return fmt::format("\"{}\"", safe_text(s->get()));
+    if (const auto* i = node.as_integer()) return fmt::format("{}", i->get());
+    if (const auto* f = node.as_floating_point()) return number_text(f->get());
+    if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+    if (node.is_table()) return "a table";
+    if (const auto* array = node.as_array()) return given_text(*array, room);
+    return "a date or time";
 }
+
+std::string given_text(const toml::array& array, std::size_t room) {
+    std::string text = "[";
+    for (const toml::node& item : array) {
+        if (text.size() > 1) text += ", ";
+        const std::string next = text.size() < room ? given_text(item, room - text.size()) : std::string();
+        if (text.size() + next.size() >= room) return fmt::format("{}... ({} items)]", text, array.size());
+        text += next;
+    }
+    return text + "]";
+}
+
+constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser's, with what it saw
 
 }  // namespace
 
 toml::table parse_toml(const std::string& text, const std::string& file) {
+    check_toml_amounts(text, file);
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
-        throw InputError(location_of(error.source(), file), one_line(std::string(error.description()), 200));
+        throw InputError(location_of(error.source(), file), safe_text(error.description(), longest_syntax_error));
     }
 }
 
@@ -101,10 +109,12 @@ TomlTable TomlValue::table() const {
 std::vector<TomlValue> TomlValue::items() const {
     if (!node_->is_array()) fail("must be an array");
     std::vector<TomlValue> result;
-    for (const toml::node& item : *node_->as_array()) {
-        result.emplace_back(item, Origin{origin_.name, location_of(item.source(), origin_.where.file)});
-    }
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item));
     return result;
+}
+
+TomlValue TomlValue::item_of(const toml::node& item) const {
+    return {item, {origin_.name, location_of(item.source(), origin_.where.file)}};
 }
 
 std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind) const {
@@ -116,19 +126,22 @@ std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind
 std::vector<TomlTable> TomlValue::tables(std::string_view hint) const {
     if (!node_->is_array()) fail(fmt::format("must be an array of tables{}", hint));
     std::vector<TomlTable> result;
-    for (const TomlValue& item : items()) result.push_back(item.table());
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item).table());
     return result;
 }
 
 // -- TomlTable
 
 void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const {
-    for (const auto& [key, value] : entries()) {
-        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-        const toml::key& written = table_->find(key)->first;
-        throw InputError(location_of(written.source(), origin_.where.file),
-                         fmt::format("unknown key \"{}\" in {}{}", key, title_, suggestion(key, known)));
+    const toml::key* first = nullptr;
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+        if (first == nullptr || key.source().begin < first->source().begin) first = &key;
     }
+    if (first == nullptr) return;
+    throw InputError(location_of(first->source(), origin_.where.file),
+                     fmt::format("unknown key \"{}\" in {}{}", safe_text(first->str()), safe_text(title_),
+                                 suggestion(first->str(), known)));
 }
 
 Origin TomlTable::origin_of(std::string_view key, const toml::node& node) const {
@@ -143,7 +156,7 @@ std::optional<TomlValue> TomlTable::find(std::string_view key) const {
 
 TomlValue TomlTable::require(std::string_view key) const {
     if (auto value = find(key)) return *value;
-    throw InputError(origin_.where, fmt::format("{} needs \"{}\" (not given)", title_, key));
+    throw InputError(origin_.where, fmt::format("{} needs \"{}\" (not given)", safe_text(title_), key));
 }
 
 std::optional<TomlTable> TomlTable::find_table(std::string_view key) const {
@@ -155,13 +168,13 @@ std::optional<TomlTable> TomlTable::find_table(std::string_view key) const {
 }
 
 std::vector<std::pair<std::string, TomlValue>> TomlTable::entries() const {
+    std::vector<std::pair<const toml::key*, const toml::node*>> places;
+    for (const auto& [key, node] : *table_) places.emplace_back(&key, &node);
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.first->source().begin < b.first->source().begin; });
     std::vector<std::pair<std::string, TomlValue>> result;
-    for (const auto& [key, node] : *table_) {
-        result.emplace_back(std::string(key.str()), TomlValue(node, origin_of(key.str(), node)));
-    }
-    std::sort(result.begin(), result.end(), [this](const auto& a, const auto& b) {
-        return table_->find(a.first)->first.source().begin < table_->find(b.first)->first.source().begin;
-    });
+    for (const auto& [key, node] : places)
+        result.emplace_back(std::string(key->str()), TomlValue(*node, origin_of(key->str(), *node)));
     return result;
 }
 

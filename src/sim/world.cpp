@@ -1,6 +1,7 @@
 #include "sim/world.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "sim/body_builder.h"
 #include "sim/broad_phase.h"
 #include "sim/contact/contact_solver.h"
@@ -476,7 +477,7 @@ void World::State::stop_if_not_finite() const {
     if (first == UINT32_MAX) return;
     throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
                                "a smaller step (steps_per_frame, now {}) may hold it",
-                               steps, time(steps), bodies[first].name, settings.steps_per_frame));
+                               steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
 }
 
 World::World(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, std::max(1, threads))) {}

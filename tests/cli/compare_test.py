@@ -1,5 +1,10 @@
 """`compare`: 0 alike, 1 different, 2 cannot compare."""
 
+import resource
+import struct
+import subprocess
+import zlib
+
 import program
 
 GREY = (120, 120, 120)
@@ -27,6 +32,21 @@ class Compare(program.ProgramTest):
         self.picture("b.png", 320, 180, GREY, boxes=[(101, 60, 12, 12, RED)])
         self.assertTrue(self.check(1, "compare", "a.png", "b.png").stdout.startswith("different: "))
 
+    def test_a_single_pixel_is_told_with_rule_figure_and_place(self):
+        self.picture("b.png", 320, 180, GREY, boxes=[(100, 60, 12, 12, RED), (203, 101, 1, 1, (255, 255, 255))])
+        self.assertEqual(self.check(1, "compare", "a.png", "b.png").stdout,
+                         "different: rule window: the 8 x 8 pixels from x 196, y 96 on differ by 2.109 levels on average "
+                         "(at most 1.526 may; see --window)\n1 pixels differ, by 135 levels at most, at x 203, y 101\n")
+        self.check(0, "compare", "a.png", "b.png", "--window", "2.11")
+        self.check(0, "compare", "a.png", "b.png", "--window", "255")
+        self.assertIn("rule cluster", self.check(1, "compare", "a.png", "b.png", "--window", "255", "--cluster", "0").stdout)
+        self.assertIn("rule pixels", self.check(1, "compare", "a.png", "b.png", "--window", "255", "--fraction", "0").stdout)
+
+    def test_the_help_says_every_rule(self):
+        text = self.check(0, "compare", "--help").stdout
+        for word in ("--tolerance", "--fraction", "--cluster", "--window", "Rule pixels", "Rule cluster", "Rule window"):
+            self.assertIn(word, text)
+
     def test_a_colour_off_by_8(self):
         self.picture("b.png", 320, 180, (128, 120, 120), boxes=[(100, 60, 12, 12, RED)])
         self.check(1, "compare", "a.png", "b.png")
@@ -53,8 +73,50 @@ class Compare(program.ProgramTest):
         run = self.check(2, "compare", "a.png", "a.png", "--diff", "no/d.png")
         self.assertIn("'no/d.png'", run.stderr)
 
+    def bomb(self, name, width, height, interlaced=False):
+        """A few kilobytes that claim to be a black picture of one bit a pixel."""
+        row = b"\0" * (1 + (width + 7) // 8)
+        pixels = b"" if interlaced else zlib.compress(row * height, 9)
+        head = struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, int(interlaced))
+        (self.folder / name).write_bytes(b"\x89PNG\r\n\x1a\n" + program.chunk(b"IHDR", head) + program.chunk(b"IDAT", pixels) +
+                                         program.chunk(b"IEND", b""))
+
+    @staticmethod
+    def limited(what, size):
+        return lambda: resource.setrlimit(what, (size, size))
+
+    # One picture alone takes 128 MiB when it is unpacked as a whole.
+    def test_large_pictures_are_compared_row_by_row(self):
+        self.bomb("large.png", 16384, 2048)
+        run = self.check(0, "compare", "large.png", "large.png", "--diff", "d.png",
+                         preexec_fn=self.limited(resource.RLIMIT_DATA, 64 << 20))
+        self.assertEqual(run.stdout, "alike: every pixel is the same\n")
+        self.assertEqual(program.png_size(self.folder / "d.png"), (16384, 2048))
+
+    def test_what_must_be_unpacked_as_a_whole_is_refused_beyond_the_memory(self):
+        self.bomb("large.png", 16384, 16384, interlaced=True)
+        run = self.check(2, "compare", "large.png", "large.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 512 << 20))
+        self.assertRegex(run.stderr, r"^error: an interlaced picture of 16384 x 16384 pixels takes 1 GiB of memory, and the limit "
+                                     r"of the process's data \(ulimit -d\) has [\d.]+ [MG]iB left; ")
+
+    # 1 is "different": what kept us from telling is 2.
+    def test_out_of_memory_is_not_different(self):
+        self.bomb("wide.png", 1000000, 4)
+        run = self.check(2, "compare", "wide.png", "wide.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 12 << 20))
+        self.assertEqual(run.stderr, "error: out of memory\n")
+
+    def test_a_result_that_cannot_be_written_is_not_different(self):
+        for name, arguments in (("alike", ["a.png", "a.png"]), ("different", ["a.png", "b.png"])):
+            self.picture("b.png", 320, 180, GREY)
+            with self.subTest(name), open("/dev/full", "w") as full:
+                run = subprocess.run([program.TUMBLE, "compare", *arguments], cwd=self.folder, text=True, stdout=full,
+                                     stderr=subprocess.PIPE, timeout=60)
+                self.assertEqual(run.returncode, 2)
+                self.assertIn("standard output", run.stderr)
+
     def test_options_out_of_range(self):
-        for option in ("--tolerance=-1", "--tolerance=256", "--fraction=-0.1", "--fraction=1.1", "--fraction=nan"):
+        for option in ("--tolerance=-1", "--tolerance=256", "--fraction=-0.1", "--fraction=1.1", "--fraction=nan",
+                       "--cluster=-1", "--cluster=65", "--window=-1", "--window=256", "--window=nan"):
             self.check(2, "compare", "a.png", "a.png", option)
 
 

@@ -6,6 +6,7 @@ import pathlib
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import time
 
@@ -237,6 +238,40 @@ class Failures(program.ProgramTest):
             except OSError:
                 pass
         return False
+
+
+class Memory(program.ProgramTest):
+    """Pictures that do not fit are refused before anything is made."""
+
+    @staticmethod
+    def limited():
+        return resource.setrlimit(resource.RLIMIT_DATA, (1 << 30, 1 << 30))
+
+    def test_pictures_beyond_the_memory_are_refused(self):
+        for outputs in (["-o", "a.mp4"], ["--frames", "out"], ["-o", "a.webm", "--frames", "out"]):
+            run = self.check(1, "render", "scene.toml", *outputs, "--size", "16384x16384", preexec_fn=self.limited)
+            self.assertRegex(run.stderr, r"^error: drawing pictures of 16384 x 16384 pixels takes [\d.]+ GiB of memory, and the limit "
+                                         r"of the process's data \(ulimit -d\) has [\d.]+ [MG]iB left; a smaller --size takes less\n$")
+            self.assertEqual(self.names(), [])
+
+    def test_frames_too_large_to_encode_are_refused(self):
+        (self.folder / "out").mkdir()
+        head = struct.pack(">IIBBBBB", 16384, 16384, 1, 0, 0, 0, 0)
+        (self.folder / "out/frame_000000.png").write_bytes(
+            b"\x89PNG\r\n\x1a\n" + program.chunk(b"IHDR", head) + program.chunk(b"IDAT", b"") + program.chunk(b"IEND", b""))
+        run = self.check(1, "encode", "out", "-o", "a.mp4", preexec_fn=self.limited)
+        self.assertIn("error: encoding 16384 x 16384 pixels takes ", run.stderr)
+        self.assertEqual(self.names(), ["out", "out/frame_000000.png"])
+
+    def test_a_scene_whose_tree_does_not_fit_is_refused(self):
+        self.write("many.toml", "format = 1\nx = [" + "1," * 2_000_000 + "]")
+        run = self.check(1, "info", "many.toml",
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (100 << 20, 100 << 20)))
+        self.assertRegex(run.stderr, r"^error: a scene of 2 keys and 2000001 items takes 113 MiB of memory, and the limit of ")
+
+    def test_info_tells_what_pictures_take(self):
+        text = self.check(0, "info", "scene.toml", "--size", "16384x16384").stdout
+        self.assertRegex(text, r"memory +about 9\.38 GiB for the pictures of each drawing process and 6\.25 GiB for those of ffmpeg")
 
 
 if __name__ == "__main__":

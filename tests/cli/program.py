@@ -83,6 +83,11 @@ def probe(path, entries):
     return out.stdout.split()
 
 
+def chunk(kind, data):
+    """Of a PNG."""
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
 def png(width, height, color=(120, 120, 120), boxes=()):
     """The bytes of a PNG: plain, with boxes (left, top, width, height, color)."""
     rows = []
@@ -92,9 +97,6 @@ def png(width, height, color=(120, 120, 120), boxes=()):
             if top <= y < top + h:
                 row[3 * left:3 * (left + w)] = bytes(c) * w
         rows.append(b"\0" + bytes(row))
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(b"".join(rows), 1)) +

@@ -97,7 +97,7 @@ TEST(Compare, ManyScatteredPixelsFail) {
     EXPECT_FALSE(result.alike);
     EXPECT_EQ(result.failing_pixels, 60u);
     EXPECT_EQ(result.worst_cluster, 1);
-    EXPECT_TRUE(compare_images(a, b, {3, 3e-4}).alike);
+    EXPECT_TRUE(compare_images(a, b, {.fraction = 3e-4}).alike);
 }
 
 TEST(Compare, EveryPlaceIsLookedAt) {
@@ -108,7 +108,7 @@ TEST(Compare, EveryPlaceIsLookedAt) {
                 const Image a = plain(w, h, {50, 50, 50});
                 Image b = a;
                 fill(b, x, y, 3, 3, {80, 50, 50});
-                const Comparison result = compare_images(a, b, {3, 0.02});
+                const Comparison result = compare_images(a, b, {.fraction = 0.02});
                 EXPECT_EQ(result.worst_cluster, 9) << w << " x " << h << " at " << x << ", " << y;
                 EXPECT_FALSE(result.alike);
             }
@@ -117,15 +117,67 @@ TEST(Compare, EveryPlaceIsLookedAt) {
 TEST(Compare, LooserOptionsAllowMore) {
     const Image a = plain(100, 100, {0, 0, 0}), b = plain(100, 100, {255, 255, 255});
     EXPECT_FALSE(compare_images(a, b).alike);
-    EXPECT_TRUE(compare_images(a, b, {3, 1.0}).alike);
+    EXPECT_TRUE(compare_images(a, b, {.fraction = 1.0}).alike);
     Image c = a;
     shift(c, 3, 3, 1);
-    EXPECT_FALSE(compare_images(a, c, {0, 0.0}).alike) << "no tolerance: exact";
+    EXPECT_FALSE(compare_images(a, c, {.tolerance = 0, .fraction = 0.0}).alike) << "no tolerance: exact";
     const Image d = plain(100, 100, {5, 5, 5});
     EXPECT_FALSE(compare_images(a, d).alike);
-    EXPECT_FALSE(compare_images(a, d, {5, 0.0}).alike) << "within the tolerance, but everywhere";
-    EXPECT_TRUE(compare_images(a, d, {10, 0.0}).alike);
-    EXPECT_TRUE(compare_images(a, a, {0, 0.0}).alike);
+    EXPECT_FALSE(compare_images(a, d, {.tolerance = 5, .fraction = 0.0}).alike) << "within the tolerance, but everywhere";
+    EXPECT_TRUE(compare_images(a, d, {.tolerance = 10, .fraction = 0.0}).alike);
+    EXPECT_TRUE(compare_images(a, a, {.tolerance = 0, .fraction = 0.0}).alike);
+}
+
+TEST(Compare, EveryRuleThatFailsIsNamedWithItsFigureAndPlace) {
+    const Image a = plain(width, height, {120, 120, 120});
+    Image dot = a;   // 31 of 307,200 pixels may differ by anything, but a window's mean is bounded
+    shift(dot, 100, 60, 134);
+    const Comparison one = compare_images(a, dot);
+    EXPECT_EQ(one.reason, "rule window: the 8 x 8 pixels from x 96, y 56 on differ by 2.094 levels on average "
+                          "(at most 1.526 may; see --window)");
+    EXPECT_EQ(one.max_x, 100);
+    EXPECT_EQ(one.max_y, 60);
+    EXPECT_TRUE(one.rules[0].holds() && one.rules[1].holds() && !one.rules[2].holds());
+
+    Image box = a;
+    fill(box, 20, 40, 9, 9, {220, 120, 120});
+    const Comparison all = compare_images(a, box);
+    EXPECT_EQ(all.reason,
+              "rule pixels: 81 pixels differ by more than 3 levels (at most 31 may, a fraction of 0.0001; see --tolerance, "
+              "--fraction); the most by 100, at x 20, y 40\n"
+              "rule cluster: 64 pixels of the 8 x 8 from x 20, y 40 on differ by more than 3 levels (at most 4 may; see --cluster)\n"
+              "rule window: the 8 x 8 pixels from x 20, y 40 on differ by 100 levels on average (at most 1.526 may; see --window)");
+}
+
+TEST(Compare, EachRuleCanBeSet) {
+    const Image a = plain(width, height, {120, 120, 120});
+    Image dot = a;
+    shift(dot, 100, 60, 134);
+    CompareOptions options;
+    options.window = 2.0;
+    EXPECT_FALSE(compare_images(a, dot, options).alike);
+    options.window = 2.1;
+    EXPECT_TRUE(compare_images(a, dot, options).alike);
+
+    Image row = a;   // five pixels side by side
+    for (int x = 40; x < 45; ++x) shift(row, x, 60, 10);
+    EXPECT_FALSE(compare_images(a, row).alike);
+    options = {};
+    options.cluster = 5;
+    EXPECT_TRUE(compare_images(a, row, options).alike) << compare_images(a, row, options).reason;
+    options.cluster = 0;
+    Image one = a;
+    shift(one, 40, 60, 10);
+    EXPECT_TRUE(compare_images(a, one).alike);
+    EXPECT_FALSE(compare_images(a, one, options).alike);
+    options = {};
+    options.fraction = 0.0;
+    EXPECT_FALSE(compare_images(a, one, options).alike);
+    EXPECT_FALSE(compare_images(a, one, options).rules[0].holds());
+    // A rule that is set does not grow with the fraction any more.
+    options.fraction = 1.0;
+    options.window = 0.1;
+    EXPECT_FALSE(compare_images(a, one, options).alike);
 }
 
 TEST(Compare, AlphaCounts) {

@@ -10,8 +10,11 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <span>
+#include <tuple>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -134,6 +137,94 @@ TEST(Png, ReadsEveryKind) {
     const std::uint8_t indices[] = {1, 0}, colors[] = {9, 8, 7, 30, 20, 10};
     ASSERT_NE(png_image_write_to_file(&image, (folder / "k.png").c_str(), 0, indices, 0, colors), 0);
     EXPECT_EQ(read_png(folder / "k.png").pixels, (std::vector<std::uint8_t>{30, 20, 10, 255, 9, 8, 7, 255}));
+}
+
+/// libpng's own simplified reader: the answer to compare with.
+std::vector<std::uint8_t> read_simply(const std::filesystem::path& path) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_NE(png_image_begin_read_from_file(&image, path.c_str()), 0) << image.message;
+    image.format = PNG_FORMAT_RGBA;
+    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+    std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+    EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0) << image.message;
+    return pixels;
+}
+
+/// A PNG of noise in any form that there is; `gamma` 0: the file does not say.
+void write_noise(const std::filesystem::path& path, int width, int height, int depth, int kind, bool interlaced, bool transparent,
+                 double gamma) {
+    std::FILE* const file = std::fopen(path.c_str(), "wb");
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_init_io(png, file);
+    png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), depth, kind,
+                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    std::uint32_t random = std::uint32_t(depth * 100 + kind);
+    const auto next = [&] { return png_byte((random = 1664525 * random + 1013904223) >> 24); };
+    std::vector<png_color> palette(std::size_t(1) << std::min(depth, 8));
+    for (png_color& color : palette) color = {next(), next(), next()};
+    const png_byte alphas[] = {0, 100};
+    png_color_16 clear{};
+    if (kind == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), int(palette.size()));
+    if (transparent && kind == PNG_COLOR_TYPE_PALETTE) png_set_tRNS(png, info, alphas, 2, nullptr);
+    else if (transparent) png_set_tRNS(png, info, nullptr, 0, &clear);
+    if (gamma > 0.0) png_set_gAMA(png, info, gamma);
+    png_write_info(png, info);
+    std::vector<png_byte> pixels(std::size_t(height) * png_get_rowbytes(png, info));
+    for (png_byte& byte : pixels) byte = next();
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < height; ++y) rows.push_back(pixels.data() + std::size_t(y) * png_get_rowbytes(png, info));
+    png_write_image(png, rows.data());
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    std::fclose(file);
+}
+
+TEST(Png, EveryFormReadsAsBySimplifiedLibpng) {
+    const TestFolder folder;
+    const std::filesystem::path path = folder / "noise.png";
+    struct Form {
+        int kind;
+        std::vector<int> depths;
+    };
+    const Form forms[] = {{PNG_COLOR_TYPE_GRAY, {1, 2, 4, 8, 16}}, {PNG_COLOR_TYPE_PALETTE, {1, 2, 4, 8}},
+                          {PNG_COLOR_TYPE_RGB, {8, 16}}, {PNG_COLOR_TYPE_GRAY_ALPHA, {8, 16}}, {PNG_COLOR_TYPE_RGB_ALPHA, {8, 16}}};
+    for (const Form& form : forms)
+        for (const int depth : form.depths)
+            for (const bool interlaced : {false, true})
+                for (const bool transparent : {false, true})
+                    for (const double gamma : {0.0, 1.0, 0.45455}) {
+                        if (transparent && (form.kind & PNG_COLOR_MASK_ALPHA) != 0) continue;
+                        // libpng 1.6.39's simplified reader shuffles 16-bit interlaced files: it reads the same without interlacing.
+                        write_noise(folder / "plain.png", 21, 13, depth, form.kind, false, transparent, gamma);
+                        write_noise(path, 21, 13, depth, form.kind, interlaced, transparent, gamma);
+                        const std::string which = testing::PrintToString(std::tuple(form.kind, depth, interlaced, transparent, gamma));
+                        const std::vector<std::uint8_t> expected = read_simply(folder / "plain.png");
+                        EXPECT_EQ(read_png(path).pixels, expected) << which;
+                        PngRows rows(path);
+                        std::vector<std::uint8_t> by_row;
+                        for (int y = 0; y < 13; ++y) {
+                            const auto row = rows.next();
+                            by_row.insert(by_row.end(), row.begin(), row.end());
+                        }
+                        EXPECT_EQ(by_row, expected) << which;
+                    }
+}
+
+TEST(Png, RowByRowIsTheSamePicture) {
+    const TestFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {40, 31}, {7, 32}, {33, 33}, {20, 100}}) {
+        const Image image = colorful(width, height);
+        PngRowWriter writer(folder / "rows.png", width, height);
+        for (int y = 0; y < height; ++y) writer.add_row({image.at(0, y), 4 * std::size_t(width)});
+        EXPECT_EQ(folder.files(), 1u) << "not under its name before it is whole";
+        writer.finish();
+        EXPECT_EQ(read_png(folder / "rows.png"), image) << width << " x " << height;
+        std::filesystem::remove(folder / "rows.png");
+    }
+    { const PngRowWriter given_up(folder / "rows.png", 4, 4); }
+    EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(Png, WhatIsNoPngIsNamed) {

@@ -12,6 +12,8 @@
 namespace tumble {
 namespace {
 
+using namespace std::string_literals;
+
 struct Mistake {
     std::string text;
     std::string phrase;
@@ -60,6 +62,48 @@ TEST(SceneErrors, OfTheTextItself) {
         {"format = @\"1\"", "format must be a whole number (given \"1\")"},
         {"format = @1.0", "format must be a whole number (given 1)"},
     });
+}
+
+std::string repeated(const std::string& text, int count) {
+    std::string result;
+    for (int i = 0; i < count; ++i) result += text;
+    return result;
+}
+
+// Each part of a key is a table in the one before: three hundred thousand of them overflowed the stack.
+TEST(SceneErrors, OfDepth) {
+    const std::string phrase = "more than 16 parts";
+    expect_errors({
+        {"format = 1\n" + repeated("a.", 15) + "a@." + repeated("a.", 300'000) + "a = 1", phrase},
+        {"format = 1\n[" + repeated("a.", 15) + "a@." + repeated("a.", 300'000) + "a]", phrase},
+        {"format = 1\n[[" + repeated("\"a\" . ", 15) + "'b'@.a]]", phrase},
+        {"# .................\ntitle = \"\"\"..................\n\"\"\"\nb = { " + repeated("a.", 15) + "a@.a = 1 }", phrase},
+    });
+    for (const std::string& open : {"["s, "{a=["s, "{a="s, "{"s + repeated("a.", 15) + "a="s})
+        EXPECT_NE(error_of("format = 1\nx = " + repeated(open, 200'000)).find("error: "), std::string::npos) << open;
+    const std::string key = repeated("a.", 15) + "a", end = repeated("}", 200);
+    EXPECT_NE(error_of("format = 1\n" + key + " = " + repeated("{" + key + "=", 200) + "1" + end).find("unknown key"),
+              std::string::npos) << "as deep as the parser goes";
+}
+
+TEST(SceneErrors, DotsInStringsAndCommentsAreNoDepth) {
+    for (const std::string& title : {"\"....................\\\"....\""s, "'....................'"s,
+                                     "\"\"\"\n.....\\\"\"\".....\n...........\"\"\""s, "'''\n..........'..........\n'''"s,
+                                     "\"x\" # ...................."s})
+        EXPECT_EQ(error_of("format = 1\ntitle = " + title + "\n"), "no error") << title;
+}
+
+TEST(SceneErrors, LongTextsAreCutAndControlsShown) {
+    const std::string endless(1'000'000, 'k');
+    expect_errors({
+        {"format = 1\n@" + endless + " = 1", "kk... (1000000 bytes)\" in a scene"},
+        {"format = @\"" + endless + "\"", "kk... (1000000 bytes)\")"},
+        {"format = @[" + repeated("1, ", 100'000) + "1]", "1, ... (100001 items)])"},
+        {"format = 1\n@\"a\\u001b[2J\\n\\u202e\" = 1", "unknown key \"a\\x1b[2J\\n\\u202e\""},
+        {"format = 1\n[materials.\"" + endless + "\"]\n@b = 1", "bytes)"},
+        {"format = 1\n[simulation]\nintegrator = @\"" + endless + "\"", "(given \"kkk"},
+    });
+    EXPECT_LT(error_of("format = 1\n[materials.\"" + endless + "\"]\nb = 1").size(), 1000u);
 }
 
 TEST(SceneErrors, UnknownKeysNameTheNearest) {

@@ -1,6 +1,7 @@
 #include "sim/flight/flights.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "core/sort_unique.h"
 #include "sim/flight/landing.h"
 #include "sim/integrator/advance.h"
@@ -261,7 +262,7 @@ void Flights::count_impact(std::uint32_t i, const std::vector<Body>& bodies, con
     const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
     if (++impacts_in_frame_ > limit)
         throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
-                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, bodies[i].name));
+                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
 }
 
 // Hops are followed down to a stated time; in a long row of impacts longer and longer ones, up to the step, count as short.

@@ -1,6 +1,7 @@
 #include "sim/integrator/advance.h"
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "sim/free_rotation.h"
 #include "sim/integrator/extrapolation.h"
 #include "sim/integrator/runge_kutta_4.h"
@@ -106,7 +107,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
                 if (step == tuning::most_substeps) {
                     throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
                                                "than {} steps: the forces on it are too large for its mass",
-                                               body.name, start, end, tuning::most_substeps));
+                                               safe_text(body.name), start, end, tuning::most_substeps));
                 }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
                 // The rest in equal steps at the present rate; the next one decides anew.
