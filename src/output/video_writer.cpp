@@ -39,7 +39,9 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
     if (format_.kind == VideoKind::gif) lossless_.emplace(lossless_name(clip));
-    encoder_.emplace(program_, encoding_arguments(format_, lossless_ ? lossless_->path() : file_.path()));
+    if (is_written_in_place(file_.path())) report_.emplace();
+    encoder_.emplace(program_, lossless_ ? encoding_arguments(format_, lossless_->path())
+                                         : with_report(encoding_arguments(format_, file_.path())));
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
@@ -88,8 +90,12 @@ void VideoWriter::finish() {
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    check(lossless_ ? *lossless_ : file_, format_.container, end);
-    if (lossless_) convert_to_gif();
+    if (lossless_) {
+        check_file(lossless_->path(), format_.container, end);
+        convert_to_gif();
+    } else {
+        check_clip(format_.container, end);
+    }
     file_.commit();
 }
 
@@ -97,12 +103,12 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was given up", clip_.string()));
-        gif_maker_.emplace(program_, gif_arguments(lossless_->path(), file_.path()));
+        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), file_.path())));
     }
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    check(file_, "gif", end);
+    check_clip("gif", end);
     lossless_.reset();
 }
 
@@ -113,10 +119,23 @@ void VideoWriter::abandon() {
     if (gif_maker_) gif_maker_->kill();
 }
 
-void VideoWriter::check(const TemporaryFile& file, const std::string& container, const ProcessEnd& end) const {
-    if (is_written_in_place(file.path())) return;   // it is with its reader
-    const auto fault = fault_of_clip(file.path(), container, sent_);
-    if (fault) fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
+std::vector<std::string> VideoWriter::with_report(std::vector<std::string> arguments) const {
+    if (!report_) return arguments;
+    std::vector<std::string> all = report_->arguments();
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+}
+
+void VideoWriter::check_clip(const std::string& container, const ProcessEnd& end) const {
+    if (!report_) return check_file(file_.path(), container, end);
+    // The clip is with its reader. A GIF may store fewer frames.
+    if (const auto fault = report_->fault(container == "gif" ? 1 : sent_))
+        fail(end, fmt::format("ended with exit code 0, but {}", *fault));
+}
+
+void VideoWriter::check_file(const fs::path& file, const std::string& container, const ProcessEnd& end) const {
+    if (const auto fault = fault_of_clip(file, container, sent_))
+        fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
 }
 
 void VideoWriter::fail(const ProcessEnd& end) const { fail(end, fmt::format("failed ({})", end.describe())); }
