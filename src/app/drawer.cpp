@@ -2,6 +2,7 @@
 
 #include "app/frame_order.h"
 #include "core/error.h"
+#include "core/start_thread.h"
 #include "render/compilation_turns.h"
 
 #include <sys/mman.h>
@@ -96,14 +97,14 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
     };
     try {
         for (std::size_t i = 0; i < workers_.size(); ++i)
-            threads.emplace_back([&, i] {
+            threads.push_back(start_thread<std::thread>([&, i] {
                 try {
                     tend(i, poses, order, times, first);
                 } catch (...) {
                     order.fail(std::current_exception());
                 }
                 order.leave();
-            });
+            }));
         while (const std::optional<Frame> frame = order.next())
             if (!hand_on(*frame)) break;
     } catch (...) {

@@ -1,6 +1,7 @@
 #include "app/stage_group.h"
 
 #include "core/error.h"
+#include "core/start_thread.h"
 
 #include <utility>
 
@@ -29,7 +30,7 @@ void StageGroup::start(std::function<void()> stage) {
         ended_.notify_all();
     };
     try {
-        threads_.emplace_back(run);
+        threads_.push_back(start_thread<std::thread>(run));
     } catch (...) {   // no more threads to be had
         const std::lock_guard lock(mutex_);
         --running_;

@@ -216,8 +216,8 @@ bool Process::wait_for_room() {
     for (;;) {
         // A full pipe of words would keep the program from reading.
         std::array<pollfd, 2> places{{{input_, POLLOUT, 0}, {words_pipe_, POLLIN, 0}}};
-        ::poll(places.data(), places.size(), look_every);
-        read_words();
+        if (::poll(places.data(), places.size(), look_every) < 0) continue;   // a signal: what it found is not told
+        if (places[1].revents != 0) read_words();
         if (places[0].revents != 0) return true;
         if (has_ended(id_)) return false;   // a process that it started holds its input open
     }

@@ -40,8 +40,9 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
         remove_left_parts(clip);
         lossless_.emplace(clip);
     }
+    if (file_.in_place()) report_.emplace();
     if (lossless_) encoder_.emplace(program_, encoding_arguments(format_, lossless_->path()));
-    else encoder_.emplace(program_, encoding_arguments(format_, argument_of_clip()), file_.descriptor());
+    else encoder_.emplace(program_, with_report(encoding_arguments(format_, argument_of_clip())), file_.descriptor());
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
@@ -90,9 +91,12 @@ void VideoWriter::finish() {
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    if (lossless_) check(lossless_->path(), format_.container, end);
-    else if (!file_.in_place()) check(file_.path(), format_.container, end);
-    if (lossless_) convert_to_gif();
+    if (lossless_) {
+        check_file(lossless_->path(), format_.container, end);
+        convert_to_gif();
+    } else {
+        check_clip(format_.container, end);
+    }
     file_.commit();
 }
 
@@ -100,12 +104,12 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was given up", safe_path(clip_)));
-        gif_maker_.emplace(program_, gif_arguments(lossless_->path(), argument_of_clip()), file_.descriptor());
+        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())), file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
-    if (!file_.in_place()) check(file_.path(), "gif", end);
+    check_clip("gif", end);
     lossless_.reset();
 }
 
@@ -120,9 +124,23 @@ void VideoWriter::abandon() {
     if (gif_maker_) gif_maker_->kill();
 }
 
-void VideoWriter::check(const fs::path& file, const std::string& container, const ProcessEnd& end) const {
-    const auto fault = fault_of_clip(file, container, sent_);
-    if (fault) fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
+std::vector<std::string> VideoWriter::with_report(std::vector<std::string> arguments) const {
+    if (!report_) return arguments;
+    std::vector<std::string> all = report_->arguments();
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+}
+
+void VideoWriter::check_clip(const std::string& container, const ProcessEnd& end) const {
+    if (!report_) return check_file(file_.path(), container, end);
+    // The clip is with its reader. A GIF may store fewer frames.
+    if (const auto fault = report_->fault(container == "gif" ? 1 : sent_))
+        fail(end, fmt::format("ended with exit code 0, but {}", *fault));
+}
+
+void VideoWriter::check_file(const fs::path& file, const std::string& container, const ProcessEnd& end) const {
+    if (const auto fault = fault_of_clip(file, container, sent_))
+        fail(end, fmt::format("ended with exit code 0, but the clip is not whole: {}", *fault));
 }
 
 void VideoWriter::fail(const ProcessEnd& end) const { fail(end, fmt::format("failed ({})", end.describe())); }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/image.h"
+#include "output/encoder_report.h"
 #include "output/process.h"
 #include "output/temporary_file.h"
 #include "output/video_format.h"
@@ -18,6 +19,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -54,7 +56,9 @@ public:
     std::int64_t frames_stored() const { return sent_; }
 
 private:
-    void check(const std::filesystem::path& file, const std::string& container, const ProcessEnd& end) const;
+    std::vector<std::string> with_report(std::vector<std::string> arguments) const;
+    void check_clip(const std::string& container, const ProcessEnd& end) const;
+    void check_file(const std::filesystem::path& file, const std::string& container, const ProcessEnd& end) const;
     [[noreturn]] void fail(const ProcessEnd& end) const;
     [[noreturn]] void fail(const ProcessEnd& end, const std::string& how) const;
     void advance();
@@ -69,6 +73,7 @@ private:
     std::filesystem::path program_;
     TemporaryFile file_;
     std::optional<PartFile> lossless_;            // a GIF's first stage
+    std::optional<EncoderReport> report_;         // of a clip that is written in place
     std::shared_ptr<const std::byte> latest_;     // the frame written last,
     std::shared_ptr<const std::byte> shown_;      // and the one sent last (a GIF takes fewer); null before the first
     std::int64_t longest_;                        // frames that one is shown for, at most

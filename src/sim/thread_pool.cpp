@@ -1,5 +1,7 @@
 #include "sim/thread_pool.h"
 
+#include "core/start_thread.h"
+
 #include <algorithm>
 
 namespace tumble {
@@ -23,27 +25,36 @@ bool look_for(Ready&& ready) {
 }  // namespace
 
 ThreadPool::ThreadPool(int threads) {
-    for (int i = 1; i < threads; ++i)
-        workers_.emplace_back([this, i] {
-            std::size_t seen = 0;
-            while (true) {
-                const auto called = [&] { return stop_ || round_ != seen; };
-                if (!look_for(called)) {
-                    std::unique_lock lock(mutex_);
-                    start_.wait(lock, called);
-                }
-                if (stop_) return;
-                seen = round_;
-                work(std::size_t(i));
-                if (running_.fetch_sub(1) == 1) {
-                    const std::lock_guard lock(mutex_);   // the caller is either before its look or asleep
-                    done_.notify_one();
-                }
-            }
-        });
+    try {
+        for (int i = 1; i < threads; ++i) workers_.push_back(start_thread<std::jthread>([this, i] { live(std::size_t(i)); }));
+    } catch (...) {
+        end_workers();   // those that were started wait for work
+        throw;
+    }
 }
 
-ThreadPool::~ThreadPool() {
+/// The life of a worker.
+void ThreadPool::live(std::size_t thread) {
+    std::size_t seen = 0;
+    while (true) {
+        const auto called = [&] { return stop_ || round_ != seen; };
+        if (!look_for(called)) {
+            std::unique_lock lock(mutex_);
+            start_.wait(lock, called);
+        }
+        if (stop_) return;
+        seen = round_;
+        work(thread);
+        if (running_.fetch_sub(1) == 1) {
+            const std::lock_guard lock(mutex_);   // the caller is either before its look or asleep
+            done_.notify_one();
+        }
+    }
+}
+
+ThreadPool::~ThreadPool() { end_workers(); }
+
+void ThreadPool::end_workers() {
     {
         const std::lock_guard lock(mutex_);
         stop_ = true;

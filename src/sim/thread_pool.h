@@ -21,6 +21,7 @@ namespace tumble {
 class ThreadPool {
 public:
     /// `threads` in all, the caller's included.
+    /// Throws RunError where there are no more to be had.
     explicit ThreadPool(int threads);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -61,7 +62,9 @@ private:
     static constexpr std::uint8_t nobody = UINT8_MAX;
     void start();
     void wait_for_workers();
+    void live(std::size_t thread);
     void work(std::size_t thread);
+    void end_workers();
     void call(std::size_t item, std::size_t thread);
 
     std::vector<std::jthread> workers_;

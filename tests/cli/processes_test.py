@@ -201,6 +201,15 @@ class LittleMemory(Processes):
         self.assertNotIn("apt-get install libosmesa6", run.stdout)
 
 
+    # Threads that had been started waited for work for ever.
+    def test_no_room_for_threads(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_AS, (200 << 20, 200 << 20))   # 64 stacks take 512 MiB
+        run = self.check(1, "simulate", "scene.toml", "--energy", "e.csv", "--threads", "64", preexec_fn=limit, timeout=GUARD)
+        self.assertIn("error: cannot start a thread: ", run.stderr)
+        self.assertEqual(self.names(), [])
+
+
 class StoppedWorkers(Processes):
     LONG = ("render", "scene.toml", "--frames", "out", "--duration", "5000", "--workers", "2")
 

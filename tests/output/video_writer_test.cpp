@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <cmath>
@@ -323,6 +324,26 @@ TEST(VideoWriter, AClipThatIsNotWholeIsAnError) {
             EXPECT_EQ(folder.files(), 0u);
         }
     }
+}
+
+// No one can look again at what went into a pipe: it is ffmpeg's own report that counts.
+TEST(VideoWriter, AClipIntoAPipeThatIsNotWholeIsAnError) {
+    const TestFolder folder;
+    for (const char* name : {"a.mkv", "a.webm", "a.gif"}) {
+        ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+        for (const bool whole : {true, false}) {
+            std::string got;
+            std::thread reader([&] { got = read_text(folder / name); });
+            const OtherFfmpeg ffmpeg(whole ? "exec /usr/bin/ffmpeg \"$@\""
+                                           : "case \"$*\" in *a.gif.*.mkv) exec /usr/bin/ffmpeg \"$@\" ;; esac; /bin/cat > /dev/null");
+            const std::string error = error_of_writing(folder / name, 64, 48);
+            reader.join();
+            EXPECT_EQ(error.empty(), whole) << error;
+            EXPECT_EQ(got.empty(), !whole);
+            EXPECT_EQ(error.find("/ffmpeg ended with exit code 0, but it reports no end") != std::string::npos, !whole) << error;
+        }
+    }
+    EXPECT_EQ(folder.files(), 3u);
 }
 
 // The second run of ffmpeg, from the lossless frames to the GIF.

@@ -1,0 +1,21 @@
+// A new thread, or an error that says so.
+#pragma once
+
+#include "core/error.h"
+
+#include <system_error>
+#include <utility>
+
+namespace tumble {
+
+/// A std::thread or std::jthread. Throws RunError where the system has no more threads, or no memory for the stack of one.
+template <class Thread, class Work>
+Thread start_thread(Work&& work) {
+    try {
+        return Thread(std::forward<Work>(work));
+    } catch (const std::system_error& error) {
+        throw RunError("cannot start a thread: " + error.code().message());
+    }
+}
+
+}  // namespace tumble
