@@ -15,4 +15,6 @@ struct OutputTarget {
 /// Throws InputError where links lead in a circle.
 OutputTarget output_target(const std::filesystem::path& name);
 
+inline bool is_written_in_place(const std::filesystem::path& name) { return output_target(name).in_place; }
+
 }  // namespace tumble

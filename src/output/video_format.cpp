@@ -112,7 +112,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
                                          slowest, limit, fps,
                                          limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
 
-    if (has_its_head_last(format) && output_target(clip).in_place)
+    if (has_its_head_last(format) && is_written_in_place(clip))
         throw InputError(at, fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
                                          ".mkv, .webm and .gif can", ending));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));

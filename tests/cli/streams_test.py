@@ -71,7 +71,8 @@ class Streams(program.ProgramTest):
                 self.assertIn(run.stdout, {f"{code}\n", "1\n", "2\n"})
 
     def test_closed(self):
-        for code, *arguments in ((0, "simulate", "scene.toml", "--energy", "e.csv"), (2, "info", "none.toml")):
+        for code, *arguments in ((0, "simulate", "scene.toml", "--energy", "e.csv"), (2, "info", "none.toml"),
+                                 (1, "info", "scene.toml"), (1, "--version"), (2, "compare", "a.png", "a.png")):
             self.assertEqual(self.code(arguments, stdout=None, stderr=None, preexec_fn=lambda: (os.close(1), os.close(2))),
                              code)
 
