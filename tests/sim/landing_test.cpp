@@ -113,6 +113,27 @@ TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
     EXPECT_GE(all, trials(150));
 }
 
+// Of a ball over a face, past an edge, past a corner, and past another ball.
+TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
+    Random random(12);
+    int all = 0;
+    for (int trial = 0; trial < trials(400); ++trial) {
+        Body a = trial % 4 == 0 ? free_ball(random(0.1, 0.4), 1.0, Vec3::Zero(), random.vector(2.0)) : random_box(random);
+        a.angular_momentum = a.inertia_body * random.vector(trial % 4 == 0 ? 4.0 : 1.0);
+        a.derive();
+        Body b = free_ball(random(0.1, 0.4), 1.0, 1.5 * random.direction(), random.vector(2.0));
+        if (!bring_to_touch(a, b)) continue;
+        const auto measured = gap_acceleration(a, b);
+        if (!measured) continue;
+        const auto on = [&](double t) { return one_point(at_time(a, t), at_time(b, t), 1e-3); };
+        if (on(-1e-4)->on_ball != on(1e-4)->on_ball || on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0)) continue;
+        ++all;
+        EXPECT_NEAR(pressing(a, b), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial;
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+    }
+    EXPECT_GE(all, trials(200));
+}
+
 // Chains of contacts through bodies that hold one another: who is held does not hang on which contact is looked at first.
 TEST(MarkHeld, DoesNotHangOnTheOrderOfContacts) {
     Random random(5);
