@@ -67,6 +67,16 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
         c.edge_a = m.points[1].position;
         c.edge_b = m.points[2].position;
     }
+    c.on_ball = m.on_ball;
+    if (m.on_ball == OnBall::curve) {
+        const Curve curve = m.curve();
+        c.place_a = curve.on_a - a.position;
+        c.place_b = curve.on_b - b.position;
+        c.straight = curve.straight;
+    } else if (m.ball_over_face()) {
+        c.place_a = m.ball() - a.position;
+        c.place_b = m.ball() - b.position;
+    }
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         c.feature = p.feature;

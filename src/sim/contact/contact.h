@@ -22,6 +22,9 @@ struct Contact {
     Vec3 rub = Vec3::Zero();                // m, world: from there to where its friction acts (contact_area.h)
     Corners corners = Corners::neither;     // the normal turns with the other body's face
     Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();   // where edges cross: their directions, world; else zero
+    OnBall on_ball = OnBall::no;
+    Vec3 place_a = Vec3::Zero(), place_b = Vec3::Zero();   // on a ball: the places of its curve, or its center, from the bodies' centers
+    Vec3 straight = Vec3::Zero();           // and the curve's line (Curve)
     double separation = 0.0;                // m; negative: overlap
     double touch_distance = 0.0;            // m: nearer than this is touching
     double restitution = 0.0, friction = 0.0;   // of the pair

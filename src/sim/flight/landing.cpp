@@ -18,10 +18,10 @@ Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, b
 }
 
 // n' of the contact's normal (1/s): with the body whose face it is; of crossing edges n stays across both, so that with
-// c = e_a x e_b, n' is the part of c' / |c| across n. Elsewhere, on balls, it is the business of pressing_acceleration().
+// c = e_a x e_b, n' is the part of c' / |c| across n.
 Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
-    if (c.corners == Corners::of_a) return b.angular_velocity.cross(c.normal);
-    if (c.corners == Corners::of_b) return a.angular_velocity.cross(c.normal);
+    if (c.corners == Corners::of_a || c.on_ball == OnBall::a_over_face) return b.angular_velocity.cross(c.normal);
+    if (c.corners == Corners::of_b || c.on_ball == OnBall::b_over_face) return a.angular_velocity.cross(c.normal);
     const Vec3 across = c.edge_a.cross(c.edge_b);
     const double length = across.norm();
     if (!(length > 0.0)) return Vec3::Zero();
@@ -30,29 +30,29 @@ Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
     return sign / length * (change - c.normal.dot(change) * c.normal);
 }
 
+// What the turning of the normal adds to n.a, for places that pass each other at v. The gap between two points, d n, or between a
+// point and a line along the unit e, less a radius: with s = d n.e, d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. Any other gap:
+// d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based Modeling", resting contact).
+double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
+    if (c.on_ball != OnBall::curve) return 2.0 * normal_rate(c, a, b).dot(v);
+    const double distance = (b.position + c.place_b - a.position - c.place_a).norm();
+    if (!(distance > 0.0)) return 0.0;
+    const Body& edged = std::holds_alternative<Ball>(a.collider) ? b : a;
+    const double along = v.dot(c.straight) + distance * c.normal.dot(edged.angular_velocity.cross(c.straight));
+    return ((v - c.normal.dot(v) * c.normal).squaredNorm() - along * along) / distance;
+}
+
 // A sum whose terms cancel but for rounding is none.
 double beyond_rounding(double sum, double terms) { return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0; }
 
 }  // namespace
 
 double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported) {
-    const auto *ball_a = std::get_if<Ball>(&a.collider), *ball_b = std::get_if<Ball>(&b.collider);
-    if (ball_a || ball_b) {
-        // Of a ball only the centre counts. Two balls' normal turns with the line between them: + v_t^2 / d.
-        const Vec3 of_a = ball_a ? (a_supported || !a.dynamic() ? Vec3(Vec3::Zero()) : gravity) : free_acceleration(a, c.arm_a, gravity, a_supported);
-        const Vec3 of_b = ball_b ? (b_supported || !b.dynamic() ? Vec3(Vec3::Zero()) : gravity) : free_acceleration(b, c.arm_b, gravity, b_supported);
-        double turning = 0.0;
-        if (ball_a && ball_b) {
-            const Vec3 v = b.velocity - a.velocity, across = v - c.normal.dot(v) * c.normal;
-            turning = across.squaredNorm() / (ball_a->radius + ball_b->radius);
-        }
-        return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + turning);
-    }
-    const Vec3 v = b.point_velocity(c.arm_b) - a.point_velocity(c.arm_a);
-    // d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based Modeling", resting contact).
-    const Vec3 of_a = free_acceleration(a, c.arm_a, gravity, a_supported), of_b = free_acceleration(b, c.arm_b, gravity, b_supported);
-    const double turning = 2.0 * normal_rate(c, a, b).dot(v);
-    return beyond_rounding(c.normal.dot(of_b - of_a) + turning, of_a.norm() + of_b.norm() + std::abs(turning));
+    const bool on_ball = c.on_ball != OnBall::no;
+    const Vec3 &arm_a = on_ball ? c.place_a : c.arm_a, &arm_b = on_ball ? c.place_b : c.arm_b;
+    const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported), of_b = free_acceleration(b, arm_b, gravity, b_supported);
+    const double more = turning(c, a, b, b.point_velocity(arm_b) - a.point_velocity(arm_a));
+    return beyond_rounding(c.normal.dot(of_b - of_a) + more, of_a.norm() + of_b.norm() + std::abs(more));
 }
 
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,

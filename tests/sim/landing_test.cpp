@@ -1,0 +1,204 @@
+// Where bouncing ends: how contacts press, and whom they hold, whichever of two bodies comes first and in whatever order.
+#include "random_shapes.h"
+#include "sim/flight/landing.h"
+#include "sim/flight/path.h"
+#include "sim/tuning.h"
+#include "support/bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+using namespace tumble;
+using namespace tumble::testing;
+
+namespace {
+
+const Vec3 gravity(0.0, -9.81, 0.0);
+
+Body at_time(const Body& body, double t) {
+    Body there = body;
+    if (!body.dynamic()) return there;
+    const Motion motion = Path::flight(body, gravity).at(t);
+    there.position = motion.position;
+    there.orientation = motion.orientation;
+    there.rotation = motion.rotation;
+    return there;
+}
+
+std::vector<Manifold> manifolds(const Body& a, const Body& b, double margin) {
+    CollisionScratch scratch;
+    scratch.choice = AxisChoice::nearest;
+    std::vector<Manifold> found;
+    collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch, found);
+    return found;
+}
+
+// The pair's manifold if it has one point only.
+std::optional<Manifold> one_point(const Body& a, const Body& b, double margin) {
+    const auto found = manifolds(a, b, margin);
+    if (found.size() != 1 || found[0].count != 1) return std::nullopt;
+    return found[0];
+}
+
+// The gap's second derivative (m/s^2), by differences, where the same features stay the nearest; nothing else.
+std::optional<double> gap_acceleration(const Body& a, const Body& b) {
+    const double d = 1e-4;
+    double gap[3];
+    std::uint64_t feature[3];
+    for (int k = 0; k < 3; ++k) {
+        const auto m = one_point(at_time(a, (k - 1) * d), at_time(b, (k - 1) * d), 1e-3);
+        if (!m) return std::nullopt;
+        gap[k] = m->points[0].separation;
+        feature[k] = m->points[0].feature;
+    }
+    if (feature[0] != feature[1] || feature[2] != feature[1]) return std::nullopt;
+    return (gap[0] - 2.0 * gap[1] + gap[2]) / (d * d);
+}
+
+double pressing(const Body& a, const Body& b) {
+    auto m = *one_point(a, b, 1e-6);
+    m.a = 0;
+    m.b = 1;
+    const std::vector<Body> bodies{a, b};
+    std::vector<Contact> contacts;
+    add_contacts(m, bodies, contacts);
+    return pressing_acceleration(contacts[0], a, b, gravity, false, false);
+}
+
+Body ground() {
+    BodyDescription d;
+    d.type = BodyType::fixed;
+    d.shape = PlaneShape{};
+    return BodyBuilder().build(d, IntegratorKind::exact);
+}
+
+Body random_box(Random& random) {
+    return free_box({random(0.3, 1.0), random(0.3, 1.0), random(0.3, 1.0)}, random(0.5, 3.0), Vec3::Zero(), random.vector(2.0), random.turn(), random.vector(4.0));
+}
+
+// Moves the body along the manifold's normal until the two just touch, in one point.
+bool bring_to_touch(const Body& a, Body& b) {
+    for (int round = 0; round < 20; ++round) {
+        const auto found = manifolds(a, b, 2.0);
+        if (found.empty()) return false;
+        double least = 1.0;
+        for (int i = 0; i < found[0].count; ++i) least = std::min(least, found[0].points[std::size_t(i)].separation);
+        b.position -= least * found[0].normal;
+    }
+    const auto m = one_point(a, b, 1e-3);
+    return m && std::abs(m->points[0].separation) < 1e-12;
+}
+
+}  // namespace
+
+TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
+    Random random(11);
+    int corners[3] = {}, all = 0;
+    for (int trial = 0; trial < trials(400); ++trial) {
+        const Body a = trial % 4 == 0 ? ground() : random_box(random);
+        Body b = random_box(random);
+        b.position = trial % 4 == 0 ? Vec3(0.0, 1.0, 0.0) : Vec3(1.1 * random.direction());
+        if (!bring_to_touch(a, b)) continue;
+        const auto measured = gap_acceleration(a, b);
+        if (!measured) continue;
+        ++all;
+        ++corners[int(one_point(a, b, 1e-6)->corners)];
+        EXPECT_NEAR(pressing(a, b), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial;
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+    }
+    for (const int kind : corners) EXPECT_GE(kind, trials(20));   // crossing edges, and either's corners
+    EXPECT_GE(all, trials(150));
+}
+
+// Of a ball over a face, past an edge, past a corner, and past another ball.
+TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
+    Random random(12);
+    int all = 0;
+    for (int trial = 0; trial < trials(400); ++trial) {
+        Body a = trial % 4 == 0 ? free_ball(random(0.1, 0.4), 1.0, Vec3::Zero(), random.vector(2.0)) : random_box(random);
+        a.angular_momentum = a.inertia_body * random.vector(trial % 4 == 0 ? 4.0 : 1.0);
+        a.derive();
+        Body b = free_ball(random(0.1, 0.4), 1.0, 1.5 * random.direction(), random.vector(2.0));
+        if (!bring_to_touch(a, b)) continue;
+        const auto measured = gap_acceleration(a, b);
+        if (!measured) continue;
+        const auto on = [&](double t) { return one_point(at_time(a, t), at_time(b, t), 1e-3); };
+        if (on(-1e-4)->on_ball != on(1e-4)->on_ball || on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0)) continue;
+        ++all;
+        EXPECT_NEAR(pressing(a, b), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial;
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+    }
+    EXPECT_GE(all, trials(200));
+}
+
+// Chains of contacts through bodies that hold one another: who is held does not hang on which contact is looked at first.
+TEST(MarkHeld, DoesNotHangOnTheOrderOfContacts) {
+    Random random(5);
+    for (int trial = 0; trial < trials(400); ++trial) {
+        std::vector<Body> bodies{ground()};
+        for (int i = 0; i < 6; ++i) bodies.push_back(free_box({0.5, 0.4, 0.3}, 1.0, random.vector(1.0), random.vector(0.02), random.turn(), random.vector(2.0)));
+        std::vector<Contact> contacts;
+        for (int k = 0; k < 9; ++k) {
+            Contact c;
+            c.a = std::uint32_t(random.below(6));
+            c.b = c.a + 1 + std::uint32_t(random.below(int(6 - c.a)));
+            c.normal = random.direction();
+            c.arm_a = random.vector(0.2);
+            c.arm_b = random.vector(0.2);
+            c.touch_distance = 1e-7;
+            c.corners = Corners::of_b;
+            contacts.push_back(c);
+        }
+        std::vector<bool> held(bodies.size(), false), other(bodies.size(), false);
+        mark_held(contacts, bodies, gravity, 0.0, 0.2, held);
+        std::reverse(contacts.begin(), contacts.end());
+        mark_held(contacts, bodies, gravity, 0.0, 0.2, other);
+        ASSERT_EQ(held, other) << trial;
+    }
+}
+
+// Resting contact pushes overlaps out down to a part of the radius, and leaves that: what is struck there and parts is free, whatever
+// the last digit. What is pressed in deeper is held, to be pushed out.
+TEST(MarkHeld, LetsGoOfWhatRestedAndParts) {
+    std::vector<Body> bodies{ground(), free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, {0.0, 0.5, 0.0}, Quat::Identity(), Vec3::Zero())};
+    Contact c;
+    c.a = 0;
+    c.b = 1;
+    c.normal = Vec3::UnitY();
+    c.arm_a = c.arm_b = Vec3::Zero();
+    c.touch_distance = tuning::touch * bodies[1].radius;
+    const double rest = -tuning::direct_slop * bodies[1].radius;
+    const auto held = [&](double separation) {
+        c.separation = separation;
+        std::vector<bool> marks(2, false);
+        mark_held({c}, bodies, gravity, 0.0, 0.01, marks);
+        return bool(marks[1]);
+    };
+    EXPECT_FALSE(held(0.0));
+    EXPECT_FALSE(held(rest * (1.0 - 1e-9)));
+    EXPECT_FALSE(held(rest * (1.0 + 1e-9)));
+    EXPECT_TRUE(held(3.0 * rest));
+}
+
+// Of a hop no higher than what gaps are told to, the end cannot be found: it is over. Higher ones are followed, also where the last
+// digits of the places are coarse.
+TEST(ShortHop, IsNoHigherThanTheRoundingOfGaps) {
+    const Body floor = ground();
+    Body box = free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero());
+    Contact c;
+    c.normal = Vec3::UnitY();
+    c.arm_a = c.arm_b = Vec3::Zero();
+    for (const double far : {0.0, 100.0, 1e4, 1e6}) {
+        box.position.x() = far;
+        const double gap = gap_rounding(floor, floor.position) + gap_rounding(box, box.position);
+        for (const double share : {0.9, 1.1}) {
+            box.velocity = Vec3(0.0, std::sqrt(2.0 * 9.81 * share * gap), 0.0);
+            EXPECT_EQ(hop_is_shorter(c, floor, box, -9.81, 0.0), share < 1.0) << far;
+        }
+        EXPECT_TRUE(hop_is_shorter(c, floor, box, -9.81, 1.0));
+        EXPECT_FALSE(hop_is_shorter(c, floor, box, 0.0, 1.0));
+    }
+}
