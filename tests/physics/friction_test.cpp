@@ -131,7 +131,6 @@ TEST(Friction, SlidingAndSpinningShareIt) {
                 const Vec3 x = world.snapshot().bodies[1].center_of_mass;
                 // With one ellipsoid for all ratios of spin to slip the ways are up to 16 % too short.
                 EXPECT_NEAR(x.x(), way, 0.02 * way + start.speed / (60.0 * steps)) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
-                if (getenv("SHOW")) std::printf("%g %g solver %d steps %d: way %.4f of %.4f, aside %.4f, time %.3f of %.3f\n", start.speed, start.spin, int(solver), steps, x.x() / way, way, x.z() / way, sliding / 60.0 / time, time);
                 EXPECT_NEAR(x.z(), 0.0, 0.02 * way) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
                 EXPECT_NEAR(sliding / 60.0, time, 0.12 * time) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
             }
