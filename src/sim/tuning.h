@@ -316,6 +316,16 @@ inline constexpr std::array<double, 4> sleep_times = {0.5, 1.0, 2.0, 4.0};
 inline constexpr double sleep_acceleration = 2.5e-5;
 inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }   // radii
 
+/// Slower than that a body gathers speed unseen by its way, the more so the larger it is, but not by its velocity. It is looked at
+/// every so many seconds, at most each step, and is under way when so many looks in a row found its velocity to have grown, or to
+/// have changed the way that it did before, by no less than this share: what settles within a second changes by less each time.
+/// Two looks are as good for heaps: what trembles turns round sooner.
+inline constexpr double sleep_look = sleep_times.front() / 16.0;
+inline constexpr int sleep_looks = 4;
+inline constexpr double sleep_steady = 0.97;
+/// Changes of velocity between two looks that are the contact solver's rounding: in shares of what gravity adds in a step.
+inline constexpr double sleep_rounding = 1e-10;
+
 /// A contact of a part of a compound is inside the body, a seam, when this share of the part's size out along its normal all
 /// points lie in other parts, or no farther outside them than the second share: far above rounding, below any real edge.
 inline constexpr double seam_probe = 1e-3;

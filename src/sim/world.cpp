@@ -453,7 +453,7 @@ void World::State::move() {
 void World::State::fall_asleep() {
     if (!settings.sleep) return;
     const std::uint64_t changes = sleep.changes();
-    sleep.observe(islands, *manifolds, bodies, h);
+    sleep.observe(islands, *manifolds, bodies, h, gravity_step());
     if (flights && sleep.changes() != changes) flights->lay_down(bodies, steps);
 }
 

@@ -85,6 +85,60 @@ TEST(Sleep, NotWhileSlidingOffSlowly) {
     }
 }
 
+// The same from a hundredth of a meter to ten kilometers, much closer to the angle of friction, standing there or dropped, with
+// every step and integrator: sleep changes no digit of what slides, and the way is that of mechanics.
+TEST(Sleep, NotWhileSlidingOffAtAnyScale) {
+    const double tangent = 0.1, angle = arc_tangent(tangent);
+    for (const double size : {0.01, 1.0, 300.0, 1e4})
+        for (const double acceleration : {1e-3, 3e-5, 1e-7})
+            for (const int steps : {1, 16})
+                for (const double drop : {0.0, 1e-4}) {
+                    const double share = 1.0 - acceleration / (9.81 * std::sin(angle));
+                    SceneDescription scene = ground_scene(0.0, share * tangent, steps);
+                    scene.simulation.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+                    scene.simulation.impacts = steps == 1 ? ImpactMode::stepped : ImpactMode::exact;
+                    add_box(scene, Vec3::Constant(size), {0.0, (0.5 + drop) * size, 0.0}).friction = share * tangent;
+                    Snapshot ends[2];
+                    for (const bool sleep : {false, true}) {
+                        scene.simulation.sleep = sleep;
+                        World world(scene);
+                        run(world, scene, 3.0);
+                        ends[sleep] = world.snapshot();
+                    }
+                    EXPECT_EQ(ends[0].bodies[1].center_of_mass, ends[1].bodies[1].center_of_mass) << size << " " << acceleration << " " << drop;
+                    if (drop > 0.0 || steps == 1) continue;
+                    EXPECT_NEAR(ends[1].bodies[1].center_of_mass.x(), 4.5 * acceleration, 0.01 * 4.5 * acceleration + 1e-8) << size;
+                }
+}
+
+// Balls on slopes that no eye sees: one rolls off from rest, 5/7 g sin(angle), one is thrown up and comes back. A stack slides as one.
+TEST(Sleep, NotWhileRollingOffOrTurningBack) {
+    for (const double slope : {1e-5, 1e-8})
+        for (const double back : {0.0, 1.3}) {
+            SceneDescription scene = ground_scene(0.0, 0.5, 4);
+            scene.simulation.gravity = Vec3(9.81 * slope, -9.81, 0.0);
+            const double rate = 5.0 / 7.0 * 9.81 * slope;
+            BodyDescription& ball = add_sphere(scene, 1.0, {0.0, 1.0, 0.0});
+            ball.friction = 0.5;
+            ball.velocity = Vec3(-back * rate, 0.0, 0.0);
+            ball.angular_velocity = Vec3(0.0, 0.0, back * rate);
+            World world(scene);
+            run(world, scene, 4.0);
+            const double way = 8.0 * rate - 4.0 * back * rate;
+            EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.x(), way, 0.01 * 8.0 * rate) << slope << " " << back;
+        }
+    const double tangent = 0.1, angle = arc_tangent(tangent), acceleration = 1e-4;
+    for (const double size : {1.0, 300.0}) {
+        const double share = 1.0 - acceleration / (9.81 * std::sin(angle));
+        SceneDescription scene = ground_scene(0.0, share * tangent, 4);
+        scene.simulation.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+        for (int i = 0; i < 5; ++i) add_box(scene, Vec3(2.0, 1.0, 2.0) * size, {0.0, size * (i + 0.5), 0.0}).friction = i ? 1.0 : share * tangent;
+        World world(scene);
+        run(world, scene, 4.0);
+        EXPECT_NEAR(world.snapshot().bodies[5].center_of_mass.x(), 8.0 * acceleration, 0.01 * 8.0 * acceleration) << size;
+    }
+}
+
 // The lower box is hit away: the upper one, asleep on it, falls at once.
 TEST(Sleep, FallsWhenItsSupportIsHitAway) {
     SceneDescription scene = stack(2, 0.0);

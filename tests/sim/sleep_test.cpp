@@ -86,17 +86,43 @@ TEST(SleepMonitor, TremblingIsRestCreepingIsNot) {
     EXPECT_FALSE(yard.bodies[1].asleep);
 }
 
-// What gathers speed is not at rest, however slowly it does: what it has moved in half a second tells nothing.
+// What gathers speed is not at rest, however slowly it does: what it has moved in half a second tells nothing. Nor is what turns back.
 TEST(SleepMonitor, GatheringSpeedIsNoRest) {
-    for (const double share : {0.25, 3.0}) {
-        Yard yard;
-        const double rate = share * tuning::sleep_acceleration * yard.bodies[3].radius;
-        for (int k = 0; k * h < 60.0 * shortest; ++k) {
-            yard.bodies[3].position.x() = 5.0 + 0.5 * rate * (k * h) * (k * h);
-            yard.observe();
+    for (const double share : {1e-9, 0.25, 3.0})
+        for (const double turns_back_after : {0.0, 1.3}) {
+            Yard yard;
+            const double rate = share * tuning::sleep_acceleration * yard.bodies[3].radius;
+            for (int k = 0; k * h < 10.0 * shortest; ++k) {
+                const double t = k * h - turns_back_after;
+                yard.bodies[3].position.x() = 5.0 + 0.5 * rate * t * t;
+                yard.bodies[3].velocity.x() = rate * t;
+                yard.observe();
+            }
+            EXPECT_FALSE(yard.bodies[3].asleep) << share << " " << turns_back_after;
         }
-        EXPECT_EQ(yard.bodies[3].asleep, share < 1.0) << share;
+}
+
+TEST(SleepMonitor, GatheringSpinIsNoRest) {
+    Yard yard;
+    for (int k = 0; k * h < 10.0 * shortest; ++k) {
+        yard.bodies[3].angular_velocity.y() = 1e-9 * k * h;
+        yard.observe();
     }
+    EXPECT_FALSE(yard.bodies[3].asleep);
+    EXPECT_TRUE(yard.bodies[1].asleep);
+}
+
+// A creep that dies away is rest, and so is a drift at an even speed, too slow to be seen.
+TEST(SleepMonitor, SettlingIsRest) {
+    Yard yard;
+    double speed = 1e-6;
+    for (int k = 0; k * h < 4.0 * shortest; ++k, speed *= 0.97) {
+        yard.bodies[3].velocity.y() = -speed;
+        yard.bodies[1].velocity.x() = 1e-7;
+        yard.observe();
+    }
+    EXPECT_TRUE(yard.bodies[3].asleep);
+    EXPECT_TRUE(yard.bodies[1].asleep);
 }
 
 TEST(SleepMonitor, OnlyWhatLeansOnSomethingFixed) {

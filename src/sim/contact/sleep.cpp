@@ -61,6 +61,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
 // Whether it has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
+    const double least = (tuning::sleep_looks + 1) * h;   // steps may be as long as a span: its trend must be known
     for (std::size_t k = 0; k < spans.size(); ++k) {
         Span& span = spans[k];
         const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
@@ -70,18 +71,34 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
             span = {body.position, body.orientation, 0.0};
         } else {
             span.still += h;
-            rests = rests || span.still >= time;
+            rests = rests || span.still >= std::max(time, least);
         }
     }
     return rests;
 }
 
+// Whether its velocity changes steadily.
+bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
+    trend.since += h;
+    if (trend.since >= tuning::sleep_look) {
+        Trend::Velocity velocity;
+        velocity << body.velocity, body.radius * body.angular_velocity;
+        const Trend::Velocity change = velocity - trend.velocity;
+        const bool grew = velocity.dot(trend.velocity) > trend.velocity.squaredNorm();
+        const bool same = change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
+        const bool any = change.norm() > tuning::sleep_rounding * speed_change;
+        trend = {velocity, change, 0.0, any && (grew || same) ? trend.steady + 1 : 0};
+    }
+    return trend.steady >= tuning::sleep_looks;
+}
+
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
-                           double h) {
+                           double h, double speed_change) {
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
         for (const std::uint32_t i : islands.bodies(island)) {
-            const bool rests = follow(watches_[i].spans, bodies[i], h);
+            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);   // each step, whatever the others do
+            const bool rests = follow(watches_[i].spans, bodies[i], h) && !under_way;
             still = still && rests && !bodies[i].flying;
         }
         if (!still) continue;
