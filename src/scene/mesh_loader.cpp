@@ -1,5 +1,6 @@
 #include "scene/mesh_loader.h"
 
+#include "scene/limits.h"
 #include "scene/mesh_normals.h"
 #include "scene/mesh_winding.h"
 
@@ -192,6 +193,8 @@ LoadedMesh load_mesh(const std::filesystem::path& file) { return loaded(read_mes
 
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file) {
     const MeshFile read = read_mesh_file(file);
+    if (read.objects.size() > std::size_t(limits::parts))
+        throw MeshError(fmt::format("holds {} objects (a body has {} parts at most)", read.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
     for (std::size_t i = 0; i < read.objects.size(); ++i) result.push_back(loaded(object_of(read, i), file));
     return result;

@@ -46,7 +46,8 @@ private:
 /// normals for drawing. Throws MeshError.
 LoadedMesh load_mesh(const std::filesystem::path& file);
 
-/// The same for each object of the file: a group of an OBJ, a node of a glTF; of other kinds the whole.
+/// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; of other kinds the whole.
+/// Throws MeshError too when they are more than a body has parts.
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size; the first of each group in file order stays.
