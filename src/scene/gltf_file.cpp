@@ -139,7 +139,7 @@ private:
             if (primitive.mode == Mode::strip) at = t % 2 ? std::array{t + 1, t, t + 2} : std::array{t, t + 1, t + 2};
             if (primitive.mode == Mode::fan) at = {0, t + 1, t + 2};
             if (transform.mirrored()) std::swap(at[0], at[2]);
-            mesh_.add_polygon({corner(at[0]), corner(at[1]), corner(at[2])});
+            mesh_.add_triangle({corner(at[0]), corner(at[1]), corner(at[2])});
         }
     }
 

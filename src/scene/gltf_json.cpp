@@ -7,18 +7,40 @@
 
 namespace tumble {
 
+namespace {
+
+/// Counts the values of a text and stops at one too many. (The parser's own filter looks at all of an array once an object.)
+class Counter : public nlohmann::json_sax<Json> {
+public:
+    bool too_many() const { return values_ > limits::json_values; }
+
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool key(string_t&) override { return true; }
+    bool start_object(std::size_t) override { return count(); }
+    bool end_object() override { return true; }
+    bool start_array(std::size_t) override { return count(); }
+    bool end_array() override { return true; }
+    bool parse_error(std::size_t, const std::string&, const Json::exception&) override { return false; }
+
+private:
+    bool count() { return ++values_ <= limits::json_values; }
+    std::int64_t values_ = 0;
+};
+
+}  // namespace
+
 Json parse_json(std::string_view text) {
-    std::int64_t values = 0;
-    const auto count = [&](int, Json::parse_event_t event, Json&) {
-        using Event = Json::parse_event_t;
-        if ((event == Event::value || event == Event::array_start || event == Event::object_start) &&
-            ++values > limits::json_values) {
-            throw MeshError(fmt::format("holds more than {} JSON values", limits::json_values));
-        }
-        return true;
-    };
+    Counter counter;
+    Json::sax_parse(text.begin(), text.end(), &counter);   // a mistake is found again below
+    if (counter.too_many()) throw MeshError(fmt::format("holds more than {} JSON values", limits::json_values));
     try {
-        return Json::parse(text.begin(), text.end(), count);
+        return Json::parse(text.begin(), text.end());
     } catch (const Json::parse_error& error) {
         throw MeshError(fmt::format("is not JSON (a mistake at byte {} of {})", error.byte, text.size()));
     } catch (const Json::exception&) {

@@ -55,13 +55,15 @@ void MeshFile::add_polygon(const std::vector<Corner>& corners) {
     if (corners.size() < 3) return;   // points and lines
     check_corners(corners.size());
     check_more_triangles(corners.size() - 2);
-    if (corners.size() == 3) {
-        triangles.push_back({corners[0], corners[1], corners[2]});
-        return;
-    }
+    if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
     std::vector<Vec3> points;
     for (const Corner& corner : corners) points.push_back(positions[corner.position]);
     for (const auto& t : cut_polygon(points)) triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+}
+
+void MeshFile::add_triangle(const std::array<Corner, 3>& corners) {
+    check_more_triangles(1);
+    triangles.push_back(corners);
 }
 
 void MeshFile::check_corners(std::size_t corners) {

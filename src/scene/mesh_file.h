@@ -34,6 +34,7 @@ struct MeshFile {
     void begin_object();
     /// Cuts the polygon into triangles. Throws MeshError when it or the file has too many corners.
     void add_polygon(const std::vector<Corner>& corners);
+    void add_triangle(const std::array<Corner, 3>& corners);
     /// Throw MeshError when a polygon of so many corners, or so many more triangles or positions, would be too many.
     static void check_corners(std::size_t corners);
     void check_more_triangles(std::uint64_t more) const;

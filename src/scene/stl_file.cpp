@@ -34,7 +34,7 @@ private:
 
 void add_last_three(MeshFile& mesh) {
     const auto next = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.add_polygon({{next - 3, Vec3::Zero()}, {next - 2, Vec3::Zero()}, {next - 1, Vec3::Zero()}});
+    mesh.add_triangle({{{next - 3, Vec3::Zero()}, {next - 2, Vec3::Zero()}, {next - 1, Vec3::Zero()}}});
 }
 
 MeshFile read_text(std::string_view bytes) {

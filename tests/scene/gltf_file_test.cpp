@@ -241,15 +241,21 @@ TEST_F(Gltf, DepthCostsNoStack) {
 }
 
 TEST_F(Gltf, ManyNodesOfOneMeshAreCountedBeforeTheyAreMade) {
-    Document document;   // a strip of 22,000 triangles
-    write("data.bin", std::string(12 * 22'002, '\0'));
-    document.accessors = R"([{"bufferView":0,"componentType":5126,"count":22002,"type":"VEC3"}])";
-    document.views = R"([{"buffer":0,"byteLength":264024}])";
-    document.buffers = R"([{"byteLength":264024,"uri":"data.bin"}])";
-    document.primitives = R"([{"attributes":{"POSITION":0},"mode":5}])";
-    document.nodes = "[{\"mesh\":0}";
+    Document document;
+    const auto strip = [&](std::size_t corner_count) {
+        write("data.bin", bytes_of(corners) + std::string(corner_count, '\0'));
+        document.accessors = fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
+                                             {{"bufferView":1,"componentType":5121,"count":{},"type":"SCALAR"}}])", corner_count);
+        document.views = fmt::format(R"([{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":{}}}])", corner_count);
+        document.buffers = fmt::format(R"([{{"byteLength":{},"uri":"data.bin"}}])", 48 + corner_count);
+        document.primitives = R"([{"attributes":{"POSITION":0},"indices":1,"mode":5}])";
+    };
+    strip(5'000'003);
+    EXPECT_EQ(error_of(document), "has more than 5000000 triangles");
+    strip(500'002);
+    document.nodes = R"([{"mesh":0})";
     document.roots = "[0";
-    for (int i = 1; i < 300; ++i) {
+    for (int i = 1; i <= 10; ++i) {
         document.nodes += R"(,{"mesh":0})";
         document.roots += fmt::format(",{}", i);
     }
@@ -260,6 +266,9 @@ TEST_F(Gltf, ManyNodesOfOneMeshAreCountedBeforeTheyAreMade) {
 
 TEST_F(Gltf, WhatIsNoGltfOrOfAnotherKind) {
     EXPECT_EQ(error_of("{"), "is not JSON (a mistake at byte 2 of 1)");
+    std::string zeros = "[0";
+    for (int i = 0; i < 10'000'000; ++i) zeros += ",0";
+    EXPECT_EQ(error_of(zeros + "]"), "holds more than 10000000 JSON values");
     EXPECT_EQ(error_of("{\"a\":1e999}"), "is JSON with a number beyond all range");
     EXPECT_EQ(error_of("[]"), "is no glTF file: it has no \"asset\" with a \"version\"");
     EXPECT_EQ(error_of("{\"asset\":{\"version\":\"1.0\"}}"), "is glTF 1.0, not 2.0");

@@ -93,17 +93,18 @@ TEST(Polygon, EarsAreThoseOfALookAtEveryCorner) {
             double area = 0.0;   // as the cut sees it: those that turn clockwise are seen from below
             for (std::size_t i = 0; i < p->size(); ++i) area += turn((*p)[0], (*p)[i], (*p)[(i + 1) % p->size()]);
             if (area < 0.0) for (Vec3& v : *p) v.y() = -v.y();
-            if (area != 0.0) EXPECT_EQ(cut_polygon(*p), cut_plainly(*p)) << n;
+            if (area == 0.0) continue;   // no side is seen
+            EXPECT_EQ(cut_polygon(*p), cut_plainly(*p)) << n;
         }
     }
 }
 
-TEST(Polygon, HundredsOfLargeOnesTakeSeconds) {
-    // 300 combs of 2000 corners, whose teeth hide most ears. No time is asserted, but the plain way takes 10 minutes.
+TEST(Polygon, DozensOfLargeOnesTakeASecond) {
+    // 40 combs of 2000 corners, whose teeth hide most ears. No time is asserted, but the plain way takes over a minute.
     std::vector<Vec3> comb;
     for (int i = 0; i < 1000; ++i) comb.push_back({double(i), i % 2 ? 0.0 : -1000.0, 0});
     for (int i = 999; i >= 0; --i) comb.push_back({double(i), i % 2 ? 1.0 : -999.5, 0});
-    for (int i = 0; i < 300; ++i) EXPECT_EQ(cut_polygon(comb).size(), 1998u);
+    for (int i = 0; i < 40; ++i) EXPECT_EQ(cut_polygon(comb).size(), 1998u);
     expect_cut(comb, 1e-6);
 }
 
