@@ -13,10 +13,12 @@ namespace tumble::limits {
 inline constexpr std::int64_t scene_bytes = 256 << 20;    // a file of a million bodies is about 100 MB
 inline constexpr std::int64_t key_parts = 16;             // a.b.c has three, and a scene needs no more; each is a table in the one
                                                           // before, and tables are destroyed by recursion
-inline constexpr std::int64_t mesh_bytes = 256 << 20;     // assimp needs about ten times the file in memory
+inline constexpr std::int64_t mesh_bytes = 256 << 20;     // up to ten times the file in memory while it is read; also of
+                                                          // all the other files together that hold a glTF's buffers
+inline constexpr std::int64_t json_values = 10'000'000;   // of a glTF file: 16 to 100 bytes of memory each
 inline constexpr std::int64_t mesh_triangles = 5'000'000; // 32-bit indices and about a gigabyte when welded
 
-inline constexpr std::int64_t polygon_corners = 2000;     // cutting one takes time as their square, or cube at worst
+inline constexpr std::int64_t polygon_corners = 2000;     // cutting one takes time as their square at worst
 
 // -- Time
 inline constexpr Range duration{0.0, 1e9, "s"};           // thirty years

@@ -1,20 +1,21 @@
 #include "scene/mesh_file.h"
 
-#include "scene/assimp_file.h"
+#include "scene/assimp_import.h"
+#include "scene/gltf_file.h"
+#include "scene/input_file.h"
 #include "scene/limits.h"
+#include "scene/obj_file.h"
 #include "scene/ply_file.h"
 #include "scene/polygon.h"
+#include "scene/stl_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string>
-#include <system_error>
 
 namespace tumble {
 namespace {
@@ -25,23 +26,17 @@ std::string lower_extension(const std::filesystem::path& file) {
     return text;
 }
 
-void check_file(const std::filesystem::path& file, const std::string& extension) {
-    if (extension != ".obj" && extension != ".stl" && extension != ".ply" && extension != ".gltf" &&
-        extension != ".glb") {
-        throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf and .glb can be read");
-    }
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (status.type() == std::filesystem::file_type::not_found) throw MeshError("does not exist");
-    if (error) throw MeshError("cannot be read: " + error.message());
-    if (!std::filesystem::is_regular_file(status)) throw MeshError("is not a file");
-    if (!std::ifstream(file)) throw MeshError("cannot be read: " + std::generic_category().message(errno));
-    const auto size = std::filesystem::file_size(file, error);
-    if (error) throw MeshError("cannot be read: " + error.message());
-    if (size == 0) throw MeshError("is empty");
-    if (size > static_cast<std::uintmax_t>(limits::mesh_bytes)) {
-        throw MeshError(fmt::format("is larger than {} MiB", limits::mesh_bytes >> 20));
-    }
+MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension) {
+    const bool gltf = extension == ".gltf" || extension == ".glb";
+    const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
+    if (!own && !assimp_reads(extension))
+        throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
+    const std::string bytes = read_regular_file(file, limits::mesh_bytes);
+    if (bytes.empty()) throw MeshError("is empty");
+    if (!own) return import_with_assimp(bytes, extension);
+    if (gltf) return read_gltf(bytes, file.parent_path());
+    if (extension == ".obj") return read_obj(bytes);
+    return extension == ".stl" ? read_stl(bytes) : read_ply(bytes);
 }
 
 }  // namespace
@@ -51,6 +46,7 @@ void MeshFile::add_position(const Vec3& position) {
     if (!(position.cwiseAbs().maxCoeff() <= farthest)) {   // false for NaN
         throw MeshError("holds a coordinate that is not a finite number, or beyond 1e30");
     }
+    check_more_positions(1);
     positions.push_back(position);
 }
 
@@ -60,20 +56,32 @@ void MeshFile::begin_object() {
 
 void MeshFile::add_polygon(const std::vector<Corner>& corners) {
     if (corners.size() < 3) return;   // points and lines
-    if (corners.size() > static_cast<std::size_t>(limits::polygon_corners)) {
-        throw MeshError(fmt::format("holds a polygon of {} corners (at most {} can be cut)", corners.size(),
-                                    limits::polygon_corners));
-    }
-    if (triangles.size() + corners.size() - 2 > static_cast<std::size_t>(limits::mesh_triangles)) {
-        throw MeshError(fmt::format("has more than {} triangles", limits::mesh_triangles));
-    }
-    if (corners.size() == 3) {
-        triangles.push_back({corners[0], corners[1], corners[2]});
-        return;
-    }
+    check_corners(corners.size());
+    check_more_triangles(corners.size() - 2);
+    if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
     std::vector<Vec3> points;
     for (const Corner& corner : corners) points.push_back(positions[corner.position]);
     for (const auto& t : cut_polygon(points)) triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+}
+
+void MeshFile::add_triangle(const std::array<Corner, 3>& corners) {
+    check_more_triangles(1);
+    triangles.push_back(corners);
+}
+
+void MeshFile::check_corners(std::size_t corners) {
+    if (corners > static_cast<std::size_t>(limits::polygon_corners))
+        throw MeshError(fmt::format("holds a polygon of more than {} corners", limits::polygon_corners));
+}
+
+void MeshFile::check_more_triangles(std::uint64_t more) const {
+    constexpr std::uint64_t most = limits::mesh_triangles;
+    if (more > most || triangles.size() + more > most) throw MeshError(fmt::format("has more than {} triangles", most));
+}
+
+void MeshFile::check_more_positions(std::uint64_t more) const {
+    constexpr std::uint64_t most = 3 * limits::mesh_triangles;   // a corner each, and none to spare
+    if (more > most || positions.size() + more > most) throw MeshError(fmt::format("has more than {} vertices", most));
 }
 
 double as_written(float value) {
@@ -91,13 +99,17 @@ Vec3 unit_or_zero(const Vec3& v) {
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& file) {
-    const std::string extension = lower_extension(file);
-    check_file(file, extension);
-    MeshFile mesh = extension == ".ply" ? read_ply(file) : read_with_assimp(file, extension != ".stl");
+    MeshFile mesh = read_bytes(file, lower_extension(file));
     if (mesh.triangles.empty()) throw MeshError("holds no triangles");
-    if (mesh.objects.empty()) mesh.objects.push_back(0);
+    if (mesh.objects.empty() || mesh.objects.front() != 0) mesh.objects.insert(mesh.objects.begin(), 0);
     if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();   // an object of points and lines
     return mesh;
+}
+
+std::string readable(std::string_view text, std::size_t longest) {
+    std::string result(text.substr(0, longest));
+    for (char& c : result) if (c < ' ' || c > '~') c = '?';
+    return text.size() > longest ? result + "..." : result;
 }
 
 }  // namespace tumble

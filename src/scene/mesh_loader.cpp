@@ -1,5 +1,6 @@
 #include "scene/mesh_loader.h"
 
+#include "scene/limits.h"
 #include "scene/mesh_normals.h"
 #include "scene/mesh_winding.h"
 
@@ -186,10 +187,6 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     return object;
 }
 
-}  // namespace
-
-namespace {
-
 MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
     MeshFile mesh = read_mesh_file(file);
     if (read != nullptr) {
@@ -207,6 +204,8 @@ LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesys
 
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
     const MeshFile whole = read_and_note(file, read);
+    if (whole.objects.size() > std::size_t(limits::parts))
+        throw MeshError(fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
     for (std::size_t i = 0; i < whole.objects.size(); ++i) result.push_back(loaded(object_of(whole, i), file));
     return result;

@@ -49,7 +49,8 @@ private:
 /// normals for drawing. Throws MeshError. The files that were read are appended to `read`, where that is given.
 LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr);
 
-/// The same for each object of the file: a group of an OBJ, a node of a glTF; of other kinds the whole.
+/// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; of other kinds the whole.
+/// Throws MeshError too when they are more than a body has parts.
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
                                           std::vector<std::filesystem::path>* read = nullptr);
 

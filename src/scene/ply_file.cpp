@@ -9,10 +9,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 namespace {
@@ -32,13 +31,15 @@ constexpr Choice<Type> types[] = {
     {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64},
 };
 
+constexpr std::size_t header_bytes = 64 << 10;   // a hundred elements; more would only take time
+
 struct Property {
-    std::string name;
+    std::string_view name;
     Type type;
     std::optional<Type> list_count;   // type of a list's length
 };
 struct Element {
-    std::string name;
+    std::string_view name;
     std::uint64_t count;
     std::vector<Property> properties;
 };
@@ -48,41 +49,70 @@ struct Header {
 };
 
 template <class Value>
-Value named(const std::string& name, std::span<const Choice<Value>> choices, const char* what) {
+Value named(std::string_view name, std::span<const Choice<Value>> choices, const char* what) {
     for (const auto& choice : choices) if (choice.name == name) return choice.value;
     throw MeshError(fmt::format("has a header with an unknown {}", what));
 }
 
-Header read_header(std::istream& stream) {
-    Header header;
-    std::string line, word;
+/// Takes the text up to the next separator off the front of `text`.
+std::string_view take_until(char separator, std::string_view& text) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    const std::string_view taken = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return taken;
+}
+
+std::string_view take_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+Element read_element(std::string_view words) {
+    Element element{};
+    element.name = take_word(words);
+    const std::string_view count = take_word(words);
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (error != std::errc() || end != count.data() + count.size())
+        throw MeshError("has a header with an element without a count");
+    return element;
+}
+
+Property read_property(std::string_view words) {
+    Property property{};
+    std::string_view type = take_word(words);
+    if (type == "list") {
+        property.list_count = named<Type>(take_word(words), types, "type");
+        type = take_word(words);
+    }
+    property.type = named<Type>(type, types, "type");
+    property.name = take_word(words);
+    return property;
+}
+
+/// Reads the header and takes it off the front of `bytes`.
+Header read_header(std::string_view& bytes) {
+    const std::string_view whole = bytes;
     const auto next_line = [&] {
-        if (!std::getline(stream, line)) throw MeshError("ends within its header");
-        if (!line.empty() && line.back() == '\r') line.pop_back();
+        if (bytes.empty()) throw MeshError("ends within its header");
+        if (whole.size() - bytes.size() > header_bytes)
+            throw MeshError(fmt::format("has a header of more than {} KiB", header_bytes >> 10));
+        std::string_view line = take_until('\n', bytes);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line;
     };
-    next_line();
-    if (line != "ply") throw MeshError("does not begin with \"ply\"");
-    for (next_line(); line != "end_header"; next_line()) {
-        std::istringstream words(line);
-        words >> word;
+    if (next_line() != "ply") throw MeshError("does not begin with \"ply\"");
+    Header header;
+    for (std::string_view line = next_line(); line != "end_header"; line = next_line()) {
+        const std::string_view word = take_word(line);
         if (word == "format") {
-            words >> word;
-            header.encoding = named<Encoding>(word, encodings, "format");
+            header.encoding = named<Encoding>(take_word(line), encodings, "format");
         } else if (word == "element") {
-            Element element;
-            if (!(words >> element.name >> element.count))
-                throw MeshError("has a header with an element without a count");
-            header.elements.push_back(element);
+            header.elements.push_back(read_element(line));
         } else if (word == "property") {
-            Property property{};
-            words >> word;
-            if (word == "list") {
-                words >> word;
-                property.list_count = named<Type>(word, types, "type");
-                words >> word;
-            }
-            property.type = named<Type>(word, types, "type");
-            if (!(words >> property.name) || header.elements.empty())
+            const Property property = read_property(line);
+            if (property.name.empty() || header.elements.empty())
                 throw MeshError("has a header with a misplaced property");
             header.elements.back().properties.push_back(property);
         }
@@ -93,7 +123,7 @@ Header read_header(std::istream& stream) {
 /// The numbers after the header, one after the other.
 class Body {
 public:
-    Body(std::string data, Encoding encoding) : data_(std::move(data)), encoding_(encoding) {}
+    Body(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
 
     std::size_t bytes_left() const { return data_.size() - at_; }
 
@@ -139,7 +169,7 @@ private:
         return take<double>();
     }
 
-    std::string data_;
+    std::string_view data_;
     Encoding encoding_;
     std::size_t at_ = 0;
 };
@@ -187,13 +217,9 @@ std::optional<std::array<std::size_t, 3>> triple(const Element& element, const s
 
 }  // namespace
 
-MeshFile read_ply(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw MeshError("cannot be read");
-    const Header header = read_header(stream);
-    std::ostringstream rest;
-    rest << stream.rdbuf();
-    Body body(std::move(rest).str(), header.encoding);
+MeshFile read_ply(std::string_view bytes) {
+    const Header header = read_header(bytes);
+    Body body(bytes, header.encoding);
 
     MeshFile mesh;
     std::vector<Vec3> normals;   // one a vertex, or none at all

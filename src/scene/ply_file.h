@@ -1,12 +1,14 @@
 // PLY files (Turk 1994): text and binary, positions, normals and polygons; other elements and properties are passed
-// over. Read by ourselves, because assimp 5.2 never returns from a text file that ends early (measured).
+// over.
 #pragma once
 
 #include "scene/mesh_file.h"
 
+#include <string_view>
+
 namespace tumble {
 
-/// The file exists. Throws MeshError.
-MeshFile read_ply(const std::filesystem::path& file);
+/// The bytes are those of the file. Throws MeshError.
+MeshFile read_ply(std::string_view bytes);
 
 }  // namespace tumble

@@ -72,8 +72,6 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
 /// Each object of the file as a part.
 CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request, MeshCache& meshes) {
     const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh_file, request.mesh_scale);
-    if (objects.size() > std::size_t(limits::parts))
-        file.fail(fmt::format("holds {} objects: the limit of a body's parts is {}", objects.size(), limits::parts));
     auto made = std::make_shared<std::vector<CompoundPart>>();
     const auto scale = table.find("scale");
     for (const LoadedMesh& object : objects) {

@@ -22,13 +22,13 @@ struct Street {
 };
 
 const std::map<std::string, Street> streets = {
-    {"core", {{"core/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"core", {{"core/"}, {"toml++", "nlohmann", "assimp", "assimp", "assimp", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"scene", {{"core/", "scene/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/"}}},
+    {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "nlohmann", "GL/", "glm/", "png.h", "CLI/"}}},
     {"render",
      {{"core/", "scene/description.h", "sim/snapshot.h", "render/"},
-      {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
-    {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
+      {"toml++", "nlohmann", "png.h", "CLI/", "libqhull"}}},
+    {"output", {{"core/", "output/"}, {"toml++", "nlohmann", "GL/", "glm/", "CLI/", "libqhull"}}},
     {"app", {{"core/", "scene/", "sim/", "render/", "output/", "app/"}, {}}},
 };
 

@@ -1,0 +1,14 @@
+// glTF 2.0 files (Khronos, ISO/IEC 12113): the triangles of the scene's nodes. Both as JSON and as GLB.
+#pragma once
+
+#include "scene/mesh_file.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace tumble {
+
+/// The bytes are those of the file. Buffers may be files in the folder and below. Throws MeshError.
+MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder);
+
+}  // namespace tumble

@@ -1,0 +1,35 @@
+// Words and numbers of text mesh files (OBJ, STL).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace tumble {
+
+/// Walks through a text line by line and word by word. A line that ends in a backslash goes on in the next one, and # begins
+/// a comment.
+class TextWords {
+public:
+    explicit TextWords(std::string_view text) : text_(text) {}
+
+    /// The next word of the line; empty at the line's end.
+    std::string_view word();
+    /// Goes to the next line; false at the end of the text.
+    bool next_line();
+    /// The number of the line, from 1.
+    std::size_t line() const { return line_; }
+
+private:
+    bool at_line_end() const;
+    bool skip_continuation();
+
+    std::string_view text_;
+    std::size_t at_ = 0, line_ = 1;
+};
+
+/// A decimal number with a point or a comma, `nan` or `inf`. Whole part, fraction and power of ten are each rounded to a
+/// float, as assimp rounds them: meshes keep the coordinates that they had when it read them.
+/// Throws MeshError, which names the line, when the word is none.
+float mesh_number(std::string_view word, std::size_t line);
+
+}  // namespace tumble

@@ -1,0 +1,79 @@
+// Mesh files of the kinds that assimp imports in a child process: the same shapes, and no harm from malformed ones.
+#include "mesh_files.h"
+#include "scene/mesh_loader.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+namespace tumble {
+namespace {
+
+class AssimpImport : public MeshFiles {
+protected:
+    std::string error_of(const std::string& name, const std::string& text) const {
+        try {
+            load_mesh(write(name, text));
+        } catch (const MeshError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+};
+
+std::string collada(const std::string& nodes) {
+    return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+           "<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh>"
+           "<source id=\"p\"><float_array id=\"a\" count=\"12\">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>"
+           "<accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
+           "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+           "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
+           "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>"
+           "<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>"
+           "<library_visual_scenes><visual_scene id=\"s\">" + nodes + "</visual_scene></library_visual_scenes>"
+           "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+}
+
+TEST_F(AssimpImport, ACubeOfOff) {
+    const LoadedMesh mesh = load_mesh(write("cube.off",
+        "OFF\n8 6 12\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n"
+        "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
+    EXPECT_EQ(mesh.asset->surface.triangles.size(), 12u);
+    EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
+}
+
+TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
+    const std::string use = "<instance_geometry url=\"#g\"/></node>";
+    const auto file = write("two.dae", collada("<node id=\"one\">" + use +
+                                               "<node id=\"two\"><translate>0 5 0</translate><scale>2 2 2</scale>" + use));
+    const auto objects = load_mesh_objects(file);
+    ASSERT_EQ(objects.size(), 2u);
+    EXPECT_NEAR(objects[0].closedness.signed_volume, 1.0 / 6.0, 1e-15);
+    EXPECT_NEAR(objects[1].closedness.signed_volume, 8.0 / 6.0, 1e-14);
+    EXPECT_EQ(objects[1].asset->surface.bounds().center(), Vec3(1.0, 6.0, 1.0));
+}
+
+TEST_F(AssimpImport, NoOtherFileIsOpened) {
+    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // an open would wait for ever
+    const std::string scene = "<?xml version=\"1.0\"?><irr_scene><node type=\"mesh\"><attributes>"
+                              "<string name=\"Mesh\" value=\"fifo.obj\"/></attributes></node></irr_scene>";
+    EXPECT_NE(error_of("scene.irr", scene), "no error");
+}
+
+TEST_F(AssimpImport, MoreThanItHolds) {
+    EXPECT_NE(error_of("promise.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"), "no error");
+    EXPECT_NE(error_of("cut.off", "OFF\n8 6 12\n-1 -1"), "no error");
+}
+
+TEST_F(AssimpImport, ACrashIsAnError) {
+    std::string nodes, ends;
+    for (int i = 0; i < 200'000; ++i) {   // its reader of nodes calls itself for each
+        nodes += "<node>";
+        ends += "</node>";
+    }
+    const std::string error = error_of("deep.dae", collada(nodes + "<instance_geometry url=\"#g\"/>" + ends));
+    EXPECT_NE(error, "no error");
+    EXPECT_LT(error.size(), 300u);
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,304 @@
+// glTF files: what is read of them, what is refused, and which other files they may open.
+#include "mesh_files.h"
+#include "scene/mesh_loader.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <cstring>
+#include <unistd.h>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+template <class Number>
+std::string bytes_of(const std::vector<Number>& numbers) {
+    return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+/// A tetrahedron: positions, then indices.
+const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+const std::vector<std::uint16_t> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+std::string tetrahedron() { return bytes_of(corners) + bytes_of(faces); }
+
+/// The parts of a document with one mesh; a test replaces those that it is about.
+struct Document {
+    std::string nodes = R"([{"mesh":0}])", roots = "[0]";
+    std::string primitives = R"([{"attributes":{"POSITION":0},"indices":1}])";
+    std::string accessors = R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                                {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
+    std::string views = R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}])";
+    std::string buffers = R"([{"byteLength":72,"uri":"data.bin"}])";
+    std::string more;
+
+    std::string text() const {
+        return fmt::format(R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":{}}}],"nodes":{},"meshes":[{{"primitives":{}}}],
+"accessors":{},"bufferViews":{},"buffers":{}{}}})", roots, nodes, primitives, accessors, views, buffers, more);
+    }
+};
+
+std::string glb(const std::string& json, const std::string& binary) {
+    const auto number = [](std::size_t value) { return bytes_of(std::vector<std::uint32_t>{std::uint32_t(value)}); };
+    const std::string body = number(json.size()) + "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+    return "glTF" + number(2) + number(12 + body.size()) + body;
+}
+
+class Gltf : public MeshFiles {
+protected:
+    Gltf() { write("data.bin", tetrahedron()); }
+
+    LoadedMesh loaded(const Document& document) const { return load_mesh(write("a.gltf", document.text())); }
+    std::string error_of(const std::string& text, const std::string& name = "a.gltf") const {
+        try {
+            load_mesh(write(name, text));
+        } catch (const MeshError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+    std::string error_of(const Document& document) const { return error_of(document.text()); }
+    std::string error_with_uri(const std::string& uri) const {
+        Document document;
+        document.buffers = R"([{"byteLength":72,"uri":")" + uri + "\"}]";
+        return error_of(document);
+    }
+    void expect_tetrahedron(const LoadedMesh& mesh) const {
+        EXPECT_EQ(mesh.asset->surface.vertices.size(), 4u);
+        EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 1.0 / 6.0);
+        EXPECT_TRUE(mesh.closedness.closed());
+    }
+};
+
+TEST_F(Gltf, BuffersAreFilesOfTheFolderDataUrisOrTheBinaryChunk) {
+    expect_tetrahedron(loaded({}));
+    std::filesystem::create_directory(folder() / "deep");
+    std::filesystem::create_symlink("../data.bin", folder() / "deep" / "link.bin");
+    write("my data.bin", tetrahedron());
+    for (const char* uri : {"deep/link.bin", "./deep/../data.bin", "my%20data.bin", "my data.bin"}) EXPECT_EQ(error_with_uri(uri), "no error") << uri;
+
+    Document two;   // one buffer each for positions and indices
+    two.views = R"([{"buffer":0,"byteLength":48},{"buffer":1,"byteLength":24}])";
+    two.buffers = R"([{"byteLength":48,"uri":"data.bin"},{"byteLength":24,"uri":"data:application/gltf-buffer;base64,AAACAAEAAAABAAMAAAADAAIAAQACAAMA"}])";
+    expect_tetrahedron(loaded(two));
+
+    Document chunk;
+    chunk.buffers = R"([{"byteLength":72}])";
+    expect_tetrahedron(load_mesh(write("a.glb", glb(chunk.text(), tetrahedron()))));
+    expect_tetrahedron(load_mesh(write("a.glb", glb(Document{}.text(), ""))));
+}
+
+TEST_F(Gltf, NodesThatShowOneMeshAreEachAnObject) {
+    Document document;
+    document.nodes = R"([{"children":[1,2]},{"mesh":0,"translation":[2,0,0]},{"mesh":0,"rotation":[0,1,0,0],"scale":[1,2,-1]}])";
+    EXPECT_EQ(loaded(document).asset->surface.triangles.size(), 8u);
+    const auto objects = load_mesh_objects(folder() / "a.gltf");
+    ASSERT_EQ(objects.size(), 2u);
+    EXPECT_EQ(objects[0].asset->surface.bounds().min, Vec3(2, 0, 0));
+    EXPECT_EQ(objects[1].asset->surface.bounds().min, Vec3(-1, 0, 0));
+    EXPECT_EQ(objects[1].asset->surface.bounds().max, Vec3(0, 2, 1));
+    EXPECT_DOUBLE_EQ(objects[1].closedness.signed_volume, 2.0 / 6.0);
+}
+
+TEST_F(Gltf, StripsFansAndUnindexedTriangles) {
+    write("data.bin", bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) + bytes_of(std::vector<std::uint16_t>{0, 1, 3, 2}));
+    const auto area = [&](const std::string& primitive) {
+        Document document;
+        document.primitives = "[" + primitive + "]";
+        document.accessors = R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                                 {"bufferView":1,"componentType":5123,"count":4,"type":"SCALAR"}])";
+        document.views = R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":8}])";
+        document.buffers = R"([{"byteLength":56,"uri":"data.bin"}])";
+        const auto mesh = loaded(document);
+        Vec3 sum = Vec3::Zero();
+        for (const auto& t : mesh.asset->surface.triangles) {
+            const Vec3& a = mesh.asset->surface.vertices[t[0]];
+            sum += 0.5 * (mesh.asset->surface.vertices[t[1]] - a).cross(mesh.asset->surface.vertices[t[2]] - a);
+        }
+        return sum;
+    };
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":5})"), Vec3(0, 0, 1));                // a strip
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"indices":1,"mode":6})"), Vec3(0, 0, 1));    // a fan
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));                       // the fourth is left over
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":1},{"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));   // lines
+}
+
+TEST_F(Gltf, SparseAccessorsChangeSomeElementsOfABufferOrOfZeros) {
+    write("sparse.bin", bytes_of(std::vector<std::uint8_t>{1, 3, 0, 0}) + bytes_of(std::vector<float>{2, 0, 0, 0, 0, 3}) +
+                            bytes_of(std::vector<std::uint8_t>{1, 2, 3, 0}) + bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
+    Document document;
+    document.views = R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":1,"byteLength":68}])";
+    document.buffers = R"([{"byteLength":72,"uri":"data.bin"},{"byteLength":68,"uri":"sparse.bin"}])";
+    const std::string indices = R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
+    document.accessors = R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":2,
+        "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":2,"byteOffset":4}}},)" + indices;
+    EXPECT_DOUBLE_EQ(loaded(document).closedness.signed_volume, 2.0 * 3.0 / 6.0);
+    document.accessors = R"([{"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":3,
+        "indices":{"bufferView":2,"byteOffset":28,"componentType":5121},"values":{"bufferView":2,"byteOffset":32}}},)" + indices;
+    expect_tetrahedron(loaded(document));
+}
+
+TEST_F(Gltf, WholeNumbersWithAStrideAreCoordinates) {   // KHR_mesh_quantization
+    std::vector<std::int16_t> numbers;
+    for (std::size_t i = 0; i < 12; ++i) {
+        numbers.push_back(std::int16_t(corners[i] * 32767));
+        if (i % 3 == 2) numbers.push_back(-1);   // padding
+    }
+    write("data.bin", bytes_of(numbers) + bytes_of(faces));
+    Document document;
+    document.accessors = R"([{"bufferView":0,"componentType":5122,"normalized":true,"count":4,"type":"VEC3"},
+                             {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
+    document.views = R"([{"buffer":0,"byteLength":32,"byteStride":8},{"buffer":0,"byteOffset":32,"byteLength":24}])";
+    document.buffers = R"([{"byteLength":56,"uri":"data.bin"}])";
+    document.more = R"(,"extensionsRequired":["KHR_mesh_quantization","KHR_materials_unlit"])";
+    expect_tetrahedron(loaded(document));
+}
+
+TEST_F(Gltf, OtherFilesAreRegularOnesOfItsFolder) {
+    const TestFolder outside;
+    write_text(outside / "secret.bin", tetrahedron());
+    std::filesystem::create_symlink(outside / "secret.bin", folder() / "out.bin");
+    std::filesystem::create_directory_symlink(outside.path(), folder() / "out");
+    std::filesystem::create_directory(folder() / "deep");
+    ASSERT_EQ(mkfifo((folder() / "fifo.bin").c_str(), 0600), 0);
+    const std::string neighbour = "../" + outside.path().filename().string() + "/secret.bin";
+    for (const std::string& uri : {neighbour, std::string("out.bin"), std::string("out/secret.bin"), "deep/../" + neighbour})
+        EXPECT_NE(error_with_uri(uri).find("which lies outside its folder"), std::string::npos) << error_with_uri(uri);
+    for (const std::string& uri : {(outside / "secret.bin").string(), std::string("/etc/passwd"), std::string("/dev/zero"), std::string(),
+                                   std::string("data.bin\\u0000x"), std::string("data.bin%00x")})
+        EXPECT_NE(error_with_uri(uri).find("which is not a file of its folder"), std::string::npos) << error_with_uri(uri);
+    for (const char* uri : {"fifo.bin", "deep", "."})
+        EXPECT_NE(error_with_uri(uri).find("which is not a regular file"), std::string::npos) << error_with_uri(uri);
+    EXPECT_NE(error_with_uri("none.bin").find("\"none.bin\", which does not exist"), std::string::npos);
+    EXPECT_NE(error_with_uri("http://localhost/data.bin").find("which does not exist"), std::string::npos);
+    EXPECT_NE(error_with_uri("\\u001b[2J" + std::string(100'000, 'x')).find("\"?[2Jxxx"), std::string::npos);
+    EXPECT_LT(error_with_uri(std::string(100'000, 'x')).size(), 200u);
+}
+
+TEST_F(Gltf, ImagesAndBuffersOfAnimationsAreNotOpened) {
+    ASSERT_EQ(mkfifo((folder() / "fifo.bin").c_str(), 0600), 0);
+    Document document;
+    document.buffers = R"([{"byteLength":72,"uri":"data.bin"},{"byteLength":72,"uri":"fifo.bin"}])";
+    document.more = R"(,"images":[{"uri":"fifo.bin"},{"uri":"/etc/passwd"}],"materials":[{}])";
+    expect_tetrahedron(loaded(document));
+}
+
+TEST_F(Gltf, CountsAreCheckedBeforeAnythingIsMade) {
+    const std::string indices = R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
+    Document document;
+    document.accessors = R"([{"componentType":5126,"count":100000000,"type":"VEC3","sparse":{"count":1,
+        "indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}},)" + indices;
+    EXPECT_NE(error_of(document).find("an accessor of 100000000 elements in"), std::string::npos) << error_of(document);
+    document.accessors = R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},)" + indices;
+    EXPECT_EQ(error_of(document), "has an accessor of 5 elements beyond its buffer view");
+    for (const char* count : {"18446744073709551615", "6148914691236517206", "4294967297", "-1", "4.5", "\"4\""}) {
+        document.accessors = fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},)", count) + indices;
+        EXPECT_EQ(error_of(document).substr(0, 4), "has ") << error_of(document);
+    }
+    document = {};
+    for (const char* view : {R"({"buffer":0,"byteOffset":18446744073709551615,"byteLength":48})", R"({"buffer":0,"byteLength":73})",
+                             R"({"buffer":0,"byteOffset":48,"byteLength":48})"}) {
+        document.views = fmt::format(R"([{},{{"buffer":0,"byteOffset":48,"byteLength":24}}])", view);
+        EXPECT_EQ(error_of(document), "has a buffer view beyond its buffer of 72 bytes");
+    }
+    document.views = R"([{"buffer":0,"byteLength":48,"byteStride":4294967295},{"buffer":0,"byteOffset":48,"byteLength":24}])";
+    EXPECT_NE(error_of(document).find("\"byteStride\" of 4294967295"), std::string::npos);
+    document = {};
+    document.buffers = R"([{"byteLength":4000000000,"uri":"data.bin"}])";
+    EXPECT_EQ(error_of(document), "has a buffer of 72 bytes of 4000000000");
+    document = {};
+    document.primitives = R"([{"attributes":{"POSITION":0},"indices":7}])";
+    EXPECT_EQ(error_of(document), "names item 7 of \"accessors\", which holds 2");
+    write("data.bin", bytes_of(corners) + std::string(24, '\x07'));
+    EXPECT_EQ(error_of(Document{}), "has a face with vertex 1799 of 4");
+}
+
+TEST_F(Gltf, NodesAreAForest) {
+    Document document;
+    document.nodes = "[";
+    for (int i = 1; i < 64; ++i) document.nodes += fmt::format(R"({{"children":[{},{}]}},)", i, i);   // twice as many a level
+    document.nodes += R"({"mesh":0}])";
+    EXPECT_EQ(error_of(document), "has node 1 twice in its tree of nodes");
+    document.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])";
+    EXPECT_EQ(error_of(document), "has node 0 twice in its tree of nodes");
+    document.nodes = R"([{"mesh":0}])";
+    document.roots = "[0,0]";
+    EXPECT_EQ(error_of(document), "has node 0 twice in its tree of nodes");
+    document.roots = "[18446744073709551615]";
+    EXPECT_EQ(error_of(document), "names item 18446744073709551615 of \"nodes\", which holds 1");
+}
+
+TEST_F(Gltf, DepthCostsNoStack) {
+    Document document;   // 200,000 nodes, each the child of the one before
+    document.nodes = "[";
+    for (int i = 1; i < 200'000; ++i) document.nodes += fmt::format(R"({{"children":[{}]}},)", i);
+    document.nodes += R"({"mesh":0}])";
+    expect_tetrahedron(loaded(document));
+    EXPECT_EQ(error_of(std::string(200'000, '[')), "is not JSON (a mistake at byte 200001 of 200000)");
+    document = {};
+    document.more = ",\"extras\":" + std::string(200'000, '[') + std::string(200'000, ']');
+    expect_tetrahedron(loaded(document));
+}
+
+TEST_F(Gltf, ManyNodesOfOneMeshAreCountedBeforeTheyAreMade) {
+    Document document;
+    const auto strip = [&](std::size_t corner_count) {
+        write("data.bin", bytes_of(corners) + std::string(corner_count, '\0'));
+        document.accessors = fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
+                                             {{"bufferView":1,"componentType":5121,"count":{},"type":"SCALAR"}}])", corner_count);
+        document.views = fmt::format(R"([{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":{}}}])", corner_count);
+        document.buffers = fmt::format(R"([{{"byteLength":{},"uri":"data.bin"}}])", 48 + corner_count);
+        document.primitives = R"([{"attributes":{"POSITION":0},"indices":1,"mode":5}])";
+    };
+    strip(5'000'003);
+    EXPECT_EQ(error_of(document), "has more than 5000000 triangles");
+    strip(500'002);
+    document.nodes = R"([{"mesh":0})";
+    document.roots = "[0";
+    for (int i = 1; i <= 10; ++i) {
+        document.nodes += R"(,{"mesh":0})";
+        document.roots += fmt::format(",{}", i);
+    }
+    document.nodes += "]";
+    document.roots += "]";
+    EXPECT_EQ(error_of(document), "has more than 5000000 triangles");
+}
+
+TEST_F(Gltf, WhatIsNoGltfOrOfAnotherKind) {
+    EXPECT_EQ(error_of("{"), "is not JSON (a mistake at byte 2 of 1)");
+    std::string zeros = "[0";
+    for (int i = 0; i < 10'000'000; ++i) zeros += ",0";
+    EXPECT_EQ(error_of(zeros + "]"), "holds more than 10000000 JSON values");
+    EXPECT_EQ(error_of("{\"a\":1e999}"), "is JSON with a number beyond all range");
+    EXPECT_EQ(error_of("[]"), "is no glTF file: it has no \"asset\" with a \"version\"");
+    EXPECT_EQ(error_of("{\"asset\":{\"version\":\"1.0\"}}"), "is glTF 1.0, not 2.0");
+    EXPECT_EQ(error_of("{\"asset\":{\"version\":\"2.0\"}}"), "names item 0 of \"scenes\", which holds 0");
+    Document document;
+    document.primitives = R"([{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}])";
+    EXPECT_EQ(error_of(document), "needs KHR_draco_mesh_compression, which cannot be read: export it without");
+    document = {};
+    document.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
+    EXPECT_EQ(error_of(document), "needs EXT_meshopt_compression, which cannot be read: export it without");
+    document = {};
+    document.buffers = R"([{"byteLength":3,"uri":"data:application/octet-stream;base64,AA$A"}])";
+    EXPECT_EQ(error_of(document), "has a buffer with broken base64");
+}
+
+TEST_F(Gltf, ChunksOfAGlbLieWithinTheFile) {
+    const std::string whole = glb(Document{}.text(), "");
+    EXPECT_EQ(error_of(whole, "a.glb"), "no error");
+    EXPECT_EQ(error_of("glTF", "a.glb"), "is a GLB file that ends early");
+    EXPECT_EQ(error_of(whole.substr(0, 100), "a.glb").substr(0, 37), "is a GLB file of 100 bytes that names");
+    const auto with_number = [&](std::size_t at, std::uint32_t number) {
+        std::string changed = whole;
+        std::memcpy(changed.data() + at, &number, sizeof number);
+        return error_of(changed, "a.glb");
+    };
+    EXPECT_EQ(with_number(4, 1), "is GLB version 1, not 2");
+    EXPECT_NE(with_number(8, 3).find("that names 3 as its length"), std::string::npos);
+    EXPECT_NE(with_number(12, 0xffffffff).find("has a chunk of 4294967295 bytes"), std::string::npos);
+    EXPECT_EQ(with_number(16, 0x004e4942), "is a GLB file whose one JSON chunk does not come first");
+}
+
+}  // namespace
+}  // namespace tumble
