@@ -76,7 +76,7 @@ void run_encode(const EncodeCommand& command) {
     find_ffmpeg();
 
     Interrupt interrupt;
-    VideoWriter video(command.clip, size.width, size.height, command.fps);
+    VideoWriter video(command.clip, size.width, size.height, command.fps, {FrameTimes::constant_rate, command.quality});
     {
         Progress progress(frames, command.quiet);
         encode(command.frames, frames, video, interrupt, progress);

@@ -41,6 +41,18 @@ enum class FrameTimes {
     constant_rate,   // again for every frame
 };
 
+/// What a clip keeps of its frames, at what cost in time and size: docs/output.md.
+enum class VideoQuality {
+    draft,    // fast to make; leaves specks where something has passed
+    normal,   // to show: a still background shows what was drawn a second after it came to rest
+    best,     // the clip looks like its frames, enlarged as well
+};
+
+struct ClipOptions {
+    FrameTimes times = FrameTimes::longer_frames;
+    VideoQuality quality = VideoQuality::normal;
+};
+
 struct VideoFormat {
     VideoKind kind = VideoKind::h264;
     std::string container = "matroska";   // in ffmpeg's words: a link may lead to a name with another ending or none
@@ -55,7 +67,9 @@ VideoFormat video_format(const std::filesystem::path& clip, double fps);
 /// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`.
 /// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
 /// when all frames are, and reading them twice keeps memory flat.
-std::vector<std::string> encoding_arguments(const VideoFormat& format, const std::filesystem::path& output);
-std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
+std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
+                                            const std::filesystem::path& output);
+std::vector<std::string> gif_arguments(VideoQuality quality, const std::filesystem::path& lossless,
+                                       const std::filesystem::path& output);
 
 }  // namespace tumble
