@@ -8,10 +8,7 @@
 
 namespace tumble {
 
-/// Arguments of the ffmpeg program, from -c:v on. Of a GIF they are those of its lossless first stage.
+/// Arguments of the ffmpeg program, from -c:v on. Of a GIF they are those of its lossless first stage, the same for each quality.
 std::vector<std::string> codec_arguments(VideoKind kind, const ClipOptions& options);
-
-/// The filters that choose a GIF's colors and map its pixels to them; the input is there twice.
-std::string palette_filter(VideoQuality quality);
 
 }  // namespace tumble

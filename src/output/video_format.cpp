@@ -109,10 +109,13 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
     return arguments;
 }
 
-Arguments gif_arguments(VideoQuality quality, const fs::path& lossless, const fs::path& output) {
+Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
-                       palette_filter(quality), "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif",
+                       // An ordered pattern does not crawl from frame to frame, and what stands still compresses. Coarser
+                       // patterns (a smaller scale) hide the ground's lines.
+                       "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif",
                        file_argument(output)});
     return arguments;
 }

@@ -31,7 +31,6 @@ fs::path find_ffmpeg() {
 VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const ClipOptions& options)
     : clip_(clip),
       format_(video_format(clip, fps)),
-      options_(options),
       pixels_(format_.pixels, width, height),
       program_(find_ffmpeg()),
       file_(clip),
@@ -39,7 +38,7 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
     if (format_.kind == VideoKind::gif) lossless_.emplace(lossless_name(clip));
-    encoder_.emplace(program_, encoding_arguments(format_, options_, lossless_ ? lossless_->path() : file_.path()));
+    encoder_.emplace(program_, encoding_arguments(format_, options, lossless_ ? lossless_->path() : file_.path()));
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
@@ -96,7 +95,7 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was given up", clip_.string()));
-        gif_maker_.emplace(program_, gif_arguments(options_.quality, lossless_->path(), file_.path()));
+        gif_maker_.emplace(program_, gif_arguments(lossless_->path(), file_.path()));
     }
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;

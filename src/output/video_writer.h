@@ -59,7 +59,6 @@ private:
 
     std::filesystem::path clip_;
     VideoFormat format_;
-    ClipOptions options_;
     VideoPixels pixels_;                          // of pictures that come as such
     std::filesystem::path program_;
     TemporaryFile file_;
