@@ -69,6 +69,16 @@ vec3 displayed(vec3 light) {
     return rise / (1.0 + s * (7.989843 + s * (8.709465 + s * (-30.195670 + s * 31.746583))));
 }
 
+// For gradients so flat that a step of one level (1/255) is seen as a band: adds -0.5 to 0.5 level by the pixel's place alone,
+// so that the nearest level, taken afterwards, has the right mean and is the same in every frame.
+vec3 dithered(vec3 shown) {
+    // Bayer 1973, An Optimum Method for Two-Level Rendition of Continuous-Tone Pictures: thresholds of an 8 x 8 square
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    int across = at.x ^ at.y;
+    int rank = (across & 1) << 5 | (at.y & 1) << 4 | (across & 2) << 2 | (at.y & 2) << 1 | (across & 4) >> 1 | (at.y & 4) >> 2;
+    return shown + (float(rank) - 31.5) / (64.0 * 255.0);
+}
+
 vec3 shade(Surface s) {
     float n_v = clamp(s.n_v, 1e-3, 1.0);
     vec3 light = s.diffuse * (mix(bounce_light, sky_light, 0.5 + 0.5 * s.up) * s.open);

@@ -111,5 +111,5 @@ void main() {
 #endif
     float share = haze_share(squared * far * far, v_facing.z);
     vec3 light = shade(surface) * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
-    pixel = vec4(displayed(light), v_facing.w);
+    pixel = vec4(dithered(displayed(light)), v_facing.w);
 }

@@ -12,5 +12,5 @@ void main() {
     vec3 at = vec3(1.0, gl_FragCoord.xy);
     vec3 ray = vec3(dot(v_ray_x, at), dot(v_ray_y, at), dot(v_ray_z, at));
     ray *= inversesqrt(dot(ray, ray));
-    pixel = vec4(displayed(sky(ray.y, dot(ray, v_to_light))), 1.0);
+    pixel = vec4(dithered(displayed(sky(ray.y, dot(ray, v_to_light)))), 1.0);
 }

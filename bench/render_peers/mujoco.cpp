@@ -120,10 +120,11 @@ void run(const Arguments& a) {
     mjvCamera camera = camera_of(a, *model);
     const double azimuth = camera.azimuth;
 
+    const char* encoder = std::getenv("BENCH_ENCODER");   // Tumble's, from scripts/bench-render
+    if (!encoder) throw std::runtime_error("BENCH_ENCODER must hold ffmpeg's codec arguments");
     std::ostringstream command;
     command << "ffmpeg -v error -y -f rawvideo -pix_fmt rgb24 -video_size " << a.width << 'x' << a.height_pixels
-            << " -framerate " << fps << " -i - -vf vflip -c:v libx264 -preset veryfast -qp 22 -bf 0 -threads 2 "
-            << "-pix_fmt yuv420p -x264-params rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8 '" << a.clip << "'";
+            << " -framerate " << fps << " -i - -vf vflip " << encoder << " '" << a.clip << "'";
     std::FILE* pipe = popen(command.str().c_str(), "w");
     if (!pipe) throw std::runtime_error("no ffmpeg");
     const mjrRect view{0, 0, a.width, a.height_pixels};

@@ -6,6 +6,7 @@ settings are those of the scenes in bench/render. VTK simulates nothing: it show
 POSES: 7 doubles (position, quaternion w x y z; z up) for each box and frame, as scripts/bench-render writes them.
 ORBIT: degrees a second that the camera turns about the target, counter-clockwise seen from above."""
 
+import os
 import random
 import struct
 import subprocess
@@ -90,8 +91,7 @@ def main():
     window, renderer = window_of(boxes, width, height, eye, target)
     encoder = subprocess.Popen(
         ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-video_size", shape, "-framerate", str(FPS),
-         "-i", "-", "-vf", "vflip", "-c:v", "libx264", "-preset", "veryfast", "-qp", "22", "-bf", "0", "-threads", "2",
-         "-pix_fmt", "yuv420p", "-x264-params", "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8", clip],
+         "-i", "-", "-vf", "vflip", *os.environ["BENCH_ENCODER"].split(), clip],   # Tumble's, from scripts/bench-render
         stdin=subprocess.PIPE)
     with open(path, "rb") as poses:
         for frame in range(frames):

@@ -21,7 +21,7 @@ struct RenderCommand {
     std::optional<std::filesystem::path> aov_folder;   // in place of the frames' folder
     SceneOverrides overrides;
     RenderOptions drawing;
-    FrameTimes times = FrameTimes::constant_rate;
+    ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     double start = 0.0;   // s of the scene: what comes before is not drawn
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
@@ -45,6 +45,7 @@ struct EncodeCommand {
     std::filesystem::path frames;   // folder
     std::filesystem::path clip;
     double fps = 60.0;
+    VideoQuality quality = VideoQuality::normal;
     bool quiet = false;
 };
 void run_encode(const EncodeCommand& command);

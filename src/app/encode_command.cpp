@@ -107,7 +107,7 @@ void run_encode(const EncodeCommand& command) {
     require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what, "smaller frames take less");
 
     Interrupt interrupt;
-    VideoWriter video(command.clip, size.width, size.height, command.fps);
+    VideoWriter video(command.clip, size.width, size.height, command.fps, {FrameTimes::constant_rate, command.quality});
     {
         Progress progress(frames, command.quiet);
         encode(command.frames, frames, video, interrupt, progress);

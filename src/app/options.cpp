@@ -98,6 +98,15 @@ void add_run(CLI::App& command, Threads& threads, const std::string& unless_told
     command.add_flag("--quiet", quiet, "Say nothing but errors");
 }
 
+void add_quality(CLI::App& command, VideoQuality& quality) {
+    static const std::map<std::string, VideoQuality> names{
+        {"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}};
+    command.add_option("--quality", quality,
+                       "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
+                       "normal is for showing, best looks like the frames (docs/output.md has time and size); a GIF has one way")
+        ->transform(CLI::CheckedTransformer(names))->option_text("draft|normal|best [normal]");
+}
+
 CLI::App* add_render(CLI::App& app, CommandLine& line) {
     RenderCommand& c = line.render;
     CLI::App* command = app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
@@ -130,7 +139,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(number_within(0.0, 360.0))->option_text("DEGREES [0]");
     command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
         ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
-    command->add_flag_callback("--variable-rate", [&c] { c.times = FrameTimes::longer_frames; },
+    add_quality(*command, c.clip_options.quality);
+    command->add_flag_callback("--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
                                "Store what does not change once and show it longer, which costs nothing; players show\n"
                                "the same, but tools that count stored frames find fewer");
     c.workers = std::min(machine_threads(), enough_workers);
@@ -197,6 +207,7 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
         ->required()->type_name("CLIP");
     command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
+    add_quality(*command, c.quality);
     command->add_flag("--quiet", c.quiet, "Say nothing but errors");
     command->footer("Example:\n  tumble encode out -o clip.mp4 --fps 30");
     return command;

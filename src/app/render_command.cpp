@@ -156,7 +156,7 @@ void run_render(const RenderCommand& command) {
     std::optional<AovFolder> aovs;
     if (aovs_to) aovs.emplace(*aovs_to, scene, command.aovs);
     std::optional<VideoWriter> video;
-    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.times);
+    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.clip_options);
 
     Pipeline pipeline(world, frames, drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
                       aovs ? &*aovs : nullptr, shutter);

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/codec_settings.h"
 #include "output/output_target.h"
 #include "output/yuv420.h"
 
@@ -32,30 +33,6 @@ std::string file_argument(const fs::path& path) {
 
 /// Without -xerror, ffmpeg 5.1 ends with exit code 0 when the disk was full at the end of the clip.
 Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
-
-/// AVX-512 takes x264 5 to 8 % longer here than AVX2 (an Intel Xeon of 2023), for the same bytes.
-std::string instruction_set() { return __builtin_cpu_supports("avx512bw") != 0 ? ":asm=avx2" : ""; }
-
-Arguments codec(VideoKind kind) {
-    switch (kind) {
-        // The bytes depend on the number of threads: it is fixed, and two keep up with eight drawing processes. Without
-        // B-frames it takes a sixth less time for a quarter more bytes, and frames are stored in the order of their times:
-        // with them the last ones end too early after a frame that was shown longer. The rest is measured in
-        // docs/output.md: the picture is searched only for what the codec needs, not to share out bits (one quantiser for
-        // all frames but the first, no look ahead, no weights for fades, no search for cuts); most of a picture stays, so
-        // that a good first frame pays; and little of the later ones is new.
-        case VideoKind::h264:
-            return {"-c:v",     "libx264", "-preset",  "veryfast", "-qp", "22", "-bf", "0",
-                    "-threads", "2",       "-pix_fmt", "yuv420p",  "-x264-params",
-                    "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8" + instruction_set()};
-        // "good" quality took six times as long for two thirds of the bytes.
-        case VideoKind::vp9:
-            return {"-c:v", "libvpx-vp9", "-deadline", "realtime", "-cpu-used", "8",       "-crf",     "30",
-                    "-b:v", "0",          "-row-mt",   "1",        "-threads",  "4",       "-pix_fmt", "yuv420p"};
-        case VideoKind::gif: return {"-c:v", "libx264rgb", "-preset", "ultrafast", "-qp", "0", "-threads", "4"};
-    }
-    return {};
-}
 
 /// The continued fraction of x, cut off before a part grows beyond `limit`.
 FrameRate best_fraction(double x, std::int64_t limit) {
@@ -120,14 +97,14 @@ VideoFormat video_format(const fs::path& clip, double fps) {
     return format;
 }
 
-Arguments encoding_arguments(const VideoFormat& format, const fs::path& output) {
+Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
     if (format.pixels == PixelForm::yuv420)
         // What yuv420.h makes; without the tags players would show other colours.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});
-    append(arguments, codec(format.kind));
+    append(arguments, codec_arguments(format.kind, options));
     // No dates and versions in the file: the same frames give the same bytes.
     append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
     if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});   // plays while it loads
@@ -138,9 +115,11 @@ Arguments encoding_arguments(const VideoFormat& format, const fs::path& output) 
 Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
-                       // An ordered pattern does not crawl from frame to frame, and what stands still compresses.
+                       // An ordered pattern does not crawl from frame to frame, and what stands still compresses. Coarser
+                       // patterns (a smaller scale) hide the ground's lines.
                        "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
-                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif", file_argument(output)});
+                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif",
+                       file_argument(output)});
     return arguments;
 }
 

@@ -1,7 +1,7 @@
 // What a clip's ending asks for: the container, the codec and its settings, as arguments of the ffmpeg program.
 //
-// .mp4 .mov .mkv   H.264 (x264 veryfast), 4:2:0, BT.709: plays everywhere
-// .webm            VP9 (real-time settings), 4:2:0, BT.709
+// .mp4 .mov .mkv   H.264 (x264), 4:2:0, BT.709: plays everywhere
+// .webm            VP9, 4:2:0, BT.709
 // .gif             256 colours chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
 #pragma once
 
@@ -41,6 +41,18 @@ enum class FrameTimes {
     constant_rate,   // again for every frame
 };
 
+/// What a clip keeps of its frames, at what cost in time and size: docs/output.md. All the same for a GIF.
+enum class VideoQuality {
+    draft,    // fast to make; leaves specks where something has passed
+    normal,   // to show: a still background shows what was drawn a second after it came to rest
+    best,     // the clip looks like its frames, enlarged as well
+};
+
+struct ClipOptions {
+    FrameTimes times = FrameTimes::longer_frames;
+    VideoQuality quality = VideoQuality::normal;
+};
+
 struct VideoFormat {
     VideoKind kind = VideoKind::h264;
     std::string container = "matroska";   // in ffmpeg's words: a link may lead to a name with another ending or none
@@ -58,7 +70,8 @@ constexpr const char* clip_to_standard_output = "/dev/stdout";
 /// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`.
 /// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
 /// when all frames are, and reading them twice keeps memory flat.
-std::vector<std::string> encoding_arguments(const VideoFormat& format, const std::filesystem::path& output);
+std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
+                                            const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
 
 }  // namespace tumble

@@ -27,13 +27,13 @@ fs::path find_ffmpeg() {
                    "get it by: apt-get install ffmpeg");
 }
 
-VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, FrameTimes times)
+VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const ClipOptions& options)
     : clip_(clip),
       format_(video_format(clip, fps)),
       pixels_(format_.pixels, width, height),
       program_(find_ffmpeg()),
       file_(clip),
-      longest_(times == FrameTimes::constant_rate
+      longest_(options.times == FrameTimes::constant_rate
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
     if (format_.kind == VideoKind::gif) {
@@ -41,8 +41,8 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
         lossless_.emplace(clip);
     }
     if (file_.in_place()) report_.emplace();
-    if (lossless_) encoder_.emplace(program_, encoding_arguments(format_, lossless_->path()));
-    else encoder_.emplace(program_, with_report(encoding_arguments(format_, argument_of_clip())), file_.descriptor());
+    if (lossless_) encoder_.emplace(program_, encoding_arguments(format_, options, lossless_->path()));
+    else encoder_.emplace(program_, with_report(encoding_arguments(format_, options, argument_of_clip())), file_.descriptor());
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));

@@ -32,8 +32,7 @@ class VideoWriter {
 public:
     /// Of pictures of this size. Starts ffmpeg. Throws InputError for an ending or a rate that cannot be (see
     /// video_format()), RunError where ffmpeg is missing or the folder cannot be written.
-    VideoWriter(const std::filesystem::path& clip, int width, int height, double fps,
-                FrameTimes times = FrameTimes::longer_frames);
+    VideoWriter(const std::filesystem::path& clip, int width, int height, double fps, const ClipOptions& options = {});
 
     /// The next frame, as a picture. Throws RunError with ffmpeg's words when it died.
     void write(const Image& picture);

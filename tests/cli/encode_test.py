@@ -35,6 +35,22 @@ class Encode(program.ProgramTest):
         self.check(0, "encode", "in", "-o", "b.mp4", "--fps", "10")
         self.assertEqual((self.folder / "a.mp4").read_bytes(), (self.folder / "b.mp4").read_bytes())
 
+    def test_qualities(self):
+        self.frames(8)
+        for ending in ("mp4", "webm", "gif"):
+            clips = {}
+            for quality in ("draft", "normal", "best"):
+                self.check(0, "encode", "in", "-o", f"{quality}.{ending}", "--quality", quality)
+                clips[quality] = (self.folder / f"{quality}.{ending}").read_bytes()
+            self.check(0, "encode", "in", "-o", f"default.{ending}")
+            self.assertTrue((self.folder / f"default.{ending}").read_bytes() == clips["normal"], ending)
+            if ending != "gif":   # of two colors, which every GIF holds
+                self.assertEqual(len(set(clips.values())), 3, ending)
+        for command in (("encode", "in"), ("render", "scene.toml")):
+            run = self.check(2, *command, "-o", "a.mp4", "--quality", "good")
+            self.assertIn("--quality", run.stderr)
+            self.assertFalse((self.folder / "a.mp4").exists())
+
     def test_a_gap(self):
         self.frames(5)
         (self.folder / "in/frame_000002.png").unlink()

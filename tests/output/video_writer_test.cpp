@@ -177,7 +177,7 @@ TEST(VideoWriter, WhatStaysIsStoredOnceAndShownLonger) {
         SCOPED_TRACE(name);
         std::vector<int> expected;
         for (const FrameTimes times : {FrameTimes::longer_frames, FrameTimes::constant_rate}) {
-            VideoWriter writer(folder / name, 64, 48, 25.0, times);
+            VideoWriter writer(folder / name, 64, 48, 25.0, {times});
             expected.clear();
             std::size_t next = 0;
             for (int n = 0; n < frames; ++n) {
@@ -246,6 +246,55 @@ TEST(VideoWriter, GivenUpNothingIsLeft) {
     }
     EXPECT_EQ(read_text(folder / "a.gif"), "old");
     EXPECT_EQ(folder.files(), 1u);
+}
+
+/// Tilted squares with frames and grooves fall past a sky, which is all there is at the end.
+Image falling_squares(int width, int height, int frame) {
+    Image image = plain(width, height, {0, 0, 0});
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) fill(image, x, y, 1, 1, {110 + 60 * y / height, 150 + 50 * y / height, 205 + 25 * y / height});
+    const Pixel colors[] = {crate, {47, 127, 134}, {181, 82, 59}, {232, 220, 196}, {77, 106, 143}};
+    for (int i = 0; i < 40; ++i) {
+        const double side = 9.0 + i * 7 % 11, turn = 0.7 * i + 0.05 * (i % 3 - 1) * frame;
+        const double middle_x = i * 53 % width, middle_y = -20.0 - i * 29 % 150 + (3.0 + i * 13 % 8 * 0.4) * frame;
+        const double c = std::cos(turn), s = std::sin(turn);
+        for (int y = std::max(0, int(middle_y) - 30); y < std::min(height, int(middle_y) + 30); ++y)
+            for (int x = std::max(0, int(middle_x) - 30); x < std::min(width, int(middle_x) + 30); ++x) {
+                const double dx = x - middle_x, dy = y - middle_y;
+                const double off = std::max(std::abs(dx * c + dy * s), std::abs(dy * c - dx * s)) / side;
+                Pixel color = colors[i % 5];
+                if (std::abs(off - 0.8) < 0.06)
+                    for (int& channel : color) channel = channel * 7 / 10;
+                if (off < 1.0) fill(image, x, y, 1, 1, color);
+            }
+    }
+    return image;
+}
+
+/// Channels of the last frame, a second after all was still, that are off by more than so many levels.
+int still_off(const std::filesystem::path& clip, VideoQuality quality, int levels) {
+    constexpr int width = 320, height = 176, falling = 110, fps = 60;
+    VideoWriter writer(clip, width, height, fps, {FrameTimes::constant_rate, quality});
+    Image frame;
+    for (int n = 0; n < falling; ++n) writer.write(frame = falling_squares(width, height, n));
+    EXPECT_EQ(frame, falling_squares(width, height, 100 * falling)) << "something is still in the picture";
+    for (int n = 0; n < fps; ++n) writer.repeat();
+    writer.finish();
+    const std::string rgb = decoded(clip);
+    int off = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const Pixel shown = pixel_at(rgb, width, height, falling + fps - 1, x, y);
+            for (std::size_t c = 0; c < 3; ++c) off += std::abs(shown[c] - int(frame.at(x, y)[c])) > levels ? 1 : 0;
+        }
+    return off;
+}
+
+TEST(VideoWriter, AStillBackgroundHealsWithinASecond) {
+    const TestFolder folder;
+    for (const char* name : {"a.mp4", "a.webm"}) EXPECT_EQ(still_off(folder / name, VideoQuality::normal, 8), 0) << name;
+    EXPECT_EQ(still_off(folder / "a.mp4", VideoQuality::best, 4), 0);
+    EXPECT_GT(still_off(folder / "a.mp4", VideoQuality::draft, 8), 0) << "the test shows nothing";
 }
 
 /// A PATH with this script as its ffmpeg, or with none.

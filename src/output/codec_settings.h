@@ -1,0 +1,14 @@
+// How each codec is told to encode, for each quality: what is measured in docs/output.md.
+#pragma once
+
+#include "output/video_format.h"
+
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Arguments of the ffmpeg program, from -c:v on. Of a GIF they are those of its lossless first stage, the same for each quality.
+std::vector<std::string> codec_arguments(VideoKind kind, const ClipOptions& options);
+
+}  // namespace tumble
