@@ -26,7 +26,8 @@
 namespace tumble {
 namespace {
 
-constexpr rlim_t import_memory = rlim_t(4) << 30;   // bytes beyond the program's own: ten times the largest file, and some
+// Bytes beyond the program's own: importers take about ten times the file, and small files their fixed tables.
+constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
 constexpr unsigned import_seconds = 60;             // the largest mesh that is allowed takes about ten
 constexpr unsigned deepest_node = 1000;             // nested transforms: deeper, a file is made to exhaust the stack
 constexpr std::size_t words_shown = 120;            // characters of assimp's own message
@@ -127,7 +128,7 @@ void write_list(int file, const std::vector<T>& list) {
     std::ifstream("/proc/self/statm") >> pages;
     rlimit memory{};
     if (::getrlimit(RLIMIT_AS, &memory) == 0) {
-        memory.rlim_cur = std::min(memory.rlim_max, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory);
+        memory.rlim_cur = std::min(memory.rlim_max, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory(bytes.size()));
         ::setrlimit(RLIMIT_AS, &memory);
     }
     std::signal(SIGALRM, SIG_DFL);
@@ -199,9 +200,9 @@ MeshFile checked_mesh(std::string_view bytes) {
     return mesh;
 }
 
-[[noreturn]] void fail(int status) {
+[[noreturn]] void fail(int status, std::size_t file_bytes) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == ENOMEM)
-        throw MeshError(fmt::format("takes more than {} GiB of memory to import", import_memory >> 30));
+        throw MeshError(fmt::format("takes more than {} MiB of memory to import", import_memory(file_bytes) >> 20));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         throw MeshError(fmt::format("takes more than {} s to import", import_seconds));
     if (WIFSIGNALED(status))
@@ -231,7 +232,7 @@ MeshFile import_with_assimp(std::string_view bytes, const std::string& extension
     ::close(ends[0]);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
     if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * words_shown));
     return checked_mesh(std::string_view(answer).substr(1));
 }

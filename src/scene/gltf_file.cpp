@@ -92,7 +92,7 @@ private:
             if (mode > 6) throw MeshError(fmt::format("has an unknown \"mode\" of {}", mode));
             if (mode < 4) continue;   // points and lines
             const Json* extensions = find_member(item, "extensions");
-            if (extensions && find_member(*extensions, draco)) refuse(draco);
+            if (extensions && find_member(*extensions, draco)) throw UnsupportedGltf(cannot_be_read(draco));
             const Json* attributes = find_member(item, "attributes");
             if (!attributes || !find_member(*attributes, "POSITION")) continue;   // nothing to draw
             Primitive primitive{};
@@ -145,8 +145,8 @@ private:
 
 public:
     static constexpr const char* draco = "KHR_draco_mesh_compression";
-    [[noreturn]] static void refuse(const std::string& extension) {
-        throw MeshError(fmt::format("needs {}, which cannot be read: export it without", extension));
+    static std::string cannot_be_read(const std::string& extension) {
+        return fmt::format("needs {}, which cannot be read: export it without", extension);
     }
 
 private:
@@ -161,8 +161,10 @@ private:
 void check_extensions(const Json& document) {
     const Json* required = find_member(document, "extensionsRequired");
     if (!required || !required->is_array()) return;
-    for (const char* name : {SceneReader::draco, "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
-        if (std::find(required->begin(), required->end(), name) != required->end()) SceneReader::refuse(name);
+    const auto needs = [&](const char* name) { return std::find(required->begin(), required->end(), name) != required->end(); };
+    if (needs(SceneReader::draco)) throw UnsupportedGltf(SceneReader::cannot_be_read(SceneReader::draco));
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
+        if (needs(name)) throw MeshError(SceneReader::cannot_be_read(name));
 }
 
 void check_version(const Json& document) {
@@ -170,6 +172,7 @@ void check_version(const Json& document) {
     const Json* version = asset ? find_member(*asset, "version") : nullptr;
     if (!version || !version->is_string()) throw MeshError("is no glTF file: it has no \"asset\" with a \"version\"");
     const std::string& text = version->get_ref<const std::string&>();
+    if (text.starts_with("1.")) throw UnsupportedGltf("is glTF 1, not 2.0");
     if (!text.starts_with("2.")) throw MeshError(fmt::format("is glTF {}, not 2.0", readable(text, 10)));
 }
 

@@ -26,6 +26,19 @@ std::string lower_extension(const std::filesystem::path& file) {
     return text;
 }
 
+/// What our reader does not know, assimp may; buffers in other files are then not there.
+MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& folder, const std::string& extension) {
+    try {
+        return read_gltf(bytes, folder);
+    } catch (const UnsupportedGltf& unsupported) {
+        try {
+            return import_with_assimp(bytes, extension);
+        } catch (const MeshError& error) {
+            throw MeshError(fmt::format("{} (assimp: {})", unsupported.what(), error.what()));
+        }
+    }
+}
+
 MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension) {
     const bool gltf = extension == ".gltf" || extension == ".glb";
     const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
@@ -34,7 +47,7 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
     const std::string bytes = read_regular_file(file, limits::mesh_bytes);
     if (bytes.empty()) throw MeshError("is empty");
     if (!own) return import_with_assimp(bytes, extension);
-    if (gltf) return read_gltf(bytes, file.parent_path());
+    if (gltf) return read_any_gltf(bytes, file.parent_path(), extension);
     if (extension == ".obj") return read_obj(bytes);
     return extension == ".stl" ? read_stl(bytes) : read_ply(bytes);
 }
