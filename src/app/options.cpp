@@ -103,7 +103,8 @@ void add_quality(CLI::App& command, VideoQuality& quality) {
         {"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}};
     command.add_option("--quality", quality,
                        "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
-                       "normal is for showing, best looks like the frames (docs/output.md has time and size); a GIF has one way")
+                       "normal is for showing, best looks like the frames (docs/output.md has time and\n"
+                       "size). A GIF has one setting")
         ->transform(CLI::CheckedTransformer(names))->option_text("draft|normal|best [normal]");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/error.h"
+#include "core/memory_limit.h"
 
 #include <system_error>
 #include <utility>
@@ -14,7 +15,7 @@ Thread start_thread(Work&& work) {
     try {
         return Thread(std::forward<Work>(work));
     } catch (const std::system_error& error) {
-        throw RunError("cannot start a thread: " + error.code().message());
+        throw RunError("cannot start a thread: " + error.code().message() + memory_limit_note());
     }
 }
 

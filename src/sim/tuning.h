@@ -226,7 +226,7 @@ inline constexpr int friction_bounces = 4;
 inline constexpr int friction_rounds = 12;
 /// Sweeps of friction over a cluster, and the change of speed, relative to the slip, at which it has converged. Large
 /// clusters (heaps) get so many relaxations of a contact in all: every sweep lowers the energy, none has to be the last.
-inline constexpr int friction_sweeps = 200;
+inline constexpr int friction_sweeps = 400;
 inline constexpr int friction_work = 400;
 inline constexpr int friction_least_sweeps = 2;
 inline constexpr double friction_tolerance = 1e-14;

@@ -345,7 +345,7 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
         scene.bodies[0].surface.roughness = 0.8;   // as the plane's
         const std::vector<double> here = taken();
         for (std::size_t i = 0; i < places.size(); ++i)
-            EXPECT_NEAR(here[i], on_plane[i], 4.0) << what << ", " << places[i].transpose();
+            EXPECT_NEAR(here[i], on_plane[i], 4.5) << what << ", " << places[i].transpose();   // the plane is dithered by 0.5
     };
     for (const double size : {6.0, 16.0, 60.0})
         for (const std::uint32_t cells : {1u, 8u, 120u}) {
