@@ -1,5 +1,7 @@
 #include "sim/local_frame.h"
 
+#include "sim/memory_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +22,21 @@ Key key_of(const Body& body) {
     return {along(body.position), double(body.type), double(body.collider.index()), along(body.rotation * axis),
             space ? space->offset : body.radius, body.mass, body.restitution, body.friction,
             along(body.velocity), along(body.angular_velocity), along(body.principal_inertia), double(body.integrator)};
+}
+
+std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies) {
+    std::vector<std::pair<Key, std::uint32_t>> places;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) places.push_back({key_of(bodies[i]), i});
+    std::sort(places.begin(), places.end());
+    std::vector<std::uint32_t> order;
+    std::vector<Body> ordered;
+    ordered.reserve(bodies.size());
+    for (const auto& place : places) {
+        order.push_back(place.second);
+        ordered.push_back(std::move(bodies[place.second]));
+    }
+    bodies = std::move(ordered);
+    return order;
 }
 
 }  // namespace
@@ -44,18 +61,10 @@ SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin) {
     return local;
 }
 
-std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies) {
-    std::vector<std::pair<Key, std::uint32_t>> places;
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) places.push_back({key_of(bodies[i]), i});
-    std::sort(places.begin(), places.end());
-    std::vector<std::uint32_t> order;
-    std::vector<Body> ordered;
-    ordered.reserve(bodies.size());
-    for (const auto& place : places) {
-        order.push_back(place.second);
-        ordered.push_back(std::move(bodies[place.second]));
-    }
-    bodies = std::move(ordered);
+std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity) {
+    const std::vector<std::uint32_t> by_place = put_in_order_of_place(bodies);
+    std::vector<std::uint32_t> order = put_in_memory_order(bodies, gravity);
+    for (std::uint32_t& body : order) body = by_place[body];
     return order;
 }
 

@@ -16,7 +16,8 @@ Vec3 local_origin(const SceneDescription& scene);
 /// The scene with `origin` for its origin: its bodies and keyframes. What is only drawn stays in the world's frame.
 SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin);
 
-/// Moves the bodies into an order that follows from where and what they are, and tells which of them (by its place before) is where.
-std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies);
+/// Moves the bodies into the order of memory_order.h, begun from one that follows from the bodies' places and properties alone. Returns
+/// for each place the body's index in the scene. `gravity`: m/s^2.
+std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity);
 
 }  // namespace tumble

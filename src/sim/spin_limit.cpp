@@ -2,6 +2,7 @@
 
 #include "core/elementary.h"
 #include "sim/free_rotation.h"
+#include "sim/integrator/rigid_state.h"
 #include "sim/keyframe_track.h"
 #include "sim/tuning.h"
 
@@ -64,6 +65,13 @@ bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tun
 void limit_spin(Body& body, double before) {
     body.angular_momentum *= std::sqrt(before / spin(body));
     body.derive_velocities();
+}
+
+void turn_freely(Body& body, const Quat& from, double duration) {
+    const RigidMass mass = mass_of(body);
+    RigidState state = state_of(body);
+    state.orientation = FreeRotation(mass.principal_inertia, mass.principal_axes, from, body.angular_momentum).at(duration);
+    set_state(body, state);
 }
 
 }  // namespace tumble

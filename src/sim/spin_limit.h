@@ -32,6 +32,9 @@ inline void find_gyration(Body& body, double h) {
 /// omega and its gyration, for advance_pose().
 Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form);
 
+/// Torque-free rotation from an earlier orientation over `duration` (s), in closed form: for turns too large for one tangent.
+void turn_freely(Body& body, const Quat& from, double duration);
+
 /// Twice the energy of its spin (J).
 inline double spin(const Body& body) { return body.angular_momentum.dot(body.angular_velocity); }
 

@@ -11,10 +11,8 @@
 #include "sim/flight/free_flights.h"
 #include "sim/flight/motion_limit.h"
 #include "sim/forces.h"
-#include "sim/free_rotation.h"
 #include "sim/integrator.h"
 #include "sim/integrator/advance.h"
-#include "sim/integrator/rigid_state.h"
 #include "sim/kinematic_body.h"
 #include "sim/local_frame.h"
 #include "sim/measurement.h"
@@ -32,23 +30,9 @@
 #include <cmath>
 
 namespace tumble {
-
 namespace {
 
-ContactSolver::Effort effort(const SimulationSettings& settings) {
-    return settings.impacts == ImpactMode::exact ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced;
-}
-
 bool exact_impacts(const SceneDescription& scene) { return scene.simulation.impacts == ImpactMode::exact; }
-
-// In which order the bodies are computed; it is also told (State::order).
-std::vector<std::uint32_t> put_in_order(std::vector<Body>& bodies, const SimulationSettings& settings) {
-    if (settings.impacts != ImpactMode::exact) return put_in_memory_order(bodies, settings.gravity);
-    const std::vector<std::uint32_t> by_place = put_in_order_of_place(bodies);
-    std::vector<std::uint32_t> order = put_in_memory_order(bodies, settings.gravity);
-    for (std::uint32_t& body : order) body = by_place[body];
-    return order;
-}
 
 }  // namespace
 
@@ -98,11 +82,12 @@ struct World::State {
     State(const SceneDescription& scene, int threads)
         : settings(scene.simulation), fps(scene.output.fps), h(scene.step()),
           origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())), bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
-          order(put_in_order(bodies, settings)), forces(scene, order),
+          order(exact_impacts(scene) ? put_in_exact_order(bodies, settings.gravity) : put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
-          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver, effort(scene.simulation)), sleep(scene.bodies.size()),
+          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver,
+                                                exact_impacts(scene) ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced), sleep(scene.bodies.size()),
           free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), motion_limit(bodies), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()),
           pulses(forces.ever_changes() ? scene.bodies.size() : 0) {
@@ -144,7 +129,6 @@ struct World::State {
     }
     void step_motions();
     const std::vector<StepLimit>& held_limits();
-    void turn_freely(Body& body, const Quat& from, double share) const;
     void lose_time(std::uint32_t i, double share, bool in_contact);
     void solve_resting_contacts();
     void forget_blows();
@@ -378,14 +362,6 @@ const std::vector<StepLimit>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast);
 }
 
-// Where a turn in flight is too large for one tangent (spin_limit.h), it is made again in closed form.
-void World::State::turn_freely(Body& body, const Quat& from, double share) const {
-    const RigidMass mass = mass_of(body);
-    RigidState state = state_of(body);
-    state.orientation = FreeRotation(mass.principal_inertia, mass.principal_axes, from, body.angular_momentum).at(share * h);
-    set_state(body, state);
-}
-
 // What has to stop on its way: in contact the work of the forces on the rest of the way is taken back, else they have acted for as
 // long as it moved. Forces at points that end some time give all of their impulse.
 void World::State::lose_time(std::uint32_t i, double share, bool in_contact) {
@@ -438,7 +414,7 @@ void World::State::move() {
             body.push_angular_velocity.setZero();
             if (!in_contact && share < 1.0) lose_time(i, share, false);
             body.derive();
-            if (freely) turn_freely(body, orientation, share);
+            if (freely) turn_freely(body, orientation, share * h);
             else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
             if (in_contact && share < 1.0) lose_time(i, share, true);
         }

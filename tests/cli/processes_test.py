@@ -187,7 +187,7 @@ class LittleMemory(Processes):
             if run.returncode == 0:
                 break
             kinds.add("not enough memory to open libOSMesa.so.8" in run.stderr)
-            self.assertRegex(run.stderr, r"^error: ")
+            self.assertRegex(run.stderr, r"(?m)^error: ")
             self.assertRegex(run.stderr, rf"memory|ulimit -v\) is {size} MiB")
             self.assertEqual(self.names(), [])
         self.assertIn(True, kinds)
