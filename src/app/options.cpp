@@ -14,9 +14,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -76,6 +77,23 @@ CLI::Validator number_within(double least, double most) {
         "");
 }
 
+/// An option with one of a few names as its value.
+template <class T>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, const std::vector<std::pair<std::string, T>>& choices,
+                        const std::string& help) {
+    return command.add_option_function<std::string>(option, [=, &value](const std::string& text) {
+        std::string names;
+        for (const auto& [name, choice] : choices) {
+            if (name == text) {
+                value = choice;
+                return;
+            }
+            names += (names.empty() ? "" : ", ") + name;
+        }
+        throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}')", names, safe_text(text)));
+    }, help);
+}
+
 // An empty name is what a script's unset variable leaves.
 CLI::Validator some_name() {
     return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
@@ -99,13 +117,12 @@ void add_run(CLI::App& command, Threads& threads, const std::string& unless_told
 }
 
 void add_quality(CLI::App& command, VideoQuality& quality) {
-    static const std::map<std::string, VideoQuality> names{
-        {"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}};
-    command.add_option("--quality", quality,
-                       "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
-                       "normal is for showing, best looks like the frames (docs/output.md has time and\n"
-                       "size). A GIF has one setting")
-        ->transform(CLI::CheckedTransformer(names))->option_text("draft|normal|best [normal]");
+    add_choice<VideoQuality>(command, "--quality", quality,
+                             {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
+                             "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
+                             "normal is for showing, best looks like the frames (docs/output.md has time and\n"
+                             "size). A GIF has one setting")
+        ->option_text("draft|normal|best [normal]");
 }
 
 CLI::App* add_render(CLI::App& app, CommandLine& line) {
@@ -130,9 +147,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(number_within(limits::duration.min, limits::duration.max))->option_text("S [0]");
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
-    static const std::map<std::string, GlBackend> backends{{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
-    command->add_option("--gl", c.drawing.backend, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
-        ->transform(CLI::CheckedTransformer(backends))->option_text("osmesa|egl");
+    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}}, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
+        ->option_text("osmesa|egl");
     command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
                         "at the same frames per second), 2 twice as fast")
         ->check(number_within(slowest_speed, fastest_speed))->option_text("X [1]");

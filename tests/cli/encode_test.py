@@ -48,7 +48,7 @@ class Encode(program.ProgramTest):
                 self.assertEqual(len(set(clips.values())), 3, ending)
         for command in (("encode", "in"), ("render", "scene.toml")):
             run = self.check(2, *command, "-o", "a.mp4", "--quality", "good")
-            self.assertIn("--quality", run.stderr)
+            self.assertIn("--quality: must be one of draft, normal, best (was 'good')", run.stderr)
             self.assertFalse((self.folder / "a.mp4").exists())
 
     def test_a_gap(self):
