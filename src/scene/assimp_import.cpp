@@ -173,7 +173,7 @@ public:
         bytes_.remove_prefix(sizeof count);
         if (count > bytes_.size() / sizeof(T)) throw MeshError("was not imported as a whole");
         std::vector<T> list(count);
-        std::memcpy(static_cast<void*>(list.data()), bytes_.data(), count * sizeof(T));
+        if (count > 0) std::memcpy(static_cast<void*>(list.data()), bytes_.data(), count * sizeof(T));
         bytes_.remove_prefix(count * sizeof(T));
         return list;
     }
