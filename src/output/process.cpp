@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
@@ -32,6 +33,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A program that stopped reading before its input ended has failed: the time it gets to say why and end.
+constexpr std::chrono::seconds last_words_time{1};
 constexpr std::size_t kept_words = 4096;      // bytes of a program's last words
 constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe a user may ask for: fewer waits for each frame
 constexpr std::size_t kept_output = 1 << 16;  // bytes of a program's standard output
@@ -229,7 +232,10 @@ bool Process::write(std::span<const std::byte> bytes) {
         const ssize_t n = ::write(input_, bytes.data(), bytes.size());
         if (n < 0 && errno == EINTR) continue;
         if (n < 0 && errno == EAGAIN && wait_for_room()) continue;
-        if (n < 0) return false;
+        if (n < 0) {
+            reads_no_more_ = true;
+            return false;
+        }
         bytes = bytes.subspan(static_cast<std::size_t>(n));
     }
     return true;
@@ -256,11 +262,13 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
 
 ProcessEnd Process::finish() {
     ::close(std::exchange(input_, -1));
+    const auto patience = std::chrono::steady_clock::now() + last_words_time;
     // Not until its standard error is closed: a process that it started may hold that open.
-    while (words_pipe_ >= 0 && !has_ended(id_)) {
-        pollfd place{words_pipe_, POLLIN, 0};
+    while ((words_pipe_ >= 0 || reads_no_more_) && !has_ended(id_)) {
+        pollfd place{words_pipe_, POLLIN, 0};   // without a pipe the poll only waits
         ::poll(&place, 1, look_every);
         read_words();
+        if (reads_no_more_ && std::chrono::steady_clock::now() > patience) kill();
     }
     is_ended(id_, 0);
     read_words();   // what it said last is in the pipe

@@ -58,7 +58,7 @@ public:
     /// pages on by splice() may still have them).
     bool lend(std::shared_ptr<const std::byte> memory, std::size_t size);
 
-    /// Ends its input and waits for its end. Processes that it started and left behind are not waited for.
+    /// Ends its input and waits for its end; for a second only where it read no more before that, and then kills it. Processes that it started and left behind are not waited for.
     ProcessEnd finish();
 
     /// Ends it at once, with all processes of its group; finish() then tells how it did. May be called from another thread.
@@ -72,6 +72,7 @@ private:
     std::mutex id_mutex_;        // kill() against the end of finish(), after which another process may have that number
     int input_ = -1;
     std::shared_ptr<const std::byte> lent_;   // may be in the pipe
+    bool reads_no_more_ = false;   // before its input ended
     int words_pipe_ = -1;        // -1: closed, after all has been read
     std::string words_;
 };
