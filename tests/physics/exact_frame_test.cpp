@@ -106,7 +106,9 @@ TEST(ExactFrame, AKilometreAwayTheMotionIsTheSame) {
         EXPECT_LE(apart(here, film(moved(scene, way)), way, same), 1e-6) << scene.title;
     }
     EXPECT_GT(steady, 0u);
-    if (all.size() >= 20) EXPECT_GE(10 * steady, 8 * all.size());   // debug builds take a few scenes only
+    if (all.size() >= 20) {   // debug builds take a few scenes only
+        EXPECT_GE(10 * steady, 8 * all.size());
+    }
 }
 
 TEST(ExactFrame, TheOrderOfTheBodiesIsOfNoAccount) {
