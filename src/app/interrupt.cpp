@@ -13,7 +13,10 @@ Interrupt::Interrupt() {
     pthread_sigmask(SIG_BLOCK, &watched_, &before_);
 }
 
-Interrupt::~Interrupt() { restore(); }
+Interrupt::~Interrupt() {
+    pending();   // a signal that came when all was over must not end the program before it has said how it ended
+    restore();
+}
 
 bool Interrupt::pending() {
     if (restored_) return false;

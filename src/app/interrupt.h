@@ -6,6 +6,7 @@
 namespace tumble {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP wait in this thread and in those it starts, until pending() takes one.
+/// A signal that waits at its end is dropped: the work is over, and its result or error is still to be told.
 /// A signal that was ignored before (nohup) stays ignored.
 class Interrupt {
 public:

@@ -86,6 +86,7 @@ class Compare(program.ProgramTest):
         return lambda: resource.setrlimit(what, (size, size))
 
     # One picture alone takes 128 MiB when it is unpacked as a whole.
+    @program.limits_memory
     def test_large_pictures_are_compared_row_by_row(self):
         self.bomb("large.png", 16384, 2048)
         run = self.check(0, "compare", "large.png", "large.png", "--diff", "d.png",
@@ -93,6 +94,7 @@ class Compare(program.ProgramTest):
         self.assertEqual(run.stdout, "alike: every pixel is the same\n")
         self.assertEqual(program.png_size(self.folder / "d.png"), (16384, 2048))
 
+    @program.limits_memory
     def test_what_must_be_unpacked_as_a_whole_is_refused_beyond_the_memory(self):
         self.bomb("large.png", 16384, 16384, interlaced=True)
         run = self.check(2, "compare", "large.png", "large.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 512 << 20))
@@ -100,6 +102,7 @@ class Compare(program.ProgramTest):
                                      r"of the process's data \(ulimit -d\) has [\d.]+ [MG]iB left; ")
 
     # 1 is "different": what kept us from telling is 2.
+    @program.limits_memory
     def test_out_of_memory_is_not_different(self):
         self.bomb("wide.png", 1000000, 4)
         run = self.check(2, "compare", "wide.png", "wide.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 12 << 20))

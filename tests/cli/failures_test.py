@@ -240,6 +240,7 @@ class Failures(program.ProgramTest):
         return False
 
 
+@program.limits_memory
 class Memory(program.ProgramTest):
     """Pictures that do not fit are refused before anything is made."""
 

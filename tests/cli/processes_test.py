@@ -121,9 +121,15 @@ class OddFfmpeg(Processes):
                 self.assertEqual((self.folder / name).read_text(), "old")
         self.assertEqual([n for n in self.left() if not n.startswith("in")], ["a.gif", "a.mkv", "a.mov", "a.mp4", "a.webm"])
 
-    # Each hangs where it can: before it reads, in the middle, after the last frame, when its input and errors are closed.
+    def test_one_that_closes_its_pipes_and_hangs(self):
+        run = self.check(1, "render", "scene.toml", "-o", "a.mp4", env=self.with_ffmpeg("exec <&- 2>&-; exec sleep 1000"), timeout=GUARD)
+        self.assertIn("bin/ffmpeg failed (ended by signal 9 (Killed))", run.stderr)
+        self.assertEqual(self.left(), [])
+        self.check_nothing_runs()
+
+    # Each hangs where it can: before it reads, in the middle, after the last frame.
     HANGS = ('exec sleep 1000', 'sleep 1000 & echo $! >> "$left"; wait', 'head -c 2000 > /dev/null; exec sleep 1000',
-             'cat > /dev/null; sleep 1000', 'exec <&- 2>&-; exec sleep 1000', 'trap "" TERM INT HUP; cat > /dev/null; sleep 1000',
+             'cat > /dev/null; sleep 1000', 'trap "" TERM INT HUP; cat > /dev/null; sleep 1000',
              'kill -STOP $$', 'setsid sleep 1000 & echo $! >> "$left"; sleep 1000',
              'case "$*" in *palette*) echo second >> "$left.gif"; sleep 1000 ;; esac; exec "$real" "$@"')
 
@@ -174,6 +180,7 @@ class Doctor(Processes):
             (self.folder / "bin/left.started").unlink()
 
 
+@program.limits_memory
 class LittleMemory(Processes):
     def test_it_does_not_ask_for_an_installation(self):
         def limit(mebibytes):
@@ -199,7 +206,6 @@ class LittleMemory(Processes):
         self.assertIn("not enough memory to open libOSMesa.so.8", run.stdout)
         self.assertIn("the limit of address space (ulimit -v) is 150 MiB", run.stdout)
         self.assertNotIn("apt-get install libosmesa6", run.stdout)
-
 
     # Threads that had been started waited for work for ever.
     def test_no_room_for_threads(self):

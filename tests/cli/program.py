@@ -13,6 +13,9 @@ import zlib
 
 TUMBLE = os.environ["TUMBLE"]
 
+# For tests that limit the memory of the program: a sanitizer reserves far more for itself.
+limits_memory = unittest.skipIf(os.environ.get("TUMBLE_SANITIZE"), "the program is built with a sanitizer")
+
 SCENE = """\
 format = 1
 title = "Two bodies"

@@ -158,6 +158,14 @@ TEST(Process, OneThatClosedItsErrorsIsWaitedForAndCanBeKilled) {
     killer.join();
 }
 
+// Fed no more, it would be waited for without end, and its kill by a signal would not be looked for.
+TEST(Process, OneThatClosedItsInputAndErrorsIsEndedAfterASecond) {
+    Process process(shell, {"-c", "exec <&- 2>&-; exec sleep 1000"});
+    const std::string text(4'000'000, 'x');
+    EXPECT_FALSE(process.write(bytes_of(text)));
+    EXPECT_EQ(process.finish().signal, SIGKILL);
+}
+
 TEST(Process, KilledItTakesAlongWhatItStarted) {
     const TestFolder folder;
     Process process(shell, {"-c", "sleep 1000 & echo $! > \"$0\"; sleep 1000", (folder / "child").string()});
