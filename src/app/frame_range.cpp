@@ -1,7 +1,7 @@
 #include "app/frame_range.h"
 
 #include "core/error.h"
-#include "core/whole_number.h"
+#include "core/rounding.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "app/speed.h"
 
 #include "core/error.h"
-#include "core/whole_number.h"
+#include "core/rounding.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>

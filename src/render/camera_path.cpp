@@ -1,6 +1,6 @@
 #include "render/camera_path.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 // turned, it is turned as just before.
 #pragma once
 
-#include "core/number_track.h"
+#include "core/keyframe_curve.h"
 #include "scene/description.h"
 #include "sim/snapshot.h"
 

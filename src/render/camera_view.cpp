@@ -1,6 +1,6 @@
 #include "render/camera_view.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "render/fine_choice.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "render/occlusion_atlas.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "render/fine_surface.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <algorithm>
 #include <cmath>

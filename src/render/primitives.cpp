@@ -1,6 +1,6 @@
 #include "render/primitives.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <array>
 #include <cmath>

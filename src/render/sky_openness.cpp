@@ -1,6 +1,6 @@
 #include "render/sky_openness.h"
 
-#include "core/wide.h"
+#include "core/cpu_dispatch.h"
 #include "render/box_distance.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "render/surface_lattice.h"
 
-#include "core/wide.h"
+#include "core/cpu_dispatch.h"
 #include "render/box_distance.h"
 #include "render/sky_openness.h"
 

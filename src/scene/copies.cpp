@@ -1,6 +1,6 @@
 #include "scene/copies.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "scene/limits.h"
 #include "scene/scatter_places.h"
 #include "scene/shape_bounds.h"

@@ -1,6 +1,6 @@
 #include "scene/default_camera.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "scene/flights.h"
 #include "scene/shape_bounds.h"
 #include "scene/sight.h"

@@ -1,6 +1,6 @@
 #include "scene/description.h"
 
-#include "core/whole_number.h"
+#include "core/rounding.h"
 
 #include <cmath>
 

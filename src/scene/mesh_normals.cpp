@@ -1,6 +1,6 @@
 #include "scene/mesh_normals.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 namespace tumble {
 namespace {

@@ -1,6 +1,6 @@
 #include "scene/mesh_winding.h"
 
-#include "core/mesh_sheets.h"
+#include "core/mesh_components.h"
 
 namespace tumble {
 namespace {

@@ -1,6 +1,6 @@
 #include "scene/motion.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "scene/limits.h"
 
 #include <fmt/format.h>

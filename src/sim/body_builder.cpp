@@ -1,6 +1,6 @@
 #include "sim/body_builder.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "core/error.h"
 #include "sim/mass_properties.h"
 

@@ -1,6 +1,6 @@
 #include "sim/free_rotation.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "core/elliptic.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "sim/keyframe_track.h"
 
-#include "core/elementary.h"
-#include "core/smooth_slope.h"
+#include "core/deterministic_math.h"
+#include "core/monotone_spline.h"
 
 #include <cmath>
 

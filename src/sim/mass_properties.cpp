@@ -1,6 +1,6 @@
 #include "sim/mass_properties.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <algorithm>
 #include <array>

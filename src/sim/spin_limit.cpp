@@ -1,6 +1,6 @@
 #include "sim/spin_limit.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/free_rotation.h"
 #include "sim/integrator/rigid_state.h"
 #include "sim/keyframe_track.h"

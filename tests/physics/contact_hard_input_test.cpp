@@ -1,5 +1,5 @@
 // Contact under bad and hard input: overlaps at the start, exact coincidences, extreme shapes and sizes, seams, belts.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/random_shapes.h"
 #include "sim/tuning.h"
 #include "support/meshes.h"

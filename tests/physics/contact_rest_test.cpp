@@ -1,5 +1,5 @@
 // Rest and Coulomb's law to the last digit: no sinking, no drift, stick or slip where the angle says.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "scene/load.h"
 #include "sim/random_shapes.h"
 #include "support/meshes.h"

@@ -1,5 +1,5 @@
 // Sleep seen from outside: it changes nothing that can be seen, and ends exactly when it must.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/body_builder.h"
 #include "sim/broad_phase.h"
 #include "sim/random_shapes.h"

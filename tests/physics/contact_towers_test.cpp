@@ -1,5 +1,5 @@
 // What should stand, stands: stacks, heavy on light, an arch, cards, hoops. All with default settings.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
 #include "support/scenes.h"

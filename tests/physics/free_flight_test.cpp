@@ -1,6 +1,6 @@
 // Bodies that touch nothing: the discrete formulas of both Euler methods to rounding, and their convergence to the
 // continuous motion.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

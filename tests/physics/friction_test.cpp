@@ -1,5 +1,5 @@
 // Coulomb friction against the textbook: sliding, sticking, rolling.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

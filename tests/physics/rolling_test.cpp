@@ -1,5 +1,5 @@
 // What rolls on corners and rocks on edges, at few steps a frame, against the mechanics of wheels without rims and of rocking blocks.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // What slides or rolls over a flush seam, or past an edge that it does not touch, goes on as if nothing were there.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Friction of what spins flat on the ground, against even pressure over its contact area.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
 #include "support/scenes.h"

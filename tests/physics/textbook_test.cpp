@@ -1,5 +1,5 @@
 // Exercises of a mechanics course whose answers are closed forms, with contact.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 

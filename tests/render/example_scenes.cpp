@@ -2,7 +2,7 @@
 
 #include "random.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <algorithm>
 #include <cmath>

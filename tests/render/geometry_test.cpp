@@ -1,7 +1,7 @@
 // The parts of drawing that need no OpenGL, against closed forms and slower ways.
 #include "example_scenes.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "render/body_looks.h"
 #include "render/camera_view.h"
 #include "render/cell_rectangles.h"

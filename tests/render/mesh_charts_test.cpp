@@ -2,7 +2,7 @@
 #include "example_scenes.h"
 #include "random.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "render/fine_surface.h"
 #include "render/mesh_charts.h"
 

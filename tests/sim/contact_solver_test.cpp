@@ -1,5 +1,5 @@
 // Each contact solver alone, and the choice between them: loads, momentum, Coulomb's law.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/contact_scenes.h"
 #include "sim/random_shapes.h"
 

@@ -1,7 +1,7 @@
 // The closed form against Taylor series in higher precision, and what it must keep: L, energy, time's arrow.
 #include "sim/free_rotation.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "random_shapes.h"
 #include "support/rotation_reference.h"
 

@@ -1,5 +1,5 @@
 // The sides of open surfaces: hills, folds, rims, and strips that have one side only.
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "random_shapes.h"
 #include "sim/collision/surface_side.h"
 

@@ -1,6 +1,6 @@
 #include "render/aov/ray_depths.h"
 
-#include "core/wide.h"
+#include "core/cpu_dispatch.h"
 
 #include <algorithm>
 #include <array>

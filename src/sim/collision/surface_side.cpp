@@ -1,6 +1,6 @@
 #include "sim/collision/surface_side.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/collision/nearest_on_triangle.h"
 
 #include <algorithm>

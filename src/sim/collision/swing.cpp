@@ -1,6 +1,6 @@
 #include "sim/collision/swing.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/tuning.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "sim/collision/triangle_surface.h"
 
 #include "core/error.h"
-#include "core/mesh_sheets.h"
+#include "core/mesh_components.h"
 
 #include <algorithm>
 #include <map>

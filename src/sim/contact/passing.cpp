@@ -1,6 +1,6 @@
 #include "sim/contact/passing.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/collision/swing.h"
 #include "sim/tuning.h"
 

@@ -1,6 +1,6 @@
 #include "sim/flight/path.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 #include "sim/body.h"
 #include "sim/keyframe_track.h"
 

@@ -1,6 +1,6 @@
 #include "sim/integrator/splitting.h"
 
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 namespace tumble {
 namespace {

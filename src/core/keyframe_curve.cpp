@@ -1,6 +1,6 @@
-#include "core/number_track.h"
+#include "core/keyframe_curve.h"
 
-#include "core/smooth_slope.h"
+#include "core/monotone_spline.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "core/mesh_sheets.h"
+#include "core/mesh_components.h"
 
 #include <algorithm>
 #include <tuple>

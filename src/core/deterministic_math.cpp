@@ -1,4 +1,4 @@
-#include "core/elementary.h"
+#include "core/deterministic_math.h"
 
 #include <algorithm>
 #include <cmath>
