@@ -1,7 +1,7 @@
 // The poses of a clip, simulated beforehand, so that drawing is measured alone.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <vector>

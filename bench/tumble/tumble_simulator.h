@@ -2,7 +2,7 @@
 #pragma once
 
 #include "harness/simulator.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <memory>
 

@@ -3,7 +3,7 @@
 
 #include "output/temporary_file.h"
 #include "render/aov/aov_kind.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "app/worker_memory.h"
 #include "output/process.h"
 #include "render/renderer.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <sys/types.h>
 

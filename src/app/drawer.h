@@ -11,7 +11,7 @@
 #include "app/exposure.h"
 #include "app/stage_time.h"
 #include "render/drawn_poses.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <atomic>

@@ -2,7 +2,7 @@
 // same whichever frame was the first.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cstdint>
 

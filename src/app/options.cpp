@@ -7,7 +7,7 @@
 #include "app/speed.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "scene/limits.h"
+#include "scene/toml/limits.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

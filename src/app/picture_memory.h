@@ -6,7 +6,7 @@
 #include "app/worker_memory.h"
 #include "core/available_memory.h"
 #include "output/video_format.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cstdint>
 #include <optional>

@@ -16,7 +16,7 @@
 #include "app/publish_queue.h"
 #include "app/stage_time.h"
 #include "output/video_writer.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/world.h"
 
 #include <atomic>

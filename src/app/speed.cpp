@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/rounding.h"
-#include "scene/limits.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Slow motion and speed-up: a clip at its frame rate, of a motion that passes faster or slower than in life.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 namespace tumble {
 

@@ -5,7 +5,7 @@
 
 #include "output/video_format.h"
 #include "render/aov/aov_maker.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "render/camera_view.h"
 #include "render/fine_surface.h"
 #include "render/mesh_charts.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <glm/vec3.hpp>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/keyframe_curve.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <optional>

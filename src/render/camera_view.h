@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/vector.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <glm/mat4x4.hpp>
 

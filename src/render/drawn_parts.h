@@ -1,7 +1,7 @@
 // Compounds as what is drawn of them: each part becomes a body of its own, so that everything behind draws single shapes.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <cstddef>

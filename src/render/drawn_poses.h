@@ -13,7 +13,7 @@
 
 #include "render/camera_path.h"
 #include "render/camera_view.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <vector>

@@ -4,7 +4,7 @@
 // around it, so that what is interpolated between texels stays within the chart.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <array>
 #include <cstdint>

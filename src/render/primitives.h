@@ -1,7 +1,7 @@
 // The meshes that every scene can need: unit box, unit balls of several finenesses, unit cylinder.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include "core/image.h"
 #include "core/rectangle.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <filesystem>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/body_looks.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 namespace tumble {
 

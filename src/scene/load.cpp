@@ -1,14 +1,14 @@
 #include "scene/load.h"
 
-#include "scene/attachments.h"
-#include "scene/bodies.h"
-#include "scene/camera.h"
-#include "scene/limits.h"
-#include "scene/materials.h"
-#include "scene/mesh_loader.h"
-#include "scene/run_settings.h"
-#include "scene/toml_reader.h"
-#include "scene/view_settings.h"
+#include "scene/keys/forces_and_cords.h"
+#include "scene/keys/bodies.h"
+#include "scene/camera/camera.h"
+#include "scene/toml/limits.h"
+#include "scene/keys/materials.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/keys/run_settings.h"
+#include "scene/toml/toml_reader.h"
+#include "scene/keys/view_settings.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // From a scene file to a checked description: parse, check, resolve.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <filesystem>
 #include <optional>

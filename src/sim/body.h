@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/vector.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/collision/collider.h"
 #include "sim/keyframe_track.h"
 

@@ -1,7 +1,7 @@
 // From a body's description to a body at rest in the simulation: its mass, inertia tensor and collision shape.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/body.h"
 #include "sim/collision/compound.h"
 

@@ -1,7 +1,7 @@
 // External forces and torques on a body (notes section 3): gravity, wind, and forces at points.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/body.h"
 #include "sim/wrench.h"
 

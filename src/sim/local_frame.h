@@ -2,7 +2,7 @@
 // far from the world's origin keeps the digits of one at it, and the list of its bodies decides nothing.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/body.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // The simulation: bodies in motion and the one function that moves them on.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <cstdint>

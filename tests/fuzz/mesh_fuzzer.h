@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../support/folder.h"
-#include "scene/mesh_loader.h"
+#include "scene/mesh/mesh_loader.h"
 
 #include <cstdint>
 #include <string>

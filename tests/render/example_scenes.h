@@ -1,7 +1,7 @@
 // Scenes made by hand, for the tests of drawing: no file is read and nothing is simulated.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 namespace tumble {

@@ -1,7 +1,7 @@
 // Random numbers for scenes. The standard leaves the distributions' algorithms open; these are the same everywhere.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cstdint>
 #include <random>

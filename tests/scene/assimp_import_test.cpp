@@ -1,6 +1,6 @@
 // Mesh files of the kinds that assimp imports in a child process: the same shapes, and no harm from malformed ones.
 #include "mesh_files.h"
-#include "scene/mesh_loader.h"
+#include "scene/mesh/mesh_loader.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -2,8 +2,8 @@
 #include "core/error.h"
 #include "mesh_files.h"
 #include "scene/load.h"
-#include "scene/mesh_loader.h"
-#include "scene/shape_bounds.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/description/shape_bounds.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
-#include "scene/default_camera.h"
+#include "scene/camera/default_camera.h"
 #include "scene/load.h"
-#include "scene/shape_bounds.h"
+#include "scene/description/shape_bounds.h"
 
 #include <gtest/gtest.h>
 

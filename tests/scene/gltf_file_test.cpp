@@ -1,6 +1,6 @@
 // glTF files: what is read of them, what is refused, and which other files they may open.
 #include "mesh_files.h"
-#include "scene/mesh_loader.h"
+#include "scene/mesh/mesh_loader.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 // Files that are broken, by accident or on purpose: an error each, no crash, no endless loop, nothing printed.
 #include "mesh_files.h"
-#include "scene/mesh_loader.h"
+#include "scene/mesh/mesh_loader.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -1,7 +1,7 @@
 // What comes out of good mesh files: surfaces welded, closed and turned outward, with normals that make sense.
 #include "mesh_files.h"
-#include "scene/mesh_loader.h"
-#include "scene/mesh_normals.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/mesh/mesh_normals.h"
 
 #include <fmt/format.h>
 

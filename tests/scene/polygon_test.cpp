@@ -1,4 +1,4 @@
-#include "scene/polygon.h"
+#include "scene/mesh/polygon.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Bodies of several shapes, made in the test.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <memory>
 #include <utility>

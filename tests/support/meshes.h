@@ -1,7 +1,7 @@
 // Meshes made in the test, with known volumes and tensors.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 
 #include <cmath>
 #include <memory>

@@ -1,7 +1,7 @@
 // Small scenes written as values, for tests of the simulation that need no file.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/world.h"
 
 #include <cmath>

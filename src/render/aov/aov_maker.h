@@ -6,7 +6,7 @@
 #include "render/aov/aov_kind.h"
 #include "render/aov/surface_map.h"
 #include "render/camera_path.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <cstdint>

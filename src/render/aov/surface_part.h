@@ -3,7 +3,7 @@
 
 #include "core/color.h"
 #include "render/aov/pinhole_camera.h"
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/snapshot.h"
 
 #include <cstdint>

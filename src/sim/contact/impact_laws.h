@@ -10,7 +10,7 @@
 // leave with one speed.
 #pragma once
 
-#include "scene/description.h"
+#include "scene/description/description.h"
 #include "sim/contact/contact_cluster.h"
 
 namespace tumble {

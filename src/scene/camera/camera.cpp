@@ -1,0 +1,114 @@
+#include "scene/camera/camera.h"
+
+#include "scene/keys/body_index.h"
+#include "scene/camera/default_camera.h"
+#include "scene/toml/limits.h"
+#include "scene/keys/motion.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+/// Where to point when eye, target and up do not go together: at what was given.
+struct Given {
+    std::optional<TomlValue> eye, target, up;
+};
+
+void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const Given& given, const TomlTable& table) {
+    const Vec3 view = target - eye;
+    constexpr double parallel = 1e-6;   // rad: closer to `up` than this there is no telling which way is up
+    if (view.norm() == 0.0) {
+        if (given.eye) given.eye->fail("must not be at the target");
+        if (given.target) given.target->fail("must not be at the eye");
+        table.origin().fail("has its eye in its target");
+    }
+    if (view.normalized().cross(up.normalized()).norm() >= parallel) return;
+    const Origin& origin = given.up       ? given.up->origin()
+                           : given.eye    ? given.eye->origin()
+                           : given.target ? given.target->origin()
+                                          : table.origin();
+    origin.fail(
+        "does not fit: the camera looks along its up direction, so there is no telling which way is up; "
+        "choose another up");
+}
+
+void read_place(const TomlTable& table, CameraDescription& camera, const Given& given) {
+    const Vec3 offset = camera.eye - camera.target;
+    if (given.target) camera.target = given.target->vector(limits::coordinate);
+    else if (camera.follow) camera.target = camera.follow_start;
+    if (given.eye) camera.eye = given.eye->vector(limits::coordinate);
+    else if (given.target || camera.follow) camera.eye = camera.target + offset;
+    check_view(camera.eye, camera.target, camera.up, given, table);
+}
+
+std::vector<CameraKeyframe> read_keyframes(const TomlValue& value, const CameraDescription& camera) {
+    std::vector<CameraKeyframe> keyframes;
+    for (TomlTable& table : value.tables(" { time, eye, target }")) {
+        table.set_title("a keyframe of the camera");
+        table.expect_keys({"time", "eye", "target", "vertical_fov"});
+        CameraKeyframe key{0.0, camera.eye, camera.target, camera.vertical_fov};
+        const TomlValue time = table.require("time");
+        key.time = time.number(limits::time);
+        if (!keyframes.empty() && key.time <= keyframes.back().time) {
+            time.fail(fmt::format("must come after the keyframe before, at {} s", number_text(keyframes.back().time)));
+        }
+        table.read("eye", key.eye, limits::coordinate);
+        table.read("target", key.target, limits::coordinate);
+        table.read("vertical_fov", key.vertical_fov, limits::field_of_view);
+        check_view(key.eye, key.target, camera.up, {table.find("eye"), table.find("target"), std::nullopt}, table);
+        keyframes.push_back(key);
+    }
+    if (keyframes.empty()) value.fail("must hold at least one keyframe");
+    return keyframes;
+}
+
+void read_follow(const TomlTable& table, const SceneDescription& scene, CameraDescription& camera) {
+    const auto follow = table.find("follow");
+    if (!follow) return;
+    camera.follow = BodyIndex(scene.bodies).find(*follow);
+    const BodyDescription& body = scene.bodies[*camera.follow];
+    if (body.type == BodyType::fixed) follow->fail("must be a body that moves");
+    camera.follow_start = body.position;
+    camera.follow_start_rotation = body.rotation;
+}
+
+/// The file's own, whatever the command line says: a frame looks the same in a clip of any length.
+double duration_in_file(const TomlTable& root) {
+    double duration = SimulationSettings{}.duration;
+    if (const auto table = root.find_table("simulation")) table->read("duration", duration, limits::duration);
+    return duration;
+}
+
+}  // namespace
+
+CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene) {
+    CameraDescription lens;
+    const double duration = duration_in_file(root);
+    const auto table = root.find_table("camera");
+    if (!table) return default_camera(scene, lens, duration);
+
+    table->expect_keys(
+        {"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
+    const Given given{table->find("eye"), table->find("target"), table->find("up")};
+    if (given.up) lens.up = given.up->direction();
+    table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
+
+    CameraDescription camera = lens;
+    if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);   // or it goes along
+    read_follow(*table, scene, camera);
+    read_place(*table, camera, given);
+    table->read("orbit", camera.orbit, limits::orbit);
+    table->read<Interpolation>("interpolation", camera.interpolation, interpolations);
+    if (const auto keyframes = table->find("keyframes")) {
+        camera.keyframes = read_keyframes(*keyframes, camera);
+        camera.eye = camera.keyframes.front().eye;
+        camera.target = camera.keyframes.front().target;
+        camera.vertical_fov = camera.keyframes.front().vertical_fov;
+    } else if (const auto interpolation = table->find("interpolation")) {
+        interpolation->origin().fail("is for a camera with keyframes");
+    }
+    return camera;
+}
+
+}  // namespace tumble

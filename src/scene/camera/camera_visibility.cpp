@@ -1,0 +1,131 @@
+#include "scene/camera/camera_visibility.h"
+
+#include "scene/description/shape_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t most_places = 24;           // a third of them tells as much as all of a thousand
+constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of a second; with more nothing is asked,
+constexpr std::size_t most_pieces = 20'000;       // nor with more fixed shapes
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Where a line enters a box about the origin (the slabs of Kay and Kajiya 1986), in lengths of its way; infinity: it does not.
+double hit_box(const Vec3& half, const Vec3& from, const Vec3& way) {
+    double enter = -infinity, leave = infinity;
+    for (int k = 0; k < 3; ++k) {
+        if (way[k] == 0.0) {
+            if (std::fabs(from[k]) > half[k]) return infinity;
+            continue;
+        }
+        const double a = (-half[k] - from[k]) / way[k], b = (half[k] - from[k]) / way[k];
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave && leave > 0.0 ? std::max(enter, 0.0) : infinity;
+}
+
+double hit_ball(double radius, const Vec3& from, const Vec3& way) {
+    const double a = way.squaredNorm(), b = from.dot(way), c = from.squaredNorm() - radius * radius;
+    const double root = b * b - a * c;
+    if (root < 0.0) return infinity;
+    const double enter = (-b - std::sqrt(root)) / a;
+    return enter > 0.0 ? enter : infinity;
+}
+
+/// Moeller and Trumbore 1997, Fast, Minimum Storage Ray/Triangle Intersection.
+double hit_mesh(const TriangleMesh& mesh, const Vec3& from, const Vec3& way) {
+    double nearest = infinity;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+        const Vec3 p = way.cross(ac), to = from - a;
+        const double determinant = ab.dot(p);
+        if (determinant == 0.0) continue;
+        const double u = to.dot(p) / determinant;
+        if (u < 0.0 || u > 1.0) continue;
+        const Vec3 q = to.cross(ab);
+        const double v = way.dot(q) / determinant;
+        if (v < 0.0 || u + v > 1.0) continue;
+        const double at = ac.dot(q) / determinant;
+        if (at > 0.0) nearest = std::min(nearest, at);
+    }
+    return nearest;
+}
+
+std::size_t triangles_of(const Shape& shape) {
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    return mesh ? mesh->asset->surface.triangles.size() : 0;
+}
+
+}  // namespace
+
+Sight::Sight(const SceneDescription& scene) {
+    std::size_t triangles = 0;
+    for (const BodyDescription& body : scene.bodies)
+        if (body.type == BodyType::fixed && body.surface.visible) add(body.shape, body.position, body.rotation);
+    for (const Piece& piece : pieces_) triangles += triangles_of(*piece.shape);
+    if (!pieces_.empty() && pieces_.size() <= most_pieces && triangles <= most_triangles) find_places(scene);
+}
+
+void Sight::add(const Shape& shape, const Vec3& position, const Quat& rotation) {
+    if (std::holds_alternative<PlaneShape>(shape)) return;
+    if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
+        for (const CompoundPart& part : *compound->parts) add(part.shape, position + rotation * part.position, rotation * part.rotation);
+        return;
+    }
+    const Bounds bounds = local_bounds(shape);
+    pieces_.push_back({position + rotation * bounds.center(), 0.5 * bounds.extent(), position, rotation, &shape});
+}
+
+double Sight::first_hit(const Vec3& from, const Vec3& way) const {
+    double nearest = infinity;
+    for (const Piece& piece : pieces_) {
+        const Quat back = piece.rotation.conjugate();
+        const Vec3 local_way = back * way;
+        const double on_box = hit_box(piece.half_size, back * (from - piece.center), local_way);
+        if (!(on_box < nearest)) continue;
+        if (std::holds_alternative<BoxShape>(*piece.shape)) nearest = on_box;
+        if (const auto* ball = std::get_if<SphereShape>(piece.shape))
+            nearest = std::min(nearest, hit_ball(ball->radius, back * (from - piece.origin), local_way));
+        if (const auto* mesh = std::get_if<MeshShape>(piece.shape))
+            nearest = std::min(nearest, hit_mesh(mesh->asset->surface, back * (from - piece.origin), local_way));
+    }
+    return nearest;
+}
+
+void Sight::find_places(const SceneDescription& scene) {
+    const Vec3& gravity = scene.simulation.gravity;
+    const Vec3 down = gravity.norm() > 0.0 ? gravity.normalized() : Vec3(0.0, -1.0, 0.0);
+    std::vector<const BodyDescription*> moving;
+    for (const BodyDescription& body : scene.bodies)
+        if (body.type == BodyType::dynamic && body.surface.visible) moving.push_back(&body);
+    const std::size_t count = std::min(moving.size(), most_places);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BodyDescription& body = *moving[i * moving.size() / count];
+        const Bounds bounds = local_bounds(body.shape);
+        const Vec3 middle = body.position + body.rotation * bounds.center();
+        double fall = first_hit(middle, down);
+        for (const BodyDescription& other : scene.bodies)
+            if (const auto* plane = std::get_if<PlaneShape>(&other.shape)) {
+                const Vec3 normal = other.rotation * plane->normal;
+                const double height = normal.dot(middle - other.position) - plane->offset, approach = -normal.dot(down);
+                if (height > 0.0 && approach > 0.0) fall = std::min(fall, height / approach);
+            }
+        const double rests = fall < infinity ? std::max(fall - 0.5 * bounds.extent().minCoeff(), 0.0) : 0.0;
+        places_.push_back(middle + down * rests);
+    }
+}
+
+double Sight::visible_share(const Vec3& eye) const {
+    if (places_.empty()) return 1.0;
+    const auto seen = std::count_if(places_.begin(), places_.end(),
+                                    [&](const Vec3& place) { return first_hit(eye, place - eye) > 0.999; });
+    return double(seen) / double(places_.size());
+}
+
+}  // namespace tumble

@@ -1,0 +1,206 @@
+#include "scene/camera/default_camera.h"
+
+#include "core/deterministic_math.h"
+#include "scene/camera/throw_preview.h"
+#include "scene/description/shape_bounds.h"
+#include "scene/camera/camera_visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+// Looks: chosen by eye on the demo scenes.
+constexpr double azimuth = 28.0;       // degrees to the right of the front
+constexpr double elevation = 17.0;     // degrees above the horizon: ground fills the lower two thirds
+constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};   // degrees; where fixed bodies hide what they hold
+constexpr double enough = 0.6;         // of the places where bodies come to lie are in sight
+constexpr double used_part = 0.86;     // of the picture's half width and height; the rest is a margin
+constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all that moves is ground
+
+constexpr double least_distance = 0.2; // of the scene's diagonal, between the eye and what is nearest
+constexpr int centring_passes = 4;     // each leaves a small part of the error: near points move more than far ones
+
+constexpr double degrees = pi / 180.0;
+
+struct Axes {
+    Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the picture)
+};
+
+Axes view_axes(const Vec3& up, double above) {
+    const Vec3 front = std::fabs(up.z()) < 0.9 ? Vec3(0.0, 0.0, 1.0) : Vec3(0.0, -1.0, 0.0);
+    const Vec3 level_front = (front - up * up.dot(front)).normalized();
+    const Vec3 level_right = up.cross(level_front);
+    const SinCos a = sincos(azimuth * degrees), e = sincos(above * degrees);
+    Axes axes;
+    axes.forward = -(e.cos * (a.cos * level_front + a.sin * level_right) + e.sin * up);
+    axes.right = axes.forward.cross(up).normalized();
+    axes.up = axes.right.cross(axes.forward);
+    return axes;
+}
+
+/// The corners of the shape's bounds, placed in the world.
+void add_corners(const Bounds& local, const Vec3& position, const Quat& rotation, std::vector<Vec3>& points) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p(corner & 1 ? local.max.x() : local.min.x(), corner & 2 ? local.max.y() : local.min.y(),
+                     corner & 4 ? local.max.z() : local.min.z());
+        points.push_back(position + rotation * p);
+    }
+}
+
+Bounds bounds_of(const std::vector<Vec3>& points) {
+    Bounds bounds;
+    for (const Vec3& p : points) bounds.add(p);
+    return bounds;
+}
+
+/// A fixed plane that bodies can land on.
+struct Ground {
+    Vec3 normal;     // unit, world frame
+    double offset;   // m, along the normal
+};
+
+std::vector<Ground> grounds_below(const SceneDescription& scene, const Vec3& down) {
+    std::vector<Ground> grounds;
+    for (const BodyDescription& body : scene.bodies) {
+        const auto* plane = std::get_if<PlaneShape>(&body.shape);
+        if (!plane) continue;
+        const Vec3 normal = body.rotation * plane->normal;
+        if (-normal.dot(down) < 0.5) continue;   // steeper than 60 degrees: a wall
+        grounds.push_back({normal, plane->offset + normal.dot(body.position)});
+    }
+    return grounds;
+}
+
+/// The way along `down` to the nearest ground beneath the point; 0 without one.
+double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const Vec3& down) {
+    double drop = 0.0;
+    for (const Ground& ground : grounds) {
+        const double distance = (ground.normal.dot(point) - ground.offset) / -ground.normal.dot(down);
+        if (distance > 0.0 && (drop == 0.0 || distance < drop)) drop = distance;
+    }
+    return drop;
+}
+
+/// Local bounds, those of a mesh or compound found once for all bodies that share it.
+class BoundsOfShapes {
+public:
+    Bounds operator()(const Shape& shape) {
+        const void* shared = shared_data(shape);
+        if (!shared) return local_bounds(shape);
+        const auto [entry, is_new] = known_.try_emplace(shared);
+        if (is_new) entry->second = local_bounds(shape);
+        return entry->second;
+    }
+
+private:
+    std::map<const void*, Bounds> known_;   // only looked up
+};
+
+std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
+    const Vec3& gravity = scene.simulation.gravity;
+    const Vec3 down = gravity.norm() > 0.0 ? gravity.normalized() : Vec3(0.0, -1.0, 0.0);
+    const std::vector<Ground> grounds = grounds_below(scene, down);
+    BoundsOfShapes bounds_of_shape;
+    std::vector<Vec3> points = flight_points(scene, seconds);
+    for (const BodyDescription& body : scene.bodies) {
+        if (body.type == BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        const Bounds local = bounds_of_shape(body.shape);
+        add_corners(local, body.position, body.rotation, points);
+        for (const Keyframe& key : body.keyframes) add_corners(local, key.position, key.rotation, points);
+        if (body.type != BodyType::dynamic) continue;
+        const Vec3 middle = body.position + body.rotation * local.center();
+        if (const double drop = drop_height(grounds, middle, down); drop > 0.0) points.push_back(middle + down * drop);
+    }
+    return points;
+}
+
+std::vector<Vec3> points_of_note(const SceneDescription& scene, double seconds) {
+    std::vector<Vec3> points = moving_points(scene, seconds);
+    const Bounds moving = bounds_of(points);
+    const double reach = points.empty() ? 0.0 : moving.extent().norm();
+    BoundsOfShapes bounds_of_shape;
+    for (const BodyDescription& body : scene.bodies) {
+        if (body.type != BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        std::vector<Vec3> corners;
+        add_corners(bounds_of_shape(body.shape), body.position, body.rotation, corners);
+        const Bounds bounds = bounds_of(corners);
+        if (moving.empty() || bounds.extent().norm() < ground_factor * reach) {
+            points.insert(points.end(), corners.begin(), corners.end());
+        } else if (const Bounds near = moving.grown(0.25 * reach); bounds.overlaps(near)) {
+            const Bounds part{bounds.min.cwiseMax(near.min), bounds.max.cwiseMin(near.max)};
+            add_corners(part, Vec3::Zero(), Quat::Identity(), points);
+        }
+    }
+    return points;
+}
+
+/// The middle of the points' extent in the picture, as tangents to the right and up.
+Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& axes) {
+    Bounds seen;
+    for (const Vec3& p : points) {
+        const Vec3 d = p - eye;
+        seen.add(Vec3(d.dot(axes.right), d.dot(axes.up), 0.0) / d.dot(axes.forward));
+    }
+    return seen.center();
+}
+
+/// The camera that looks along the axes and has all points in its picture.
+CameraDescription fitted(const SceneDescription& scene, const CameraDescription& lens, const std::vector<Vec3>& points,
+                         const Axes& axes) {
+    CameraDescription camera = lens;
+    const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
+    const double tangent_y = used_part * half.sin / half.cos;
+    const double tangent_x = tangent_y * scene.output.width / scene.output.height;
+
+    // A point p is in view from the eye e when |(p - e).right| <= tangent_x (p - e).forward, and so for up: four half
+    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and centre it.
+    double right = -1e300, left = -1e300, top = -1e300, bottom = -1e300;
+    double nearest = 1e300, farthest = -1e300;
+    for (const Vec3& p : points) {
+        const double x = p.dot(axes.right), y = p.dot(axes.up), z = p.dot(axes.forward);
+        right = std::max(right, x - tangent_x * z);
+        left = std::max(left, -x - tangent_x * z);
+        top = std::max(top, y - tangent_y * z);
+        bottom = std::max(bottom, -y - tangent_y * z);
+        nearest = std::min(nearest, z);
+        farthest = std::max(farthest, z);
+    }
+    const double depth = std::min({-(right + left) / (2.0 * tangent_x), -(top + bottom) / (2.0 * tangent_y),
+                                   nearest - least_distance * bounds_of(points).extent().norm()});
+    const double middle = 0.5 * (nearest + farthest) - depth;
+    camera.eye = axes.right * (0.5 * (right - left)) + axes.up * (0.5 * (top - bottom)) + axes.forward * depth;
+    // The direction with room to spare: move along it until as much is free on one side as on the other.
+    for (int pass = 0; pass < centring_passes; ++pass) {
+        const Vec3 shift = off_center(points, camera.eye, axes) * middle;
+        camera.eye += shift.x() * axes.right + shift.y() * axes.up;
+    }
+    camera.target = camera.eye + axes.forward * middle;
+    return camera;
+}
+
+}  // namespace
+
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
+    std::vector<Vec3> points = points_of_note(scene, seconds);
+    if (points.empty()) {   // a stage of usual size, at the origin
+        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
+    }
+    const Sight sight(scene);
+    const Vec3 up = lens.up.normalized();
+    CameraDescription best = fitted(scene, lens, points, view_axes(up, elevation));
+    double share = sight.visible_share(best.eye);
+    for (const double above : higher) {
+        if (share >= enough) break;
+        const CameraDescription camera = fitted(scene, lens, points, view_axes(up, above));
+        const double now = sight.visible_share(camera.eye);
+        if (now > share) best = camera, share = now;
+    }
+    return best;
+}
+
+}  // namespace tumble

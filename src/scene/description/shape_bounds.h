@@ -1,0 +1,22 @@
+// The extent of shapes in their own frame; planes are endless and have none.
+#pragma once
+
+#include "scene/description/description.h"
+
+namespace tumble {
+
+struct BoundingSphere {
+    Vec3 center = Vec3::Zero();   // body frame
+    double radius = 0.0;          // m
+};
+
+/// The address of what bodies share of a mesh or a compound; null for other shapes.
+const void* shared_data(const Shape& shape);
+
+/// The smallest axis-aligned box around the shape; empty for a plane.
+Bounds local_bounds(const Shape& shape);
+
+/// A sphere around the shape, exact for boxes and spheres; about the centre of its bounds for meshes and compounds. Not for planes.
+BoundingSphere bounding_sphere(const Shape& shape);
+
+}  // namespace tumble

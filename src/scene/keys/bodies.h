@@ -1,0 +1,19 @@
+// [[body]]: the things of the scene, grids and scatters expanded.
+#pragma once
+
+#include "scene/description/description.h"
+#include "scene/keys/materials.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/toml/toml_reader.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace tumble {
+
+/// Reads all body tables in file order. Relative mesh files start from `folder`.
+std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
+                                         const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes);
+
+}  // namespace tumble

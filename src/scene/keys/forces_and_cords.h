@@ -1,0 +1,13 @@
+// [[force]] and [[cord]]: what pulls at a body, and what seems to.
+#pragma once
+
+#include "scene/description/description.h"
+#include "scene/toml/toml_reader.h"
+
+namespace tumble {
+
+/// Both refer to bodies by name; call them when `scene` has its bodies.
+void read_forces(const TomlTable& root, SceneDescription& scene);
+void read_cords(const TomlTable& root, SceneDescription& scene);
+
+}  // namespace tumble

@@ -1,0 +1,74 @@
+#include "scene/keys/materials.h"
+
+#include "core/safe_text.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+constexpr Choice<Pattern> patterns[] = {
+    {"plain", Pattern::plain},
+    {"grid", Pattern::grid},
+    {"checker", Pattern::checker},
+};
+
+constexpr Color default_color{0xcf, 0x9a, 0x5b};         // light wood: stands out from ground and sky
+constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light grey, on which shadows and grid lines show
+
+}  // namespace
+
+Material Material::overridden_by(const Material& over) const {
+    const auto either = [](const auto& mine, const auto& theirs) { return theirs ? theirs : mine; };
+    return {either(color, over.color),         either(density, over.density),
+            either(restitution, over.restitution), either(friction, over.friction),
+            either(roughness, over.roughness), either(metallic, over.metallic),
+            either(pattern, over.pattern)};
+}
+
+Material read_material_keys(const TomlTable& table) {
+    Material material;
+    if (const auto value = table.find("color")) material.color = value->color();
+    table.read("density", material.density, limits::density);
+    table.read("restitution", material.restitution, limits::restitution);
+    table.read("friction", material.friction, limits::friction);
+    table.read("roughness", material.roughness, limits::fraction);
+    table.read("metallic", material.metallic, limits::fraction);
+    if (const auto value = table.find("pattern")) material.pattern = value->choice<Pattern>(patterns);
+    return material;
+}
+
+Materials read_materials(const TomlTable& root) {
+    Materials materials;
+    const auto table = root.find_table("materials");
+    if (!table) return materials;
+    for (const auto& [name, value] : table->entries()) {
+        TomlTable entry = value.table();
+        entry.set_title(fmt::format("[materials.{}]", name));
+        entry.expect_keys({"color", "density", "restitution", "friction", "roughness", "metallic", "pattern"});
+        materials.emplace(name, read_material_keys(entry));
+    }
+    return materials;
+}
+
+const Material& find_material(const Materials& materials, const TomlValue& value) {
+    const std::string name = value.text();
+    if (const auto found = materials.find(name); found != materials.end()) return found->second;
+    std::vector<std::string_view> known;
+    for (const auto& [other, material] : materials) known.push_back(other);
+    value.origin().fail(fmt::format("\"{}\" is not among the materials{}", safe_text(name), suggestion(name, known)));
+}
+
+void apply_material(const Material& material, BodyDescription& body) {
+    const bool is_plane = std::holds_alternative<PlaneShape>(body.shape);
+    body.surface.color = material.color.value_or(is_plane ? default_plane_color : default_color);
+    body.surface.pattern = material.pattern.value_or(is_plane ? Pattern::grid : Pattern::plain);
+    body.surface.roughness = material.roughness.value_or(body.surface.roughness);
+    body.surface.metallic = material.metallic.value_or(body.surface.metallic);
+    body.density = material.density.value_or(body.density);
+    body.restitution = material.restitution.value_or(body.restitution);
+    body.friction = material.friction.value_or(body.friction);
+}
+
+}  // namespace tumble

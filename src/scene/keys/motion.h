@@ -1,0 +1,22 @@
+// Where a body is and how it starts to move; the keyframes of a kinematic one.
+#pragma once
+
+#include "scene/description/description.h"
+#include "scene/toml/toml_reader.h"
+
+namespace tumble {
+
+/// Of keyframes, of bodies and of the camera.
+inline constexpr Choice<Interpolation> interpolations[] = {
+    {"smooth", Interpolation::smooth},
+    {"linear", Interpolation::linear},
+};
+
+/// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
+/// With keyframes, its pose is that of the first.
+void read_motion(const TomlTable& table, BodyDescription& body);
+
+/// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is made 1), or `{ axis = [...], angle = degrees }`.
+Quat read_rotation(const TomlValue& value);
+
+}  // namespace tumble

@@ -1,0 +1,187 @@
+#include "scene/keys/run_settings.h"
+
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr Choice<IntegratorKind> integrators[] = {
+    {"symplectic-euler", IntegratorKind::symplectic_euler},
+    {"explicit-euler", IntegratorKind::explicit_euler},
+    {"exact", IntegratorKind::exact},
+    {"splitting", IntegratorKind::splitting},
+    {"rk4", IntegratorKind::runge_kutta_4},
+};
+constexpr Choice<ImpactMode> impact_modes[] = {
+    {"stepped", ImpactMode::stepped},
+    {"exact", ImpactMode::exact},
+};
+constexpr Choice<ContactSolverChoice> contact_solvers[] = {
+    {"by-island", ContactSolverChoice::by_island},
+    {"soft", ContactSolverChoice::soft},
+    {"direct", ContactSolverChoice::direct},
+};
+constexpr Choice<ImpactLaw> impact_laws[] = {
+    {"propagating", ImpactLaw::propagating},
+    {"simultaneous", ImpactLaw::simultaneous},
+};
+constexpr Choice<RotationForm> rotation_forms[] = {
+    {"quaternion", RotationForm::quaternion},
+    {"matrix", RotationForm::matrix},
+};
+
+/// A value that somebody gave, and who.
+template <class Value>
+struct Given {
+    Value value;
+    Origin origin;
+};
+
+/// What was asked for about time, by the file or over its head by the command line.
+struct TimeRequest {
+    std::optional<Given<double>> duration, fps, step;
+    std::optional<Given<std::int64_t>> steps_per_frame;
+};
+
+void read_time(const TomlTable& table, std::string_view key, std::optional<Given<double>>& target, const Range& range) {
+    if (const auto value = table.find(key)) target = {value->number(range), value->origin()};
+}
+
+void override_number(const std::optional<double>& given, const char* option, std::optional<Given<double>>& target,
+                     const Range& range) {
+    if (!given) return;
+    const Origin origin{option, {}};
+    target = {checked(*given, range, origin), origin};
+}
+
+void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
+    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law", "contact_solver",
+                       "rotation", "sleep", "seed"});
+    read_time(table, "duration", time.duration, limits::duration);
+    read_time(table, "step", time.step, limits::step);
+    if (const auto value = table.find("steps_per_frame")) {
+        time.steps_per_frame = {value->integer(1, limits::steps_per_frame), value->origin()};
+        if (time.step) value->fail("and step exclude each other: give one of them");
+    }
+    table.read("gravity", settings.gravity, limits::acceleration);
+    table.read<IntegratorKind>("integrator", settings.integrator, integrators);
+    table.read<ImpactMode>("impacts", settings.impacts, impact_modes);
+    table.read<ImpactLaw>("impact_law", settings.impact_law, impact_laws);
+    table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, contact_solvers);
+    table.read<RotationForm>("rotation", settings.rotation, rotation_forms);
+    table.read("sleep", settings.sleep);
+    if (const auto value = table.find("seed")) {
+        settings.seed = static_cast<std::uint64_t>(value->integer(0, std::numeric_limits<std::int64_t>::max()));
+    }
+}
+
+void check_samples(std::int64_t samples, const Origin& origin) {
+    if (samples != 1 && samples != 2 && samples != 4) origin.fail(fmt::format("must be 1, 2 or 4 (given {})", samples));
+}
+
+void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& time) {
+    table.expect_keys({"size", "fps", "samples"});
+    if (const auto value = table.find("size")) {
+        const auto side = value->items(2, "whole numbers, width and height");
+        output.width = static_cast<int>(side[0].integer(1, limits::image_side));
+        output.height = static_cast<int>(side[1].integer(1, limits::image_side));
+    }
+    read_time(table, "fps", time.fps, limits::fps);
+    if (const auto value = table.find("samples")) {
+        const std::int64_t samples = value->integer(std::numeric_limits<std::int64_t>::min(),
+                                                    std::numeric_limits<std::int64_t>::max());
+        check_samples(samples, value->origin());
+        output.samples = static_cast<int>(samples);
+    }
+}
+
+void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simulation, OutputSettings& output,
+                     TimeRequest& time) {
+    override_number(overrides.duration, "--duration", time.duration, limits::duration);
+    override_number(overrides.fps, "--fps", time.fps, limits::fps);
+    if (overrides.step && overrides.steps_per_frame) {
+        Origin{"--step", {}}.fail("cannot be given together with --steps-per-frame: give one of them");
+    }
+    // Either of the two says all about the step: what the file said about it no longer counts.
+    if (overrides.step || overrides.steps_per_frame) time.step.reset(), time.steps_per_frame.reset();
+    override_number(overrides.step, "--step", time.step, limits::step);
+    if (overrides.steps_per_frame) {
+        const Origin origin{"--steps-per-frame", {}};
+        time.steps_per_frame = {checked(*overrides.steps_per_frame, 1, limits::steps_per_frame, origin), origin};
+    }
+    if (overrides.integrator) {
+        simulation.integrator = chosen<IntegratorKind>(*overrides.integrator, integrators, {"--integrator", {}});
+    }
+    if (overrides.impacts) simulation.impacts = chosen<ImpactMode>(*overrides.impacts, impact_modes, {"--impacts", {}});
+    if (overrides.impact_law) {
+        simulation.impact_law = chosen<ImpactLaw>(*overrides.impact_law, impact_laws, {"--impact-law", {}});
+    }
+    if (overrides.width) {
+        output.width = static_cast<int>(checked(*overrides.width, 1, limits::image_side, {"--size", {}}));
+    }
+    if (overrides.height) {
+        output.height = static_cast<int>(checked(*overrides.height, 1, limits::image_side, {"--size", {}}));
+    }
+    if (overrides.samples) {
+        check_samples(*overrides.samples, {"--samples", {}});
+        output.samples = *overrides.samples;
+    }
+}
+
+/// The whole number of steps that a frame of 1/fps seconds holds, to within the contract's tolerance.
+int steps_in_a_frame(const TimeRequest& time, double fps) {
+    const double step = time.step->value;
+    // When --fps came after the file's step, it is the option that does not fit.
+    const Origin& origin = time.fps && time.fps->origin.is_option() ? time.fps->origin : time.step->origin;
+    const double frame = 1.0 / fps;
+    const double ratio = frame / step;
+    const double steps = std::max(1.0, std::nearbyint(ratio));
+    if (steps > static_cast<double>(limits::steps_per_frame)) {
+        origin.fail(fmt::format("makes more than {} steps a frame (a step of {} s in a frame of 1/{} s)",
+                                limits::steps_per_frame, number_text(step), number_text(fps)));
+    }
+    if (std::fabs(steps * step - frame) > limits::step_tolerance) {
+        const double more = std::max(1.0, std::ceil(ratio)), fewer = std::max(1.0, std::floor(ratio));
+        const double shorter = 1.0 / (fps * more), longer = 1.0 / (fps * fewer);
+        const double nearest = std::fabs(shorter - step) <= std::fabs(longer - step) ? shorter : longer;
+        origin.fail(fmt::format("does not fit: a step must divide the frame's 1/{} s; the nearest that does is {} s "
+                                "(given a step of {} s)", number_text(fps), number_text(nearest), number_text(step)));
+    }
+    return static_cast<int>(steps);
+}
+
+void check_frame_count(const TimeRequest& time, double duration, double fps) {
+    const double frames = std::floor(duration * fps) + 1.0;
+    if (frames <= static_cast<double>(limits::frames)) return;
+    // The defaults alone never get here, so one of the two was given; an option outranks the file.
+    const bool blame_fps =
+        !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
+    (blame_fps ? time.fps : time.duration)->origin.fail(
+        fmt::format("makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
+                    number_text(duration), number_text(fps), frames, limits::frames,
+                    number_text(blame_fps ? fps : duration)));
+}
+
+}  // namespace
+
+std::span<const Choice<IntegratorKind>> integrator_choices() { return integrators; }
+
+void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
+                       OutputSettings& output) {
+    TimeRequest time;
+    if (const auto table = root.find_table("simulation")) read_simulation(*table, simulation, time);
+    if (const auto table = root.find_table("output")) read_output(*table, output, time);
+    apply_overrides(overrides, simulation, output, time);
+
+    if (time.duration) simulation.duration = time.duration->value;
+    if (time.fps) output.fps = time.fps->value;
+    if (time.steps_per_frame) simulation.steps_per_frame = static_cast<int>(time.steps_per_frame->value);
+    if (time.step) simulation.steps_per_frame = steps_in_a_frame(time, output.fps);
+    check_frame_count(time, simulation.duration, output.fps);
+}
+
+}  // namespace tumble

@@ -1,0 +1,20 @@
+// [simulation] and [output]: how long, how fine, how it is computed, and the frames that come out.
+// The file and the command line are merged first, each value with its origin, and checked together afterwards:
+// a step that fits the file's fps may not fit the one of --fps.
+#pragma once
+
+#include "scene/load.h"
+#include "scene/toml/toml_reader.h"
+
+#include <span>
+
+namespace tumble {
+
+/// Reads both tables (either may be missing) under the overrides.
+void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
+                       OutputSettings& output);
+
+/// The integrators by their names in a file.
+std::span<const Choice<IntegratorKind>> integrator_choices();
+
+}  // namespace tumble

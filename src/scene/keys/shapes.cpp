@@ -1,0 +1,160 @@
+#include "scene/keys/shapes.h"
+
+#include "core/safe_text.h"
+#include "scene/keys/compound.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+enum class ShapeKind { plane, box, sphere, mesh, compound };
+
+constexpr Choice<ShapeKind> shape_kinds[] = {
+    {"plane", ShapeKind::plane},
+    {"box", ShapeKind::box},
+    {"sphere", ShapeKind::sphere},
+    {"mesh", ShapeKind::mesh},
+    {"compound", ShapeKind::compound},
+};
+
+// One convex hull around the mesh, or one around each object of the file.
+enum class MeshParts { whole, objects };
+
+constexpr Choice<MeshParts> mesh_parts[] = {
+    {"objects", MeshParts::objects},
+};
+
+PlaneShape read_plane(const TomlTable& table) {
+    PlaneShape plane;
+    if (const auto value = table.find("normal")) plane.normal = value->direction();
+    table.read("offset", plane.offset, limits::coordinate);
+    return plane;
+}
+
+/// A dynamic body's mass and inertia are those of what its mesh encloses, so it must enclose something.
+/// `which`: nothing, or the object of the file.
+void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::string& which = {}) {
+    const Closedness& c = mesh.closedness;
+    if (c.open_edges > 0) {
+        file.fail(
+            fmt::format("{}is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
+                        "has no mass; close it, or use it with type = \"fixed\"",
+                        which, c.open_edges));
+    }
+    if (c.crowded_edges > 0) {
+        file.fail(
+            fmt::format("{}is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
+                        "on which side is out; repair it, or use it with type = \"fixed\"",
+                        which, c.crowded_edges));
+    }
+    const double extent = mesh.asset->surface.bounds().extent().norm();
+    constexpr double rounding = 1e-12;   // of the bounds' diagonal cubed; a closed sheet has less, a hair has more
+    if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
+}
+
+void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
+    const Bounds bounds = mesh.asset->surface.bounds();
+    const double extent = bounds.extent().maxCoeff();
+    const double reach = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
+    if (!limits::size.contains(extent) || !limits::coordinate.contains(reach)) {
+        origin.origin().fail(
+            fmt::format("makes a mesh of unusable size: it reaches {} m from its origin and is {} m long "
+                        "(its length {})",
+                        number_text(reach), number_text(extent), limits::size.requirement()));
+    }
+}
+
+/// Each object of the file as a part.
+CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request, MeshCache& meshes) {
+    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh_file, request.mesh_scale);
+    auto made = std::make_shared<std::vector<CompoundPart>>();
+    const auto scale = table.find("scale");
+    for (const LoadedMesh& object : objects) {
+        if (type == BodyType::dynamic) require_solid(object, file, fmt::format("(object {}) ", made->size() + 1));
+        check_mesh_size(object, scale ? *scale : file);
+        CompoundPart part;
+        part.shape = MeshShape{object.asset};
+        made->push_back(std::move(part));
+    }
+    return {std::move(made)};
+}
+
+ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
+    ShapeRequest request;
+    table.read("scale", request.mesh_scale, limits::mesh_scale);
+    const TomlValue file = table.require("file");
+    const std::string name = file.text();
+    if (name.empty()) file.fail("must not be empty");
+    if (name.find('\0') != std::string::npos) file.fail("must not hold a zero byte");
+    request.mesh_file = (folder / std::filesystem::path(name)).lexically_normal();
+    MeshParts parts = MeshParts::whole;
+    table.read<MeshParts>("parts", parts, mesh_parts);
+    try {
+        if (parts == MeshParts::objects) {
+            request.shape = read_objects(table, type, file, request, meshes);
+            return request;
+        }
+        const LoadedMesh& mesh = meshes.load(request.mesh_file, request.mesh_scale);
+        if (type == BodyType::dynamic) require_solid(mesh, file);
+        const auto scale = table.find("scale");
+        check_mesh_size(mesh, scale ? *scale : file);
+        request.shape = MeshShape{mesh.asset};
+    } catch (const MeshError& error) {
+        throw InputError(file.origin().where, fmt::format("mesh \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
+                                                          safe_path(request.mesh_file)));
+    }
+    return request;
+}
+
+}  // namespace
+
+ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
+    TomlTable table = value.table();
+    table.set_title("a shape");
+    const TomlValue type_value = table.require("type");
+    const ShapeKind kind = type_value.choice<ShapeKind>(shape_kinds);
+    switch (kind) {
+        case ShapeKind::plane:
+            table.set_title("a plane");
+            table.expect_keys({"type", "normal", "offset"});
+            if (type == BodyType::dynamic) {
+                type_value.fail("\"plane\" is endless and cannot move freely: give the body type = \"fixed\"");
+            }
+            return {read_plane(table), {}, 1.0};
+        case ShapeKind::box: {
+            table.set_title("a box");
+            table.expect_keys({"type", "size"});
+            return {BoxShape{table.require("size").vector(limits::size)}, {}, 1.0};
+        }
+        case ShapeKind::sphere:
+            table.set_title("a sphere");
+            table.expect_keys({"type", "radius"});
+            return {SphereShape{table.require("radius").number(limits::size)}, {}, 1.0};
+        case ShapeKind::compound:
+            table.set_title("a compound");
+            return {read_compound(table, type, folder, meshes), {}, 1.0};
+        case ShapeKind::mesh:
+            break;
+    }
+    table.set_title("a mesh");
+    table.expect_keys({"type", "file", "scale", "parts"});
+    return read_mesh(table, type, folder, meshes);
+}
+
+Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
+    if (factor == 1.0) return request.shape;
+    if (const auto* box = std::get_if<BoxShape>(&request.shape)) return BoxShape{box->size * factor};
+    if (const auto* ball = std::get_if<SphereShape>(&request.shape)) return SphereShape{ball->radius * factor};
+    if (std::holds_alternative<MeshShape>(request.shape)) {
+        return MeshShape{meshes.load(request.mesh_file, request.mesh_scale * factor).asset};
+    }
+    if (const auto* compound = std::get_if<CompoundShape>(&request.shape)) return meshes.enlarged(*compound, factor);
+    return request.shape;
+}
+
+}  // namespace tumble

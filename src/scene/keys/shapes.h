@@ -1,0 +1,25 @@
+// shape = { type = "box", ... }: planes, boxes, spheres, meshes and compounds of them.
+#pragma once
+
+#include "scene/description/description.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/toml/toml_reader.h"
+
+#include <filesystem>
+
+namespace tumble {
+
+/// A shape as the file gives it, from which copies of other scales can be made.
+struct ShapeRequest {
+    Shape shape;                       // at scale 1
+    std::filesystem::path mesh_file;   // of a mesh
+    double mesh_scale = 1.0;
+};
+
+/// Reads and checks the shape of a body of that type; relative mesh files start from `folder`.
+ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesystem::path& folder, MeshCache& meshes);
+
+/// The shape made larger by a factor. Meshes of equal scale are shared.
+Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes);
+
+}  // namespace tumble

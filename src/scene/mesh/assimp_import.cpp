@@ -1,0 +1,240 @@
+#include "scene/mesh/assimp_import.h"
+
+#include "scene/mesh/mesh_transform.h"
+
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+// Bytes beyond the program's own: importers take about ten times the file, and small files their fixed tables.
+constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
+constexpr unsigned import_seconds = 60;             // the largest mesh that is allowed takes about ten
+constexpr unsigned deepest_node = 1000;             // nested transforms: deeper, a file is made to exhaust the stack
+constexpr std::size_t words_shown = 120;            // characters of assimp's own message
+
+/// A mesh has one file: whatever else it names is not there.
+class NoOtherFiles : public Assimp::IOSystem {
+public:
+    bool Exists(const char*) const override { return false; }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+    void Close(Assimp::IOStream*) override {}
+};
+
+MeshTransform after(const MeshTransform& parent, const aiMatrix4x4& m) {
+    Eigen::Matrix4f inner;
+    inner << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+    return parent.then(inner);
+}
+
+void add_mesh(const aiMesh& mesh, const MeshTransform& transform, MeshFile& result) {
+    if (!mesh.mVertices) return;
+    const auto first = static_cast<std::uint32_t>(result.positions.size());
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+        const aiVector3D& v = mesh.mVertices[i];
+        result.add_position(transform.point({v.x, v.y, v.z}));
+    }
+    std::vector<MeshFile::Corner> polygon;
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        polygon.clear();
+        for (unsigned i = 0; i < face.mNumIndices; ++i) {
+            const unsigned index = face.mIndices[i];
+            if (index >= mesh.mNumVertices)
+                throw MeshError(fmt::format("has a face with vertex {} of {}", index, mesh.mNumVertices));
+            polygon.push_back({first + index, Vec3::Zero()});
+            if (!mesh.mNormals) continue;
+            const aiVector3D& n = mesh.mNormals[index];
+            polygon.back().normal = transform.normal({n.x, n.y, n.z});
+        }
+        if (transform.mirrored()) std::reverse(polygon.begin(), polygon.end());
+        result.add_polygon(polygon);
+    }
+}
+
+void add_node(const aiNode& node, const aiScene& scene, const MeshTransform& parent, unsigned depth, MeshFile& result) {
+    if (depth > deepest_node) throw MeshError(fmt::format("nests its nodes deeper than {}", deepest_node));
+    const MeshTransform transform = after(parent, node.mTransformation);
+    if (node.mNumMeshes > 0) result.begin_object();
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+        if (node.mMeshes[i] >= scene.mNumMeshes) throw MeshError("names a part that it does not hold");
+        add_mesh(*scene.mMeshes[node.mMeshes[i]], transform, result);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], scene, transform, depth + 1, result);
+}
+
+MeshFile import(std::string_view bytes, const std::string& extension) {
+    Assimp::Importer importer;
+    importer.SetIOHandler(new NoOtherFiles);   // the importer deletes it
+    // Only its check of the data: welding, normals and the cutting of polygons are ours.
+    const aiScene* scene =
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, extension.c_str() + 1);
+    if (!scene || !scene->mRootNode)
+        throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), words_shown)));
+    MeshFile result;
+    add_node(*scene->mRootNode, *scene, {}, 0, result);
+    return result;
+}
+
+// -- From the child to the parent: a byte that says which, then the mesh or the words of an error.
+
+constexpr char is_mesh = 'm', is_error = 'e';
+
+void write_all(int file, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t n = ::write(file, at, size);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) ::_exit(1);   // no parent is left to read it
+        at += n;
+        size -= static_cast<std::size_t>(n);
+    }
+}
+
+template <class T>
+void write_list(int file, const std::vector<T>& list) {
+    const std::uint64_t count = list.size();
+    write_all(file, &count, sizeof count);
+    write_all(file, list.data(), list.size() * sizeof(T));
+}
+
+[[noreturn]] void run_child(std::string_view bytes, const std::string& extension, int result) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit memory{};
+    if (::getrlimit(RLIMIT_AS, &memory) == 0) {
+        memory.rlim_cur = std::min(memory.rlim_max, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory(bytes.size()));
+        ::setrlimit(RLIMIT_AS, &memory);
+    }
+    std::signal(SIGALRM, SIG_DFL);
+    ::alarm(import_seconds);
+    try {
+        const MeshFile mesh = import(bytes, extension);
+        write_all(result, &is_mesh, 1);
+        write_list(result, mesh.positions);
+        write_list(result, mesh.triangles);
+        write_list(result, mesh.objects);
+    } catch (const std::bad_alloc&) {
+        ::_exit(ENOMEM);
+    } catch (const std::exception& error) {
+        write_all(result, &is_error, 1);
+        write_all(result, error.what(), std::strlen(error.what()));
+    }
+    ::_exit(0);
+}
+
+/// The child's end of the pipe closes when it ends, however it ends.
+std::string read_all(int file) {
+    std::string all;
+    char part[1 << 16];
+    for (ssize_t n; (n = ::read(file, part, sizeof part)) != 0;) {
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) break;
+        all.append(part, static_cast<std::size_t>(n));
+    }
+    return all;
+}
+
+/// The lists of a mesh, each behind its length, as far as they are there.
+class Lists {
+public:
+    explicit Lists(std::string_view bytes) : bytes_(bytes) {}
+
+    template <class T>
+    std::vector<T> next() {
+        std::uint64_t count = 0;
+        if (bytes_.size() < sizeof count) throw MeshError("was not imported as a whole");
+        std::memcpy(&count, bytes_.data(), sizeof count);
+        bytes_.remove_prefix(sizeof count);
+        if (count > bytes_.size() / sizeof(T)) throw MeshError("was not imported as a whole");
+        std::vector<T> list(count);
+        if (count > 0) std::memcpy(static_cast<void*>(list.data()), bytes_.data(), count * sizeof(T));
+        bytes_.remove_prefix(count * sizeof(T));
+        return list;
+    }
+
+private:
+    std::string_view bytes_;
+};
+
+/// A child whose importer was led astray may have written anything: each value is checked again.
+MeshFile checked_mesh(std::string_view bytes) {
+    Lists lists(bytes);
+    MeshFile mesh;
+    for (const Vec3& position : lists.next<Vec3>()) mesh.add_position(position);
+    for (const auto& triangle : lists.next<std::array<MeshFile::Corner, 3>>()) {
+        for (const MeshFile::Corner& corner : triangle)
+            if (corner.position >= mesh.positions.size() || !corner.normal.allFinite())
+                throw MeshError("was imported with a corner that means nothing");
+        mesh.add_triangle(triangle);
+    }
+    mesh.objects = lists.next<std::size_t>();
+    for (std::size_t i = 0; i < mesh.objects.size(); ++i)
+        if (mesh.objects[i] > mesh.triangles.size() || (i > 0 && mesh.objects[i] <= mesh.objects[i - 1]))
+            throw MeshError("was imported with objects that mean nothing");
+    return mesh;
+}
+
+[[noreturn]] void fail(int status, std::size_t file_bytes) {
+    if (WIFEXITED(status) && WEXITSTATUS(status) == ENOMEM)
+        throw MeshError(fmt::format("takes more than {} MiB of memory to import", import_memory(file_bytes) >> 20));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+        throw MeshError(fmt::format("takes more than {} s to import", import_seconds));
+    if (WIFSIGNALED(status))
+        throw MeshError(fmt::format("makes assimp crash (signal {}): it is malformed", WTERMSIG(status)));
+    throw MeshError("cannot be imported by assimp");
+}
+
+}  // namespace
+
+bool assimp_reads(const std::string& extension) {
+    return extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
+}
+
+MeshFile import_with_assimp(std::string_view bytes, const std::string& extension) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        throw MeshError("cannot be imported: no pipe can be made: " + std::generic_category().message(errno));
+    const pid_t child = ::fork();
+    if (child == 0) run_child(bytes, extension, ends[1]);
+    const int error = errno;
+    ::close(ends[1]);
+    if (child < 0) {
+        ::close(ends[0]);
+        throw MeshError("cannot be imported: no process can be started: " + std::generic_category().message(error));
+    }
+    const std::string answer = read_all(ends[0]);
+    ::close(ends[0]);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
+    if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * words_shown));
+    return checked_mesh(std::string_view(answer).substr(1));
+}
+
+}  // namespace tumble

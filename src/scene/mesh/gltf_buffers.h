@@ -1,0 +1,54 @@
+// The buffers of a glTF file and what its accessors read from them.
+#pragma once
+
+#include "scene/mesh/gltf_json.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+class GltfBuffers {
+public:
+    /// `binary` is the binary chunk of a GLB file, else empty; `file_bytes` the size of the file. The document and the chunk
+    /// outlive the buffers. Other files are read from `folder` and below.
+    GltfBuffers(const Json& document, std::string_view binary, std::size_t file_bytes, std::filesystem::path folder)
+        : document_(document), binary_(binary), folder_(std::move(folder)), bytes_read_(file_bytes) {}
+
+    /// The number of elements of an accessor. Throws MeshError when there are more than bytes were read.
+    std::uint64_t count_vectors(std::uint64_t accessor);
+    std::uint64_t count_indices(std::uint64_t accessor);
+    /// An accessor of 3-vectors; whole numbers become floats, of -1 to 1 or 0 to 1 where they are normalized.
+    std::vector<std::array<float, 3>> vectors(std::uint64_t accessor);
+    /// An accessor of indices.
+    std::vector<std::uint32_t> indices(std::uint64_t accessor);
+    /// The files that were read beside the glTF itself.
+    const std::vector<std::filesystem::path>& other_files() const { return other_files_; }
+
+private:
+    struct Elements;
+    struct Sparse;
+    std::string_view buffer(std::uint64_t index);
+    std::string load(const Json& buffer);
+    std::string load_file(std::string_view uri);
+    std::string_view view(const Json& holder, std::size_t& stride);
+    Elements elements(std::uint64_t accessor, std::size_t components);
+    Sparse sparse_of(const Json& sparse, const Elements& elements);
+    template <class Element, class Convert>
+    std::vector<Element> read(std::uint64_t accessor, std::size_t components, const Convert& convert);
+
+    const Json& document_;
+    std::string_view binary_;
+    std::filesystem::path folder_;
+    std::uint64_t bytes_read_;        // of the file and its buffers
+    std::int64_t files_read_ = 0;     // bytes of other files
+    std::vector<std::filesystem::path> other_files_;
+    std::map<std::uint64_t, std::string> loaded_;   // buffers by their index
+};
+
+}  // namespace tumble

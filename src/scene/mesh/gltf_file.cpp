@@ -1,0 +1,224 @@
+#include "scene/mesh/gltf_file.h"
+
+#include "scene/mesh/gltf_buffers.h"
+#include "scene/mesh/gltf_json.h"
+#include "scene/mesh/mesh_transform.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace tumble {
+namespace {
+
+/// A node's own transform, in float as glTF's numbers are.
+Eigen::Matrix4f local_transform(const Json& node) {
+    Eigen::Matrix4f result = Eigen::Matrix4f::Identity();
+    if (const auto matrix = find_floats(node, "matrix", 16)) {
+        for (int i = 0; i < 16; ++i) result(i % 4, i / 4) = (*matrix)[std::size_t(i)];   // column by column
+        return result;
+    }
+    if (const auto t = find_floats(node, "translation", 3)) result.topRightCorner<3, 1>() << (*t)[0], (*t)[1], (*t)[2];
+    if (const auto q = find_floats(node, "rotation", 4)) {
+        const float x = (*q)[0], y = (*q)[1], z = (*q)[2], w = (*q)[3];
+        Eigen::Matrix4f turn = Eigen::Matrix4f::Identity();
+        turn.topLeftCorner<3, 3>() << 1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y - z * w), 2.0f * (x * z + y * w),
+            2.0f * (x * y + z * w), 1.0f - 2.0f * (x * x + z * z), 2.0f * (y * z - x * w),
+            2.0f * (x * z - y * w), 2.0f * (y * z + x * w), 1.0f - 2.0f * (x * x + y * y);
+        result = result * turn;
+    }
+    if (const auto s = find_floats(node, "scale", 3)) {
+        Eigen::Matrix4f sized = Eigen::Matrix4f::Identity();
+        sized.diagonal() << (*s)[0], (*s)[1], (*s)[2], 1.0f;
+        result = result * sized;
+    }
+    return result;
+}
+
+enum class Mode { triangles = 4, strip = 5, fan = 6 };
+
+/// A primitive of a mesh that has triangles.
+struct Primitive {
+    Mode mode;
+    std::uint64_t positions, triangles;
+    std::optional<std::uint64_t> normals, indices;
+};
+
+class SceneReader {
+public:
+    SceneReader(const Json& document, GltfBuffers& buffers) : document_(document), buffers_(buffers) {}
+
+    MeshFile read() {
+        const auto scene = find_whole(document_, "scene").value_or(0);
+        std::vector<Visit> open;
+        push(whole_numbers(require_item(document_, "scenes", scene), "nodes"), {}, open);
+        while (!open.empty()) {   // depth first; a stack of our own, for a file may nest as deep as it likes
+            const Visit visit = open.back();
+            open.pop_back();
+            const Json& node = require_item(document_, "nodes", visit.node);
+            const MeshTransform transform = visit.parent.then(local_transform(node));
+            if (const auto mesh = find_whole(node, "mesh")) add_mesh(*mesh, transform);
+            push(whole_numbers(node, "children"), transform, open);
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    struct Visit {
+        std::uint64_t node;
+        MeshTransform parent;
+    };
+
+    /// glTF's nodes are a forest. So each is visited once, and there are neither cycles nor branches that double.
+    void push(const std::vector<std::uint64_t>& nodes, const MeshTransform& parent, std::vector<Visit>& open) {
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+            require_item(document_, "nodes", *node);
+            if (*node >= visited_.size()) visited_.resize(document_["nodes"].size(), false);
+            if (visited_[*node]) throw MeshError(fmt::format("has node {} twice in its tree of nodes", *node));
+            visited_[*node] = true;
+            open.push_back({*node, parent});
+        }
+    }
+
+    /// Those without triangles are left out once and for all: nodes that show them cost nothing.
+    const std::vector<Primitive>& primitives_of(std::uint64_t mesh) {
+        const auto [entry, is_new] = meshes_.try_emplace(mesh);
+        if (!is_new) return entry->second;
+        const Json* list = find_member(require_item(document_, "meshes", mesh), "primitives");
+        if (!list || !list->is_array()) throw MeshError("has a mesh without \"primitives\"");
+        for (const Json& item : *list) {
+            const std::uint64_t mode = find_whole(item, "mode").value_or(4);
+            if (mode > 6) throw MeshError(fmt::format("has an unknown \"mode\" of {}", mode));
+            if (mode < 4) continue;   // points and lines
+            const Json* extensions = find_member(item, "extensions");
+            if (extensions && find_member(*extensions, draco)) throw UnsupportedGltf(cannot_be_read(draco));
+            const Json* attributes = find_member(item, "attributes");
+            if (!attributes || !find_member(*attributes, "POSITION")) continue;   // nothing to draw
+            Primitive primitive{};
+            primitive.mode = Mode(mode);
+            primitive.positions = require_whole(*attributes, "POSITION");
+            primitive.normals = find_whole(*attributes, "NORMAL");
+            primitive.indices = find_whole(item, "indices");
+            const std::uint64_t corners = primitive.indices ? buffers_.count_indices(*primitive.indices)
+                                                            : buffers_.count_vectors(primitive.positions);
+            if (corners < 3) continue;
+            primitive.triangles = primitive.mode == Mode::triangles ? corners / 3 : corners - 2;
+            entry->second.push_back(primitive);
+        }
+        return entry->second;
+    }
+
+    void add_mesh(std::uint64_t mesh, const MeshTransform& transform) {
+        const std::vector<Primitive>& primitives = primitives_of(mesh);
+        if (!primitives.empty()) mesh_.begin_object();
+        for (const Primitive& primitive : primitives) add_primitive(primitive, transform);
+    }
+
+    void add_primitive(const Primitive& primitive, const MeshTransform& transform) {
+        mesh_.check_more_triangles(primitive.triangles);
+        mesh_.check_more_positions(buffers_.count_vectors(primitive.positions));
+        const auto positions = buffers_.vectors(primitive.positions);
+        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+        for (const auto& position : positions) mesh_.add_position(transform.point(position));
+        std::vector<std::array<float, 3>> normals;
+        if (primitive.normals && buffers_.count_vectors(*primitive.normals) == positions.size())
+            normals = buffers_.vectors(*primitive.normals);
+        std::vector<std::uint32_t> indices;
+        if (primitive.indices) indices = buffers_.indices(*primitive.indices);
+
+        const auto corner = [&](std::uint64_t at) {
+            const std::uint64_t v = primitive.indices ? indices[at] : at;
+            if (v >= positions.size()) throw MeshError(fmt::format("has a face with vertex {} of {}", v, positions.size()));
+            MeshFile::Corner result{first + static_cast<std::uint32_t>(v), Vec3::Zero()};
+            if (!normals.empty()) result.normal = transform.normal(normals[v]);
+            return result;
+        };
+        for (std::uint64_t t = 0; t < primitive.triangles; ++t) {
+            std::array<std::uint64_t, 3> at{3 * t, 3 * t + 1, 3 * t + 2};
+            if (primitive.mode == Mode::strip) at = t % 2 ? std::array{t + 1, t, t + 2} : std::array{t, t + 1, t + 2};
+            if (primitive.mode == Mode::fan) at = {0, t + 1, t + 2};
+            if (transform.mirrored()) std::swap(at[0], at[2]);
+            mesh_.add_triangle({corner(at[0]), corner(at[1]), corner(at[2])});
+        }
+    }
+
+public:
+    static constexpr const char* draco = "KHR_draco_mesh_compression";
+    static std::string cannot_be_read(const std::string& extension) {
+        return fmt::format("needs {}, which cannot be read: export it without", extension);
+    }
+
+private:
+    const Json& document_;
+    GltfBuffers& buffers_;
+    MeshFile mesh_;
+    std::vector<bool> visited_;
+    std::map<std::uint64_t, std::vector<Primitive>> meshes_;
+};
+
+/// Extensions that the geometry needs and that are not read. Others only change what is looked at.
+void check_extensions(const Json& document) {
+    const Json* required = find_member(document, "extensionsRequired");
+    if (!required || !required->is_array()) return;
+    const auto needs = [&](const char* name) { return std::find(required->begin(), required->end(), name) != required->end(); };
+    if (needs(SceneReader::draco)) throw UnsupportedGltf(SceneReader::cannot_be_read(SceneReader::draco));
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
+        if (needs(name)) throw MeshError(SceneReader::cannot_be_read(name));
+}
+
+void check_version(const Json& document) {
+    const Json* asset = find_member(document, "asset");
+    const Json* version = asset ? find_member(*asset, "version") : nullptr;
+    if (!version || !version->is_string()) throw MeshError("is no glTF file: it has no \"asset\" with a \"version\"");
+    const std::string& text = version->get_ref<const std::string&>();
+    if (text.starts_with("1.")) throw UnsupportedGltf("is glTF 1, not 2.0");
+    if (!text.starts_with("2.")) throw MeshError(fmt::format("is glTF {}, not 2.0", readable(text, 10)));
+}
+
+struct Chunks {
+    std::string_view json, binary;
+};
+
+Chunks split_glb(std::string_view bytes) {
+    const auto take = [&] {
+        std::uint32_t number = 0;
+        if (bytes.size() < sizeof number) throw MeshError("is a GLB file that ends early");
+        std::memcpy(&number, bytes.data(), sizeof number);   // x86-64 is little endian, as GLB is
+        bytes.remove_prefix(sizeof number);
+        return number;
+    };
+    const std::size_t whole = bytes.size();
+    take();   // "glTF"
+    if (const std::uint32_t version = take(); version != 2) throw MeshError(fmt::format("is GLB version {}, not 2", version));
+    const std::uint32_t length = take(), head = 12;
+    if (length > whole || length < head)
+        throw MeshError(fmt::format("is a GLB file of {} bytes that names {} as its length", whole, length));
+    bytes = bytes.substr(0, length - head);
+    Chunks chunks;
+    constexpr std::uint32_t json_kind = 0x4e4f534a, binary_kind = 0x004e4942;   // "JSON", "BIN"
+    for (bool first = true; !bytes.empty(); first = false) {
+        const std::uint32_t size = take(), kind = take();
+        if (first != (kind == json_kind)) throw MeshError("is a GLB file whose one JSON chunk does not come first");
+        if (size > bytes.size()) throw MeshError(fmt::format("has a chunk of {} bytes where {} are left", size, bytes.size()));
+        if (first) chunks.json = bytes.substr(0, size);
+        else if (kind == binary_kind && chunks.binary.empty()) chunks.binary = bytes.substr(0, size);
+        bytes.remove_prefix(size);
+    }
+    return chunks;
+}
+
+}  // namespace
+
+MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder) {
+    const Chunks chunks = bytes.starts_with("glTF") ? split_glb(bytes) : Chunks{bytes, {}};
+    const Json document = parse_json(chunks.json);
+    check_version(document);
+    check_extensions(document);
+    GltfBuffers buffers(document, chunks.binary, bytes.size(), folder);
+    MeshFile mesh = SceneReader(document, buffers).read();
+    mesh.other_files = buffers.other_files();
+    return mesh;
+}
+
+}  // namespace tumble

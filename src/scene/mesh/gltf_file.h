@@ -1,0 +1,20 @@
+// glTF 2.0 files (Khronos, ISO/IEC 12113): the triangles of the scene's nodes. Both as JSON and as GLB.
+#pragma once
+
+#include "scene/mesh/mesh_file.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace tumble {
+
+/// A kind of glTF that has no reader of our own: version 1, or meshes compressed by Draco.
+struct UnsupportedGltf : MeshError {
+    using MeshError::MeshError;
+};
+
+/// The bytes are those of the file. Buffers may be files in the folder and below. Throws MeshError, or
+/// UnsupportedGltf.
+MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder);
+
+}  // namespace tumble

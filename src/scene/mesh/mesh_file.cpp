@@ -1,0 +1,128 @@
+#include "scene/mesh/mesh_file.h"
+
+#include "scene/mesh/assimp_import.h"
+#include "scene/mesh/gltf_file.h"
+#include "scene/mesh/input_file.h"
+#include "scene/toml/limits.h"
+#include "scene/mesh/obj_file.h"
+#include "scene/mesh/ply_file.h"
+#include "scene/mesh/polygon.h"
+#include "scene/mesh/stl_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace tumble {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& file) {
+    std::string text = file.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+/// What our reader does not know, assimp may; buffers in other files are then not there.
+MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& folder, const std::string& extension) {
+    try {
+        return read_gltf(bytes, folder);
+    } catch (const UnsupportedGltf& unsupported) {
+        try {
+            return import_with_assimp(bytes, extension);
+        } catch (const MeshError& error) {
+            throw MeshError(fmt::format("{} (assimp: {})", unsupported.what(), error.what()));
+        }
+    }
+}
+
+MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension) {
+    const bool gltf = extension == ".gltf" || extension == ".glb";
+    const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
+    if (!own && !assimp_reads(extension))
+        throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
+    const std::string bytes = read_regular_file(file, limits::mesh_bytes);
+    if (bytes.empty()) throw MeshError("is empty");
+    if (!own) return import_with_assimp(bytes, extension);
+    if (gltf) return read_any_gltf(bytes, file.parent_path(), extension);
+    if (extension == ".obj") return read_obj(bytes);
+    return extension == ".stl" ? read_stl(bytes) : read_ply(bytes);
+}
+
+}  // namespace
+
+void MeshFile::add_position(const Vec3& position) {
+    constexpr double farthest = 1e30;
+    if (!(position.cwiseAbs().maxCoeff() <= farthest)) {   // false for NaN
+        throw MeshError("holds a coordinate that is not a finite number, or beyond 1e30");
+    }
+    check_more_positions(1);
+    positions.push_back(position);
+}
+
+void MeshFile::begin_object() {
+    if (objects.empty() || objects.back() != triangles.size()) objects.push_back(triangles.size());
+}
+
+void MeshFile::add_polygon(const std::vector<Corner>& corners) {
+    if (corners.size() < 3) return;   // points and lines
+    check_corners(corners.size());
+    check_more_triangles(corners.size() - 2);
+    if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
+    std::vector<Vec3> points;
+    for (const Corner& corner : corners) points.push_back(positions[corner.position]);
+    for (const auto& t : cut_polygon(points)) triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
+}
+
+void MeshFile::add_triangle(const std::array<Corner, 3>& corners) {
+    check_more_triangles(1);
+    triangles.push_back(corners);
+}
+
+void MeshFile::check_corners(std::size_t corners) {
+    if (corners > static_cast<std::size_t>(limits::polygon_corners))
+        throw MeshError(fmt::format("holds a polygon of more than {} corners", limits::polygon_corners));
+}
+
+void MeshFile::check_more_triangles(std::uint64_t more) const {
+    constexpr std::uint64_t most = limits::mesh_triangles;
+    if (more > most || triangles.size() + more > most) throw MeshError(fmt::format("has more than {} triangles", most));
+}
+
+void MeshFile::check_more_positions(std::uint64_t more) const {
+    constexpr std::uint64_t most = 3 * limits::mesh_triangles;   // a corner each, and none to spare
+    if (more > most || positions.size() + more > most) throw MeshError(fmt::format("has more than {} vertices", most));
+}
+
+double as_written(float value) {
+    if (!std::isfinite(value)) return value;
+    char text[32];
+    const auto written = std::to_chars(text, text + sizeof text, value);
+    double result = 0.0;
+    std::from_chars(text, written.ptr, result);
+    return result;
+}
+
+Vec3 unit_or_zero(const Vec3& v) {
+    const double length = v.norm();
+    return length > 0.0 && std::isfinite(length) ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& file) {
+    MeshFile mesh = read_bytes(file, lower_extension(file));
+    if (mesh.triangles.empty()) throw MeshError("holds no triangles");
+    if (mesh.objects.empty() || mesh.objects.front() != 0) mesh.objects.insert(mesh.objects.begin(), 0);
+    if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();   // an object of points and lines
+    return mesh;
+}
+
+std::string readable(std::string_view text, std::size_t longest) {
+    std::string result(text.substr(0, longest));
+    for (char& c : result) if (c < ' ' || c > '~') c = '?';
+    return text.size() > longest ? result + "..." : result;
+}
+
+}  // namespace tumble

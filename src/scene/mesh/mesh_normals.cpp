@@ -1,0 +1,59 @@
+#include "scene/mesh/mesh_normals.h"
+
+#include "core/deterministic_math.h"
+
+namespace tumble {
+namespace {
+
+constexpr double crease_angle = 40.0;   // degrees: a tube of 10 sides is round, one of 8 has edges
+
+constexpr std::size_t most_faces_at_a_vertex = 2000;   // beyond, a fan is drawn flat: its cost grows with the square
+
+struct Incidence {
+    std::uint32_t triangle;
+    double angle;   // rad, of the triangle at the vertex
+};
+
+double corner_angle(const TriangleMesh& mesh, std::size_t triangle, int corner) {
+    const auto& t = mesh.triangles[triangle];
+    const Vec3& p = mesh.vertices[t[corner]];
+    const Vec3 a = mesh.vertices[t[(corner + 1) % 3]] - p, b = mesh.vertices[t[(corner + 2) % 3]] - p;
+    return atan2_stable(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+Vec3 face_normal(const TriangleMesh& mesh, std::size_t triangle) {
+    const auto& t = mesh.triangles[triangle];
+    const Vec3& p = mesh.vertices[t[0]];
+    return (mesh.vertices[t[1]] - p).cross(mesh.vertices[t[2]] - p).stableNormalized();
+}
+
+std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh) {
+    const double crease = sincos(crease_angle * pi / 180.0).cos;
+    std::vector<Vec3> normals;
+    std::vector<std::vector<Incidence>> around(mesh.vertices.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        normals.push_back(face_normal(mesh, t));
+        for (int i = 0; i < 3; ++i) around[mesh.triangles[t][i]].push_back({t, corner_angle(mesh, t, i)});
+    }
+    std::vector<std::array<Vec3, 3>> result(mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (int i = 0; i < 3; ++i) {
+            const std::vector<Incidence>& neighbours = around[mesh.triangles[t][i]];
+            if (neighbours.size() > most_faces_at_a_vertex) {
+                result[t][i] = normals[t];
+                continue;
+            }
+            Vec3 sum = Vec3::Zero();
+            for (const Incidence& other : neighbours) {
+                if (normals[other.triangle].dot(normals[t]) > crease) sum += other.angle * normals[other.triangle];
+            }
+            // The faces of a crease group lie within it of this one, so the sum cannot vanish.
+            result[t][i] = sum.normalized();
+        }
+    }
+    return result;
+}
+
+}  // namespace tumble

@@ -1,0 +1,139 @@
+#include "scene/mesh/obj_file.h"
+
+#include "scene/toml/limits.h"
+#include "scene/mesh/mesh_text.h"
+#include "scene/mesh/mesh_transform.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <string>
+
+namespace tumble {
+namespace {
+
+/// Calls visit(keyword, words) for every line that is not part of a curve or surface.
+template <class Visit>
+void visit_lines(std::string_view bytes, const Visit& visit) {
+    TextWords words(bytes);
+    bool in_curve = false;
+    do {
+        const std::string_view keyword = words.word();
+        if (keyword.empty()) continue;
+        if (in_curve) in_curve = keyword != "end";
+        else if (keyword == "cstype") in_curve = true;
+        else visit(keyword, words);
+    } while (words.next_line());
+}
+
+struct Points {
+    std::vector<std::array<float, 3>> positions, normals;
+};
+
+Points read_points(std::string_view bytes) {
+    Points points;
+    visit_lines(bytes, [&](std::string_view keyword, TextWords& words) {
+        if (keyword != "v" && keyword != "vn") return;
+        const std::size_t line = words.line();
+        std::array<float, 3> point{};
+        for (float& coordinate : point) coordinate = mesh_number(words.word(), line);
+        if (keyword == "vn") {
+            points.normals.push_back(point);
+            return;
+        }
+        const std::string_view fourth = words.word();
+        if (!fourth.empty() && words.word().empty()) {   // x y z w; more are a color
+            const float w = mesh_number(fourth, line);
+            for (float& coordinate : point) coordinate /= w;
+        }
+        points.positions.push_back(point);
+    });
+    return points;
+}
+
+class FaceReader {
+public:
+    explicit FaceReader(const Points& points) : points_(points), number_(points.positions.size(), none) {}
+
+    void read_line(std::string_view keyword, TextWords& words) {
+        if (keyword == "v") ++positions_seen_;
+        else if (keyword == "vn") ++normals_seen_;
+        else if (keyword == "f") read_face(words);
+        else if (keyword == "l" || keyword == "p") read_points_or_line(words);
+        else if (keyword == "o" || keyword == "g") read_name(keyword, words.word());
+    }
+    MeshFile take() { return std::move(mesh_); }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+
+    void read_name(std::string_view keyword, std::string_view name) {
+        if (name.empty() || (keyword == last_keyword_ && name == last_name_)) return;
+        last_keyword_ = keyword;
+        last_name_ = name;
+        mesh_.begin_object();
+    }
+
+    void read_face(TextWords& words) {
+        polygon_.clear();
+        for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
+            MeshFile::check_corners(polygon_.size() + 1);
+            polygon_.push_back(corner(word));
+        }
+        mesh_.add_polygon(polygon_);
+    }
+
+    /// Their points count for the size of the mesh, and nothing else of them.
+    void read_points_or_line(TextWords& words) {
+        for (std::string_view word = words.word(); !word.empty(); word = words.word()) corner(word);
+    }
+
+    /// POSITION, POSITION/TEXTURE, POSITION//NORMAL or POSITION/TEXTURE/NORMAL.
+    MeshFile::Corner corner(std::string_view word) {
+        const std::size_t first = word.find('/'), second = word.find('/', first == word.npos ? first : first + 1);
+        const std::size_t v = index(word.substr(0, first), positions_seen_, points_.positions.size(), "vertex");
+        MeshFile::Corner result;
+        if (number_[v] == none) {   // numbered by their first use
+            number_[v] = static_cast<std::uint32_t>(mesh_.positions.size());
+            mesh_.add_position(transform_.point(points_.positions[v]));
+        }
+        result.position = number_[v];
+        if (second != word.npos && second + 1 < word.size()) {
+            const std::size_t n = index(word.substr(second + 1), normals_seen_, points_.normals.size(), "normal");
+            result.normal = transform_.normal(points_.normals[n]);
+        }
+        return result;
+    }
+
+    /// Counted from 1, or from -1 backward from those seen in the file.
+    static std::size_t index(std::string_view text, std::size_t seen, std::size_t count, const char* what) {
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const std::int64_t from_zero = value > 0 ? value - 1 : static_cast<std::int64_t>(seen) + value;
+        if (error != std::errc() || end != text.data() + text.size() || value == 0 || from_zero < 0 ||
+            from_zero >= static_cast<std::int64_t>(count)) {
+            throw MeshError(fmt::format("has a face with {} {} of {}", what, readable(text, 20), count));
+        }
+        return static_cast<std::size_t>(from_zero);
+    }
+
+    const Points& points_;
+    const MeshTransform transform_;       // none
+    std::vector<std::uint32_t> number_;   // of a position in the mesh, or none
+    MeshFile mesh_;
+    std::vector<MeshFile::Corner> polygon_;
+    std::size_t positions_seen_ = 0, normals_seen_ = 0;
+    std::string_view last_keyword_, last_name_;
+};
+
+}  // namespace
+
+MeshFile read_obj(std::string_view bytes) {
+    const Points points = read_points(bytes);   // first, for a face may name a point that comes after it
+    FaceReader reader(points);
+    visit_lines(bytes, [&](std::string_view keyword, TextWords& words) { reader.read_line(keyword, words); });
+    return reader.take();
+}
+
+}  // namespace tumble

@@ -1,0 +1,14 @@
+// Wavefront OBJ files: positions, normals, polygons and their objects. Materials, texture coordinates and curves are passed
+// over, and no other file is opened.
+#pragma once
+
+#include "scene/mesh/mesh_file.h"
+
+#include <string_view>
+
+namespace tumble {
+
+/// The bytes are those of the file. Throws MeshError.
+MeshFile read_obj(std::string_view bytes);
+
+}  // namespace tumble

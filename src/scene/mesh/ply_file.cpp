@@ -1,0 +1,259 @@
+#include "scene/mesh/ply_file.h"
+
+#include "scene/toml/limits.h"
+#include "scene/toml/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tumble {
+namespace {
+
+enum class Encoding { text, little_endian, big_endian };
+constexpr Choice<Encoding> encodings[] = {
+    {"ascii", Encoding::text},
+    {"binary_little_endian", Encoding::little_endian},
+    {"binary_big_endian", Encoding::big_endian},
+};
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+constexpr Choice<Type> types[] = {
+    {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},   {"uint8", Type::uint8},
+    {"short", Type::int16},   {"int16", Type::int16},     {"ushort", Type::uint16}, {"uint16", Type::uint16},
+    {"int", Type::int32},     {"int32", Type::int32},     {"uint", Type::uint32},   {"uint32", Type::uint32},
+    {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64},
+};
+
+constexpr std::size_t header_bytes = 64 << 10;   // a hundred elements; more would only take time
+
+struct Property {
+    std::string_view name;
+    Type type;
+    std::optional<Type> list_count;   // type of a list's length
+};
+struct Element {
+    std::string_view name;
+    std::uint64_t count;
+    std::vector<Property> properties;
+};
+struct Header {
+    Encoding encoding = Encoding::text;
+    std::vector<Element> elements;
+};
+
+template <class Value>
+Value named(std::string_view name, std::span<const Choice<Value>> choices, const char* what) {
+    for (const auto& choice : choices) if (choice.name == name) return choice.value;
+    throw MeshError(fmt::format("has a header with an unknown {}", what));
+}
+
+/// Takes the text up to the next separator off the front of `text`.
+std::string_view take_until(char separator, std::string_view& text) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    const std::string_view taken = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return taken;
+}
+
+std::string_view take_word(std::string_view& line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    line.remove_prefix(word.size());
+    return word;
+}
+
+Element read_element(std::string_view words) {
+    Element element{};
+    element.name = take_word(words);
+    const std::string_view count = take_word(words);
+    const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (error != std::errc() || end != count.data() + count.size())
+        throw MeshError("has a header with an element without a count");
+    return element;
+}
+
+Property read_property(std::string_view words) {
+    Property property{};
+    std::string_view type = take_word(words);
+    if (type == "list") {
+        property.list_count = named<Type>(take_word(words), types, "type");
+        type = take_word(words);
+    }
+    property.type = named<Type>(type, types, "type");
+    property.name = take_word(words);
+    return property;
+}
+
+/// Reads the header and takes it off the front of `bytes`.
+Header read_header(std::string_view& bytes) {
+    const std::string_view whole = bytes;
+    const auto next_line = [&] {
+        if (bytes.empty()) throw MeshError("ends within its header");
+        if (whole.size() - bytes.size() > header_bytes)
+            throw MeshError(fmt::format("has a header of more than {} KiB", header_bytes >> 10));
+        std::string_view line = take_until('\n', bytes);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        return line;
+    };
+    if (next_line() != "ply") throw MeshError("does not begin with \"ply\"");
+    Header header;
+    for (std::string_view line = next_line(); line != "end_header"; line = next_line()) {
+        const std::string_view word = take_word(line);
+        if (word == "format") {
+            header.encoding = named<Encoding>(take_word(line), encodings, "format");
+        } else if (word == "element") {
+            header.elements.push_back(read_element(line));
+        } else if (word == "property") {
+            const Property property = read_property(line);
+            if (property.name.empty() || header.elements.empty())
+                throw MeshError("has a header with a misplaced property");
+            header.elements.back().properties.push_back(property);
+        }
+    }
+    return header;
+}
+
+/// The numbers after the header, one after the other.
+class Body {
+public:
+    Body(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
+
+    std::size_t bytes_left() const { return data_.size() - at_; }
+
+    double next(Type type) { return encoding_ == Encoding::text ? next_word() : next_binary(type); }
+
+private:
+    double next_word() {
+        while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
+        if (at_ < data_.size() && data_[at_] == '+') ++at_;   // from_chars takes no plus
+        if (at_ == data_.size()) throw MeshError("ends early");
+        const char* first = data_.data() + at_;
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(first, data_.data() + data_.size(), value);
+        if (error != std::errc())
+            throw MeshError(fmt::format("holds something that is not a number, at byte {} after its header", at_));
+        at_ += static_cast<std::size_t>(end - first);
+        return value;
+    }
+
+    template <class Number>
+    Number take() {
+        if (bytes_left() < sizeof(Number)) throw MeshError("ends early");
+        char bytes[sizeof(Number)];
+        std::memcpy(bytes, data_.data() + at_, sizeof bytes);
+        if (encoding_ == Encoding::big_endian) std::reverse(bytes, bytes + sizeof bytes);   // x86-64 is little endian
+        at_ += sizeof bytes;
+        Number value;
+        std::memcpy(&value, bytes, sizeof bytes);
+        return value;
+    }
+
+    double next_binary(Type type) {
+        switch (type) {
+            case Type::int8: return take<std::int8_t>();
+            case Type::uint8: return take<std::uint8_t>();
+            case Type::int16: return take<std::int16_t>();
+            case Type::uint16: return take<std::uint16_t>();
+            case Type::int32: return take<std::int32_t>();
+            case Type::uint32: return take<std::uint32_t>();
+            case Type::float32: return as_written(take<float>());
+            case Type::float64: break;
+        }
+        return take<double>();
+    }
+
+    std::string_view data_;
+    Encoding encoding_;
+    std::size_t at_ = 0;
+};
+
+/// A whole number below `limit`, or an error.
+std::size_t whole(double value, double limit, const char* what) {
+    if (!(value >= 0.0 && value < limit) || value != std::trunc(value)) {
+        throw MeshError(fmt::format("has {} of {}", what, number_text(value)));
+    }
+    return static_cast<std::size_t>(value);
+}
+
+/// Reads one row of an element: single numbers to `scalars`, the numbers of its lists to `lists`, by property.
+void read_row(Body& body, const Element& element, std::vector<double>& scalars,
+              std::vector<std::vector<double>>& lists) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const Property& property = element.properties[i];
+        if (!property.list_count) {
+            scalars[i] = body.next(property.type);
+            continue;
+        }
+        lists[i].resize(
+            whole(body.next(*property.list_count), double(body.bytes_left()) + 1.0, "a list with a length"));
+        for (double& value : lists[i]) value = body.next(property.type);
+    }
+}
+
+std::optional<std::size_t> property_index(const Element& element, std::string_view name, bool is_list) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        if (element.properties[i].name == name && element.properties[i].list_count.has_value() == is_list) return i;
+    }
+    return std::nullopt;
+}
+
+/// The properties of three names, when the element has them all.
+std::optional<std::array<std::size_t, 3>> triple(const Element& element, const std::array<const char*, 3>& names) {
+    std::array<std::size_t, 3> result{};
+    for (int i = 0; i < 3; ++i) {
+        const auto index = property_index(element, names[i], false);
+        if (!index) return std::nullopt;
+        result[i] = *index;
+    }
+    return result;
+}
+
+}  // namespace
+
+MeshFile read_ply(std::string_view bytes) {
+    const Header header = read_header(bytes);
+    Body body(bytes, header.encoding);
+
+    MeshFile mesh;
+    std::vector<Vec3> normals;   // one a vertex, or none at all
+    for (const Element& element : header.elements) {
+        const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+        const auto position = triple(element, {"x", "y", "z"}), normal = triple(element, {"nx", "ny", "nz"});
+        auto corners = property_index(element, "vertex_indices", true);
+        if (!corners) corners = property_index(element, "vertex_index", true);
+        if (is_vertex && !position) throw MeshError("has vertices without x, y and z");
+        if (is_face && !corners) throw MeshError("has faces without vertex_indices");
+        if (element.properties.empty() && element.count > 0) continue;   // rows of nothing
+
+        std::vector<double> scalar(element.properties.size());
+        std::vector<std::vector<double>> list(element.properties.size());
+        std::vector<MeshFile::Corner> polygon;
+        for (std::uint64_t row = 0; row < element.count; ++row) {
+            read_row(body, element, scalar, list);
+            if (is_vertex) {
+                const auto& [x, y, z] = *position;
+                mesh.add_position({scalar[x], scalar[y], scalar[z]});
+                if (normal)
+                    normals.push_back(unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
+            } else if (is_face) {
+                polygon.clear();
+                for (const double index : list[*corners]) {
+                    const std::size_t v = whole(index, double(mesh.positions.size()), "a face with a vertex");
+                    polygon.push_back(
+                        {static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]});
+                }
+                mesh.add_polygon(polygon);
+            }
+        }
+    }
+    return mesh;
+}
+
+}  // namespace tumble

@@ -1,0 +1,14 @@
+// PLY files (Turk 1994): text and binary, positions, normals and polygons; other elements and properties are passed
+// over.
+#pragma once
+
+#include "scene/mesh/mesh_file.h"
+
+#include <string_view>
+
+namespace tumble {
+
+/// The bytes are those of the file. Throws MeshError.
+MeshFile read_ply(std::string_view bytes);
+
+}  // namespace tumble

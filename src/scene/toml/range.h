@@ -1,0 +1,50 @@
+// What a number or a name may be, and the words for one that is not.
+#pragma once
+
+#include "scene/toml/error_text.h"
+#include "core/safe_text.h"
+#include "scene/toml/source_position.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// The values a number may take. NaN and infinities are outside of every range.
+struct Range {
+    double min, max;
+    const char* unit = "";       // for messages
+    bool min_excluded = false;   // "above min" in place of "at least min"
+
+    bool contains(double value) const {
+        return (min_excluded ? value > min : value >= min) && value <= max;   // false for NaN
+    }
+    /// "must be above 0 and at most 1e+09 m".
+    std::string requirement() const;
+};
+
+/// The value itself when it is in the range; otherwise fails at its origin.
+double checked(double value, const Range& range, const Origin& origin);
+std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const Origin& origin);
+
+/// A name in the file and what it stands for.
+template <class Value>
+struct Choice {
+    std::string_view name;
+    Value value;
+};
+
+template <class Value>
+Value chosen(std::string_view given, std::span<const Choice<Value>> choices, const Origin& origin) {
+    std::vector<std::string_view> names;
+    for (const auto& choice : choices) {
+        if (choice.name == given) return choice.value;
+        names.push_back(choice.name);
+    }
+    origin.fail("must be one of " + quoted_list(names) + " (given \"" + safe_text(given) + "\")");
+}
+
+}  // namespace tumble

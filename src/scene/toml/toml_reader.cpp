@@ -1,0 +1,200 @@
+#define TOML_IMPLEMENTATION   // toml++ is compiled here, and only declared elsewhere
+#include "scene/toml/toml_reader.h"
+
+#include "core/safe_text.h"
+#include "scene/toml/limits.h"
+#include "scene/toml/toml_scan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+SourceLocation location_of(const toml::source_region& source, const std::string& file) {
+    return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+/// The array as a message shows it: as many items as fit into `room` bytes, and the number of all.
+std::string given_text(const toml::array& array, std::size_t room);
+
+/// The value as a message shows it, of readable length and on one line.
+std::string given_text(const toml::node& node, std::size_t room = value_text_bytes) {
+    if (const auto* s = node.as_string()) return fmt::format("\"{}\"", safe_text(s->get()));
+    if (const auto* i = node.as_integer()) return fmt::format("{}", i->get());
+    if (const auto* f = node.as_floating_point()) return number_text(f->get());
+    if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+    if (node.is_table()) return "a table";
+    if (const auto* array = node.as_array()) return given_text(*array, room);
+    return "a date or time";
+}
+
+std::string given_text(const toml::array& array, std::size_t room) {
+    std::string text = "[";
+    for (const toml::node& item : array) {
+        if (text.size() > 1) text += ", ";
+        const std::string next = text.size() < room ? given_text(item, room - text.size()) : std::string();
+        if (text.size() + next.size() >= room) return fmt::format("{}... ({} items)]", text, array.size());
+        text += next;
+    }
+    return text + "]";
+}
+
+constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser's, with what it saw
+
+}  // namespace
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+    check_toml_amounts(text, file);
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw InputError(location_of(error.source(), file), safe_text(error.description(), longest_syntax_error));
+    }
+}
+
+// -- TomlValue
+
+void TomlValue::fail(std::string_view problem) const {
+    origin_.fail(fmt::format("{} (given {})", problem, given_text(*node_)));
+}
+
+double TomlValue::number(const Range& range) const {
+    if (!node_->is_number()) fail("must be a number");
+    const double value = node_->is_integer() ? static_cast<double>(node_->as_integer()->get())
+                                             : node_->as_floating_point()->get();
+    return checked(value, range, origin_);
+}
+
+std::int64_t TomlValue::integer(std::int64_t min, std::int64_t max) const {
+    if (!node_->is_integer()) fail("must be a whole number");
+    return checked(node_->as_integer()->get(), min, max, origin_);
+}
+
+bool TomlValue::boolean() const {
+    if (!node_->is_boolean()) fail("must be true or false");
+    return node_->as_boolean()->get();
+}
+
+std::string TomlValue::text() const {
+    if (!node_->is_string()) fail("must be a string");
+    return node_->as_string()->get();
+}
+
+Color TomlValue::color() const {
+    if (node_->is_string()) {
+        if (const auto color = parse_color(node_->as_string()->get())) return *color;
+    }
+    fail("must be a colour \"#rrggbb\"");
+}
+
+Vec3 TomlValue::vector(const Range& range) const {
+    const auto component = items(3, "numbers");
+    return {component[0].number(range), component[1].number(range), component[2].number(range)};
+}
+
+Vec3 TomlValue::direction() const {
+    const Vec3 v = vector(limits::direction);
+    const double largest = v.cwiseAbs().maxCoeff();
+    if (largest == 0.0) fail("must not be zero");
+    return (v / largest).normalized();   // scaled first: squares of tiny components would vanish
+}
+
+TomlTable TomlValue::table() const {
+    if (!node_->is_table()) fail("must be a table");
+    return TomlTable(*node_->as_table(), origin_, origin_.name);
+}
+
+std::vector<TomlValue> TomlValue::items() const {
+    if (!node_->is_array()) fail("must be an array");
+    std::vector<TomlValue> result;
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item));
+    return result;
+}
+
+TomlValue TomlValue::item_of(const toml::node& item) const {
+    return {item, {origin_.name, location_of(item.source(), origin_.where.file)}};
+}
+
+std::vector<TomlValue> TomlValue::items(std::size_t count, std::string_view kind) const {
+    if (!node_->is_array() || node_->as_array()->size() != count)
+        fail(fmt::format("must be an array of {} {}", count, kind));
+    return items();
+}
+
+std::vector<TomlTable> TomlValue::tables(std::string_view hint) const {
+    if (!node_->is_array()) fail(fmt::format("must be an array of tables{}", hint));
+    std::vector<TomlTable> result;
+    for (const toml::node& item : *node_->as_array()) result.push_back(item_of(item).table());
+    return result;
+}
+
+// -- TomlTable
+
+void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const {
+    const toml::key* first = nullptr;
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
+        if (first == nullptr || key.source().begin < first->source().begin) first = &key;
+    }
+    if (first == nullptr) return;
+    throw InputError(location_of(first->source(), origin_.where.file),
+                     fmt::format("unknown key \"{}\" in {}{}", safe_text(first->str()), safe_text(title_),
+                                 suggestion(first->str(), known)));
+}
+
+Origin TomlTable::origin_of(std::string_view key, const toml::node& node) const {
+    return {std::string(key), location_of(node.source(), origin_.where.file)};
+}
+
+std::optional<TomlValue> TomlTable::find(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    if (!node) return std::nullopt;
+    return TomlValue(*node, origin_of(key, *node));
+}
+
+TomlValue TomlTable::require(std::string_view key) const {
+    if (auto value = find(key)) return *value;
+    throw InputError(origin_.where, fmt::format("{} needs \"{}\" (not given)", safe_text(title_), key));
+}
+
+std::optional<TomlTable> TomlTable::find_table(std::string_view key) const {
+    const auto value = find(key);
+    if (!value) return std::nullopt;
+    TomlTable table = value->table();
+    table.set_title(fmt::format("[{}]", key));
+    return table;
+}
+
+std::vector<std::pair<std::string, TomlValue>> TomlTable::entries() const {
+    std::vector<std::pair<const toml::key*, const toml::node*>> places;
+    for (const auto& [key, node] : *table_) places.emplace_back(&key, &node);
+    std::sort(places.begin(), places.end(),
+              [](const auto& a, const auto& b) { return a.first->source().begin < b.first->source().begin; });
+    std::vector<std::pair<std::string, TomlValue>> result;
+    for (const auto& [key, node] : places)
+        result.emplace_back(std::string(key->str()), TomlValue(*node, origin_of(key->str(), *node)));
+    return result;
+}
+
+void TomlTable::read(std::string_view key, double& target, const Range& range) const {
+    if (const auto value = find(key)) target = value->number(range);
+}
+void TomlTable::read(std::string_view key, std::optional<double>& target, const Range& range) const {
+    if (const auto value = find(key)) target = value->number(range);
+}
+void TomlTable::read(std::string_view key, Vec3& target, const Range& range) const {
+    if (const auto value = find(key)) target = value->vector(range);
+}
+void TomlTable::read(std::string_view key, bool& target) const {
+    if (const auto value = find(key)) target = value->boolean();
+}
+void TomlTable::read(std::string_view key, std::string& target) const {
+    if (const auto value = find(key)) target = value->text();
+}
+void TomlTable::read(std::string_view key, Color& target) const {
+    if (const auto value = find(key)) target = value->color();
+}
+
+}  // namespace tumble
