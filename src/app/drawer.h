@@ -12,7 +12,7 @@
 #include "app/stage_time.h"
 #include "render/drawn_poses.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <atomic>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/aov/aov_maker.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
 #include <optional>

@@ -6,7 +6,7 @@
 #include "output/video_format.h"
 #include "render/aov/aov_maker.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstddef>
 #include <optional>

@@ -6,7 +6,7 @@
 #include "render/fine_surface.h"
 #include "render/mesh_charts.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <glm/vec3.hpp>
 

@@ -7,7 +7,7 @@
 
 #include "core/keyframe_curve.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <optional>
 

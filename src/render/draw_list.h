@@ -7,7 +7,7 @@
 #include "render/mesh_detail.h"
 #include "render/occlusion_atlas.h"
 #include "render/shadow_fit.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

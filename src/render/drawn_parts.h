@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstddef>
 #include <memory>

@@ -14,7 +14,7 @@
 #include "render/camera_path.h"
 #include "render/camera_view.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/body_looks.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstddef>
 #include <cstdint>

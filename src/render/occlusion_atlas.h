@@ -12,7 +12,7 @@
 #include "render/camera_view.h"
 #include "render/sky_openness.h"
 #include "render/visibility.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
 #include <memory>

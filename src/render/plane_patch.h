@@ -5,7 +5,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_view.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -5,7 +5,7 @@
 
 #include "render/body_looks.h"
 #include "render/occlusion_atlas.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "core/image.h"
 #include "core/rectangle.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <filesystem>
 #include <memory>

@@ -6,7 +6,7 @@
 
 #include "render/body_looks.h"
 #include "render/camera_view.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <array>
 #include <cstdint>

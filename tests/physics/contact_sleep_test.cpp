@@ -1,7 +1,7 @@
 // Sleep seen from outside: it changes nothing that can be seen, and ends exactly when it must.
 #include "core/deterministic_math.h"
-#include "sim/body_builder.h"
-#include "sim/broad_phase.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/detection/broad_phase.h"
 #include "sim/random_shapes.h"
 #include "support/meshes.h"
 #include "support/scenes.h"

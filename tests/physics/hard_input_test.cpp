@@ -1,7 +1,7 @@
 // Bad and hard input for impacts: extreme speeds, spins, masses, shapes, places and scales. In every case the state stays
 // finite, the run ends, nothing passes through the ground, and momentum is kept where nothing external acts.
 #include "exact_scenes.h"
-#include "sim/flight/path.h"
+#include "sim/ccd/trajectory.h"
 #include "sim/random_shapes.h"
 #include "support/bodies.h"
 #include "support/meshes.h"

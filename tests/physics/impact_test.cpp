@@ -1,5 +1,5 @@
 // Collisions: eq. 20 on random pairs, bounces, rows of balls, boxes that land flat.
-#include "sim/contact/impacts.h"
+#include "sim/impact/impacts.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Masses, centres of mass and inertia tensors against their formulas.
-#include "sim/mass_properties.h"
+#include "sim/math/mass_properties.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 

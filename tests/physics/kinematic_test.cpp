@@ -1,5 +1,5 @@
 // Kinematic bodies: smooth through their keyframes, deaf to impulses, and they carry what stands on them.
-#include "sim/keyframe_track.h"
+#include "sim/math/keyframe_track.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

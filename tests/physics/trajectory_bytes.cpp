@@ -1,7 +1,7 @@
 // Prints the bytes of trajectories that go through every part of the simulation: boxes, spheres, hulls, a triangle
 // surface, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number of threads.
-#include "sim/body_builder.h"
-#include "sim/integrator/advance.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/dynamics/integrators/advance.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
 #include "support/scenes.h"

@@ -1,9 +1,9 @@
 // A body alone over a span of time: closed forms of drag, thrust and spans of force, and references in higher precision.
-#include "sim/integrator/advance.h"
+#include "sim/dynamics/integrators/advance.h"
 
 #include "core/error.h"
 #include "random_shapes.h"
-#include "sim/body_builder.h"
+#include "sim/dynamics/body_builder.h"
 #include "support/motion_reference.h"
 #include "support/scenes.h"
 

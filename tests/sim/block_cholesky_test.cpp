@@ -1,5 +1,5 @@
 // The factorisation by blocks against Eigen's of the same matrix, dense.
-#include "sim/contact/block_cholesky.h"
+#include "sim/contact/direct/block_cholesky.h"
 #include "sim/random_shapes.h"
 
 #include <Eigen/Cholesky>

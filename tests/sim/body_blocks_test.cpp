@@ -1,5 +1,5 @@
 // Islands in blocks: every body once, blocks small enough, and of an island the same blocks whatever lies beside it.
-#include "sim/contact/body_blocks.h"
+#include "sim/contact/soft/body_blocks.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The tree finds exactly what a loop over all items finds.
 #include "random_shapes.h"
-#include "sim/collision/bounds_tree.h"
+#include "sim/geometry/bounds_tree.h"
 
 #include <gtest/gtest.h>
 

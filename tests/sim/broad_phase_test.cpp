@@ -1,7 +1,7 @@
 // Pairs of the broad phase against all pairs, over random motion, with sleepers, fixed and kinematic bodies.
 #include "random_shapes.h"
-#include "sim/broad_phase.h"
-#include "sim/narrow_phase.h"
+#include "sim/detection/broad_phase.h"
+#include "sim/detection/narrow_phase.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "random_shapes.h"
-#include "sim/contact/contact_cluster.h"
+#include "sim/impact/impact_system.h"
 
 #include <map>
 #include <numeric>

@@ -1,7 +1,7 @@
 // Compounds: mass by the parallel axis theorem, contacts part by part, the first impact over all pairs of parts.
 #include "random_shapes.h"
-#include "sim/body_builder.h"
-#include "sim/flight/time_of_impact.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/ccd/time_of_impact.h"
 #include "support/bodies.h"
 #include "support/compounds.h"
 

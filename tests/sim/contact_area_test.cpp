@@ -1,5 +1,5 @@
 // Even pressure over a contact area, and the points that stand for it.
-#include "sim/collision/contact_area.h"
+#include "sim/geometry/contact_area.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Islands against a flood fill over all pairs of bodies.
-#include "sim/contact/contact_islands.h"
+#include "sim/contact/model/contact_islands.h"
 #include "sim/contact_scenes.h"
 #include "sim/random_shapes.h"
 

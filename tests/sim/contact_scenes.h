@@ -2,12 +2,12 @@
 // the impulses can be seen.
 #pragma once
 
-#include "sim/body_builder.h"
-#include "sim/broad_phase.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/detection/broad_phase.h"
 #include "sim/contact/contact_solver.h"
-#include "sim/integrator.h"
-#include "sim/narrow_phase.h"
-#include "sim/tuning.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/detection/narrow_phase.h"
+#include "sim/settings/tuning.h"
 #include "support/scenes.h"
 
 #include <numeric>

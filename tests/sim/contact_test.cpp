@@ -1,6 +1,6 @@
 // Contacts made of manifolds, and what is carried over from the step before.
 #include "clusters.h"
-#include "sim/collision/carry_over.h"
+#include "sim/geometry/impulse_matching.h"
 
 #include <gtest/gtest.h>
 

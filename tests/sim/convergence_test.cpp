@@ -1,9 +1,9 @@
 // What each integrator claims: its order, what it does to energy in the long run, whether it can be run back.
 #include "random_shapes.h"
-#include "sim/integrator.h"
-#include "sim/integrator/extrapolation.h"
-#include "sim/integrator/runge_kutta_4.h"
-#include "sim/integrator/splitting.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/extrapolation.h"
+#include "sim/dynamics/integrators/runge_kutta_4.h"
+#include "sim/dynamics/integrators/splitting.h"
 #include "support/motion_reference.h"
 
 #include <gtest/gtest.h>

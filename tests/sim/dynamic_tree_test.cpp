@@ -1,7 +1,7 @@
 // The dynamic tree against looking at every box, while boxes come, move and go; the event queue against sorting.
 #include "random_shapes.h"
-#include "sim/collision/dynamic_tree.h"
-#include "sim/flight/event_queue.h"
+#include "sim/geometry/dynamic_tree.h"
+#include "sim/event_driven/event_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The closed form against Taylor series in higher precision, and what it must keep: L, energy, time's arrow.
-#include "sim/free_rotation.h"
+#include "sim/math/free_rotation.h"
 
 #include "core/deterministic_math.h"
 #include "random_shapes.h"

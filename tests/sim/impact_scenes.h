@@ -2,7 +2,7 @@
 #pragma once
 
 #include "clusters.h"
-#include "sim/contact/impacts.h"
+#include "sim/impact/impacts.h"
 
 #include <algorithm>
 #include <cmath>

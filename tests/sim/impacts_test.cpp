@@ -1,6 +1,6 @@
 // Collisions of whole clusters: momentum kept, energy never gained (kept for e = 1), nothing left approaching.
 #include "impact_scenes.h"
-#include "sim/tuning.h"
+#include "sim/settings/tuning.h"
 
 #include <gtest/gtest.h>
 

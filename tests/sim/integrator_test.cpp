@@ -1,6 +1,6 @@
 // One body's step: rotations stay rotations, both forms agree, both Eulers are the formulas they claim to be.
 #include "random_shapes.h"
-#include "sim/integrator.h"
+#include "sim/dynamics/integrator.h"
 
 #include <gtest/gtest.h>
 

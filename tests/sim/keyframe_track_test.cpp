@@ -1,7 +1,7 @@
 // Paths of kinematic bodies: they pass through their keys, their velocities are the derivatives of their poses, and odd
 // key lists (one, two, equal, half turns, uneven times) are paths like any other.
 #include "random_shapes.h"
-#include "sim/keyframe_track.h"
+#include "sim/math/keyframe_track.h"
 
 #include <gtest/gtest.h>
 

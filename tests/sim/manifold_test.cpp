@@ -1,5 +1,5 @@
 // Which four points of many are kept: those that bear.
-#include "sim/contact/passing.h"
+#include "sim/contact/model/predicted_gap.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Manifolds from step to step: what contact has built up stays with the points that are still there.
 #include "random_shapes.h"
-#include "sim/body_builder.h"
-#include "sim/narrow_phase.h"
-#include "sim/tuning.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/detection/narrow_phase.h"
+#include "sim/settings/tuning.h"
 #include "support/compounds.h"
 
 #include <gtest/gtest.h>

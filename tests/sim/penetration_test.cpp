@@ -2,7 +2,7 @@
 // differences of vertices. The largest of the signed distances of the origin outside those faces is the separation
 // along the best axis (negative: the depth of the overlap).
 #include "random_shapes.h"
-#include "sim/collision/separating_axis.h"
+#include "sim/geometry/separating_axis.h"
 
 #include <gtest/gtest.h>
 

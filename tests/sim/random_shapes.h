@@ -1,7 +1,7 @@
 // Random numbers that are the same everywhere, and shapes and poses made of them.
 #pragma once
 
-#include "sim/collision/collide.h"
+#include "sim/geometry/collide.h"
 #include "support/meshes.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Who falls asleep, and when; who wakes, and with whom.
-#include "sim/contact/sleep.h"
+#include "sim/contact/model/sleep.h"
 #include "sim/contact_scenes.h"
 
 #include <gtest/gtest.h>

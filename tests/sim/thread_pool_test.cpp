@@ -1,5 +1,5 @@
 // Every item once, whatever the sizes; exceptions come back in item order; the pool goes on afterwards.
-#include "sim/thread_pool.h"
+#include "sim/threads/thread_pool.h"
 
 #include <gtest/gtest.h>
 

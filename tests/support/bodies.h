@@ -1,9 +1,9 @@
 // Single bodies as values, for tests of the parts of the simulation below World.
 #pragma once
 
-#include "sim/body.h"
-#include "sim/body_builder.h"
-#include "sim/mass_properties.h"
+#include "sim/dynamics/body.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/math/mass_properties.h"
 #include "support/scenes.h"
 
 #include <memory>

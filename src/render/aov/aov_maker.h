@@ -7,7 +7,7 @@
 #include "render/aov/surface_map.h"
 #include "render/camera_path.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
 #include <memory>

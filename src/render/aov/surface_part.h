@@ -4,7 +4,7 @@
 #include "core/color.h"
 #include "render/aov/pinhole_camera.h"
 #include "scene/description/description.h"
-#include "sim/snapshot.h"
+#include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "sim/contact/contact_solver.h"
 
-#include "sim/contact/common_motion.h"
-#include "sim/tuning.h"
+#include "sim/contact/model/rigid_mode.h"
+#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 // (soft_solver.h); after a failure it is not tried again for a while.
 #pragma once
 
-#include "sim/contact/contact_islands.h"
-#include "sim/contact/direct_solver.h"
-#include "sim/contact/pile_load.h"
-#include "sim/contact/soft_solver.h"
+#include "sim/contact/model/contact_islands.h"
+#include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/model/load_estimate.h"
+#include "sim/contact/soft/soft_solver.h"
 
 #include <memory>
 #include <vector>

@@ -1,0 +1,174 @@
+#include "sim/ccd/ccd_clamp.h"
+
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace tumble {
+namespace {
+
+double depth(const Body& body) { return depth(body.collider); }
+
+bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
+
+bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
+
+// Of a ball only the centre counts; what cannot turn may be infinite.
+double turning(double arm, const BodyVelocity& motion) {
+    return arm == 0.0 || motion.angular_velocity.isZero(0.0) ? 0.0 : motion.angular_velocity.norm() * arm;
+}
+
+// How far (m) two bodies of these depths may go against each other unseen. Pushed out of the right side is what is in by less
+// than both inner radii together, against a surface, whose depth is infinite, by less than its own; but nothing shall be seen to
+// sink in by more than that.
+double thin(double depth_a, double depth_b) {
+    const double least = std::min(depth_a, depth_b), most = std::max(depth_a, depth_b);
+    return std::min(tuning::fast_share * (std::isinf(most) ? least : depth_a + depth_b), tuning::fast_deepest * least);
+}
+
+}  // namespace
+
+void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share) {
+    const double work = (1.0 - share) * (impulse.dot(body.velocity) + turn.dot(body.angular_velocity));
+    if (!(work > 0.0)) return;
+    const double energy = body.kinetic_energy();
+    const double scale = std::sqrt(std::max(0.0, 1.0 - work / energy));
+    body.momentum *= scale;
+    body.angular_momentum *= scale;
+    body.derive_velocities();
+}
+
+// The first touch in the step, with each body standing still once its share is used up; h if there is none.
+double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
+    const std::uint32_t i = pair.a, j = pair.b;
+    const Body &a = bodies[i], &b = bodies[j];
+    const double end_a = limits_[i].share * h, end_b = limits_[j].share * h, both = std::min(end_a, end_b);
+    TimeOfImpact found = search_.find({&a, &paths_[i], 0.0}, {&b, &paths_[j], 0.0}, both, pair.overlap);
+    if (found.kind != TimeOfImpact::Kind::none) return found.time;
+    const double rest = std::max(end_a, end_b) - both;
+    if (!(rest > 0.0)) return h;
+    const Traveller going_a = end_a > both ? Traveller{&a, &paths_[i], both} : Traveller{&a, &still_[i], 0.0};
+    const Traveller going_b = end_b > both ? Traveller{&b, &paths_[j], both} : Traveller{&b, &still_[j], 0.0};
+    found = search_.find(going_a, going_b, rest, pair.overlap);
+    return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
+}
+
+MotionLimit::MotionLimit(const std::vector<Body>& bodies)
+    : limits_(bodies.size()), least_thin_(std::numeric_limits<double>::infinity()) {
+    const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
+    for (const Body& body : bodies) {
+        arm_.push_back(ball(body) ? 0.0 : body.radius);
+        const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
+        least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
+    }
+}
+
+// Told without looking at any pair: two of them go no farther than the thinnest body is thin.
+bool MotionLimit::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
+    return 2.0 * h * (motion.velocity.norm() + turning(arm_[body], motion)) > least_thin_;
+}
+
+StepLimit& MotionLimit::shorten(std::uint32_t body) {
+    shortened_.push_back(body);
+    return limits_[body];
+}
+
+TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
+    return [&](std::uint32_t a, std::uint32_t b) -> std::optional<double> {
+        const auto before = [](const Manifold& m, const std::pair<std::uint32_t, std::uint32_t>& pair) {
+            return std::tie(m.a, m.b) < std::tie(pair.first, pair.second);
+        };
+        std::optional<double> deepest;
+        const double touch = touch_distance(bodies[a].radius, bodies[b].radius);
+        for (auto m = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
+             m != manifolds.end() && m->a == a && m->b == b; ++m)
+            for (int i = 0; i < m->count; ++i)
+                if (const double gap = m->points[std::size_t(i)].separation; gap <= touch)
+                    deepest = std::max(deepest.value_or(0.0), -gap);
+        return deepest;
+    };
+}
+
+const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
+                                                  const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
+                                                  double h, bool any_fast, const TurnsFreely& turns_freely) {
+    for (const std::uint32_t i : shortened_) limits_[i] = {};
+    shortened_.clear();
+    fast_.clear();
+    if (!any_fast) return limits_;
+    for (const BroadPhase::Pair& pair : find_pairs()) {
+        const Body &a = bodies[pair.a], &b = bodies[pair.b];
+        const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
+        const BodyVelocity &of_a = motions[pair.a], &of_b = motions[pair.b];
+        // How far the bodies' points can move against each other in the step.
+        const double gone = h * ((of_b.velocity - of_a.velocity).norm() + turning(arm_[pair.a], of_a) + turning(arm_[pair.b], of_b));
+        const double least = std::min(depth_a, depth_b);
+        // A half-space has no other side: only nothing shall be seen to sink in.
+        const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);
+        if (gone <= (half_space ? tuning::fast_deepest * least : thin(depth_a, depth_b))) continue;
+        FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
+        if (const auto deepest = touch_depth(pair.a, pair.b)) {
+            // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
+            if (ball(a) && ball(b)) continue;   // nothing turns
+            fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
+        }
+        fast_.push_back(fast);
+    }
+    if (fast_.empty()) return limits_;
+
+    paths_.resize(bodies.size());
+    still_.resize(bodies.size());
+    for (const FastPair& pair : fast_) {
+        for (const std::uint32_t k : {pair.a, pair.b}) {
+            paths_[k] = turns_freely && turns_freely(k) ? Path::drift(bodies[k], motions[k].velocity)
+                                        : Path::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
+            still_[k] = paths_[k];
+        }
+    }
+    for (int round = 0; round < tuning::motion_limit_rounds; ++round) {
+        bool shorter = false;
+        for (FastPair& pair : fast_) {
+            double first = first_touch(pair, bodies, h);
+            if (pair.overlap == 0.0 && first <= pair.at_once) {
+                pair.overlap = pair.overlap_of_touching;
+                first = first_touch(pair, bodies, h);
+            }
+            const double share = first / h;
+            for (const std::uint32_t k : {pair.a, pair.b}) {
+                if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
+                const std::uint32_t other = k == pair.a ? pair.b : pair.a;
+                shorten(k) = {share, bodies[other].track ? other : StepLimit::none, other};
+                shorter = true;
+            }
+        }
+        if (!shorter) return limits_;
+        // A body that stops earlier stands in others' way: where it stops.
+        for (const FastPair& pair : fast_) {
+            for (const std::uint32_t k : {pair.a, pair.b}) {
+                Body there = bodies[k];
+                const Motion end = paths_[k].at(limits_[k].share * h);
+                there.position = end.position;
+                there.orientation = end.orientation;
+                still_[k] = Path::uniform(there, Vec3::Zero(), Vec3::Zero());
+            }
+        }
+    }
+    // Still changing: all of them stop with the first, which certainly keeps them apart.
+    double least = 1.0;
+    for (const FastPair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
+    for (const FastPair& pair : fast_) {
+        for (const std::uint32_t k : {pair.a, pair.b}) {
+            if (!bodies[k].dynamic() || limits_[k].share <= least) continue;
+            StepLimit& limit = shorten(k);
+            limit.share = least;
+            limit.met = StepLimit::none;
+        }
+    }
+    return limits_;
+}
+
+}  // namespace tumble

@@ -1,0 +1,74 @@
+// How a body moves from a moment on, until something happens to it: its centre on a polynomial of time, its orientation
+// at rest, turning uniformly, or in free rotation. Everything that asks where a body is between two events asks its path;
+// it is always evaluated from its beginning, so that rounding does not add up.
+#pragma once
+
+#include "core/vector.h"
+#include "sim/ccd/motion.h"
+#include "sim/math/free_rotation.h"
+
+#include <variant>
+
+namespace tumble {
+
+struct Body;
+
+struct UniformTurn {
+    Quat from = Quat::Identity();
+    Vec3 axis = Vec3::UnitY();
+    double rate = 0.0;   // rad/s
+};
+struct FreeTurn {
+    FreeRotation rotation;
+    Mat3 inverse_inertia = Mat3::Zero();    // body frame
+    Vec3 angular_momentum = Vec3::Zero();   // world
+};
+
+class Path {
+public:
+    Path() = default;
+
+    /// Free flight from the body's present state under a constant acceleration (m/s^2): a parabola and torque-free
+    /// rotation, both in closed form.
+    static Path flight(const Body& body, const Vec3& acceleration);
+    /// The same with this velocity of the centre (m/s), held.
+    static Path drift(const Body& body, const Vec3& velocity);
+    /// From the body's present pose with these velocities (m/s, rad/s), held.
+    static Path uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
+    /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), error O(span^4)
+    /// in between. For bodies under forces that are not constant. Without a torque the rotation is free, in closed form;
+    /// else uniform, error O(span^2) in between.
+    static Path towards(const Body& body, const Motion& end, double span, bool torque_free);
+
+    /// The same turning on, but from time t with another velocity of the centre: a blow through the centre.
+    Path deflected(double t, const Vec3& velocity) const;
+
+    /// t: s since the path's beginning.
+    Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }
+    Vec3 velocity(double t) const { return velocity_ + t * (acceleration_ + 0.5 * t * jerk_); }
+    Vec3 acceleration(double t) const { return acceleration_ + t * jerk_; }
+    Quat orientation(double t) const;
+    Motion at(double t) const;
+
+    /// Bounds of the centre's way between two times.
+    Bounds swept(double from, double to) const;
+
+    bool parabolic() const { return jerk_.isZero(0.0); }
+    bool still() const { return spin_bound_ == 0.0 && velocity_.isZero(0.0) && acceleration_.isZero(0.0) && parabolic(); }
+    bool turns() const { return spin_bound_ > 0.0; }
+    /// Largest |omega| (rad/s) that the path ever has.
+    double spin_bound() const { return spin_bound_; }
+    /// Largest |omega|^2 + |alpha| (rad/s^2): times r it bounds the acceleration of a point at distance r from the centre.
+    double turning_bound() const { return turning_bound_; }
+
+private:
+    Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
+    std::variant<UniformTurn, FreeTurn> turning_;
+    double turned_ = 0.0;   // s, how long the turning has been going on at the path's beginning
+    double spin_bound_ = 0.0, turning_bound_ = 0.0;
+
+    void turn_uniformly(const Quat& from, const Vec3& angular_velocity);
+    void turn_freely(const Body& body);
+};
+
+}  // namespace tumble

@@ -1,0 +1,105 @@
+#include "sim/contact/model/contact_constraint.h"
+
+#include "sim/contact/model/predicted_gap.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The direction that friction was kept in; any one across the normal before the first step.
+Vec3 tangent_of(const Manifold& m) {
+    Vec3 t = m.tangent - m.normal.dot(m.tangent) * m.normal;
+    const double square = t.squaredNorm();
+    if (square > 0.25) return t / std::sqrt(square);
+    // The axis the normal looks along least.
+    t = m.normal.x() * m.normal.x() < 0.36 ? Vec3::UnitX() : Vec3::UnitY();
+    return (t - m.normal.dot(t) * m.normal).normalized();
+}
+
+}  // namespace
+
+void release(Manifold& manifold) {
+    for (ContactPoint& p : manifold.points) p.impulse = 0.0;
+    manifold.friction[0] = manifold.friction[1] = manifold.twist = 0.0;
+}
+
+double normal_impulse(const Manifold& manifold) {
+    double sum = 0.0;
+    for (const ContactPoint& p : manifold.points) sum += p.impulse;
+    return sum;
+}
+
+void scale_impulses(Manifold& manifold, double share) {
+    for (ContactPoint& p : manifold.points) p.impulse *= share;
+    manifold.friction[0] *= share;
+    manifold.friction[1] *= share;
+    manifold.twist *= share;
+}
+
+double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
+double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
+
+double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b) {
+    return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
+}
+
+bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings) {
+    const double restitution = pair_restitution(a, b);
+    if (p.separation <= touch_distance(a.radius, b.radius) || restitution <= 0.0) return false;
+    const double approach = -(relative_velocity(p, normal, a, b) + slower);
+    return approach > settings.bounce_threshold && restitution * approach > settings.least_rebound;
+}
+
+Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal) {
+    const Vec3 change = carrier.angular_velocity.cross(motion);
+    return change - normal.dot(change) * normal;
+}
+
+ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+                        const PatchSettings& settings) {
+    ContactPatch patch;
+    patch.size = std::min(a.radius, b.radius);
+    const double near = tuning::friction_near * patch.size;
+    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // from A's
+    double weights = 0.0, shares = 0.0;
+    bool whole = true;   // all of the area touches or nearly does
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& from = m.points[std::size_t(i)];
+        const Passing seen = passing(m, i, a, b, before_a, before_b, settings.h);
+        if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
+        const Vec3 place = acting_place(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
+        const Vec3 arm_a = place - a.position, arm_b = place - b.position;
+        ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
+        to.arm_a = arm_a;
+        to.arm_b = arm_b;
+        to.separation = seen.gap;
+        to.impulse = from.impulse;
+        to.source = i;
+        const double weight = seen.gap < near ? 1.0 : tuning::friction_far_weight;
+        center += weight * arm_a;
+        weights += weight;
+        const double share = double(m.share[std::size_t(i)]);
+        of_area += share * arm_a;
+        shares += share;
+        whole = whole && seen.gap < near;
+    }
+    if (patch.count == 0) return patch;
+    patch.normal = m.normal;
+    patch.tangent_1 = tangent_of(m);
+    patch.tangent_2 = patch.normal.cross(patch.tangent_1);
+    patch.friction = pair_friction(a, b);
+    patch.friction_arm_a = whole ? of_area / shares : center / weights;
+    patch.spread = double(m.spread);
+    patch.friction_arm_b = patch.friction_arm_a + (a.position - b.position);
+    for (int i = 0; i < patch.count; ++i) {
+        ContactPatch::Point& p = patch.points[std::size_t(i)];
+        p.lever = patch.spread * (p.arm_a - patch.friction_arm_a).norm();
+    }
+    return patch;
+}
+
+}  // namespace tumble

@@ -1,0 +1,85 @@
+#include "sim/contact/model/contact_islands.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+}  // namespace
+
+ContactIslands::ContactIslands(std::size_t bodies) : members_(bodies) {}
+
+// Of those that do not take part the bodies are looked at, which lie far apart in memory, of the others not.
+ContactIslands::Role ContactIslands::look(std::uint32_t i, const std::vector<Body>& bodies) {
+    Member& member = members_[i];
+    if (member.round != round_) member = {.round = round_, .role = bodies[i].dynamic() ? Role::aside : Role::still};
+    return member.role;
+}
+
+// Union-find with path halving; the lower index is the root.
+std::uint32_t ContactIslands::root(std::uint32_t i) {
+    while (members_[i].parent != i) i = members_[i].parent = members_[members_[i].parent].parent;
+    return i;
+}
+
+void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
+                          std::span<const std::uint32_t> awake) {
+    ++round_;
+    for (const std::uint32_t i : awake) members_[i] = {.round = round_, .parent = i, .island = none, .role = Role::takes_part};
+    held_.assign(touching.size(), none);
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        const auto [a, b] = touching[k];
+        const Role role_a = look(a, bodies), role_b = look(b, bodies);
+        if (role_a == Role::aside || role_b == Role::aside) continue;
+        for (const std::uint32_t i : {a, b}) {
+            if (members_[i].role != Role::takes_part) continue;
+            members_[i].touched = true;
+            held_[k] = i;
+        }
+        if (role_a != Role::takes_part || role_b != Role::takes_part) continue;
+        const std::uint32_t i = root(a), j = root(b);
+        members_[std::max(i, j)].parent = std::min(i, j);
+    }
+    // Number the islands by their lowest body, count, then deal out.
+    first_body_.assign(1, 0);
+    first_manifold_.assign(1, 0);
+    for (const std::uint32_t i : awake) {
+        if (!members_[i].touched) continue;
+        std::uint32_t& number = members_[root(i)].island;
+        if (number == none) {
+            number = std::uint32_t(first_body_.size() - 1);
+            first_body_.push_back(0);
+            first_manifold_.push_back(0);
+        }
+        members_[i].island = number;
+        ++first_body_[number + 1];
+    }
+    const auto island_of = [&](std::size_t k) { return held_[k] == none ? none : members_[held_[k]].island; };
+    for (std::size_t k = 0; k < touching.size(); ++k)
+        if (const std::uint32_t number = island_of(k); number != none) ++first_manifold_[number + 1];
+    for (std::size_t k = 1; k < first_body_.size(); ++k) {
+        first_body_[k] += first_body_[k - 1];
+        first_manifold_[k] += first_manifold_[k - 1];
+    }
+    bodies_.resize(first_body_.back());
+    manifolds_.resize(first_manifold_.back());
+    std::vector<std::uint32_t> next_body = first_body_, next_manifold = first_manifold_;
+    for (const std::uint32_t i : awake)
+        if (members_[i].touched) bodies_[next_body[members_[i].island]++] = i;
+    pairs_.resize(manifolds_.size());
+    touching_pairs_.assign(size(), 0);
+    floats_.assign(size(), 1);
+    for (std::uint32_t k = 0; k < touching.size(); ++k) {
+        const std::uint32_t number = island_of(k);
+        if (number == none) continue;
+        const std::uint32_t place = next_manifold[number]++;
+        manifolds_[place] = k;
+        pairs_[place] = touching[k];
+        if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
+        if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still) floats_[number] = 0;
+    }
+}
+
+}  // namespace tumble

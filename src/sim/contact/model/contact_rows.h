@@ -1,0 +1,75 @@
+// A manifold as rows of the matrix J over the velocities of an island: up to four normals, two directions of friction, a
+// twist. u holds six numbers a body: velocity, and the length (m) times angular velocity.
+#pragma once
+
+#include "sim/dynamics/body.h"
+#include "sim/contact/model/contact_constraint.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble::contact_rows {
+
+inline constexpr int none = -1;   // no dynamic body of the island
+
+struct Row {                        // of J, and what is known along it
+    double on_a[6] = {}, on_b[6] = {};
+    double offset = 0.0;            // m/s, of bodies whose velocity is given
+    double target = 0.0;            // m/s: b
+    double estimate = 0.0, impulse = 0.0;   // N s: e and f
+    double speed = 0.0, change = 0.0;       // J u + offset, J du
+};
+struct Patch {
+    int a = none, b = none, pair = none, count = 0;
+    std::uint32_t manifold = 0;
+    Row normal[4], friction[2], twist;
+    double lever[4] = {}, overlap[4] = {};  // m
+    double coefficient = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
+    double spin_lever = 0.0;        // m, of a twist that shares friction's limit
+    double free_slip = 0.0, free_spin = 0.0, twist_mass = 0.0;   // m/s and rad/s that the forces leave; kg m^2
+    bool spins = false;             // faster than the twist can stop: it shares friction's limit
+    Vec3 tangent_1 = Vec3::Zero();
+    std::uint8_t source[4] = {};
+    ContactPatch geometry;
+};
+
+/// The six numbers of a body.
+inline void put(double* six, const Vec3& linear, const Vec3& angular) {
+    for (int k = 0; k < 3; ++k) {
+        six[k] = linear[k];
+        six[3 + k] = angular[k];
+    }
+}
+
+/// A row of `patch`: the direction . (velocity of B's point - that of A's).
+void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a, const Body& b,
+             double length);
+/// The normal . (angular velocity of B - that of A).
+void set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b, double length);
+
+/// J u of one row.
+inline double dot(const Patch& patch, const Row& row, const std::vector<double>& u) {
+    double sum = 0.0;
+    if (patch.a != none)
+        for (int k = 0; k < 6; ++k) sum += row.on_a[k] * u[std::size_t(6 * patch.a + k)];
+    if (patch.b != none)
+        for (int k = 0; k < 6; ++k) sum += row.on_b[k] * u[std::size_t(6 * patch.b + k)];
+    return sum;
+}
+/// Adds amount J^T of one row.
+inline void add(const Patch& patch, const Row& row, double amount, std::vector<double>& to) {
+    if (patch.a != none)
+        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.a + k)] += amount * row.on_a[k];
+    if (patch.b != none)
+        for (int k = 0; k < 6; ++k) to[std::size_t(6 * patch.b + k)] += amount * row.on_b[k];
+}
+
+template <class Visit>
+void each_row(Patch& patch, Visit&& visit) {
+    for (int i = 0; i < patch.count; ++i) visit(patch.normal[i]);
+    visit(patch.friction[0]);
+    visit(patch.friction[1]);
+    if (patch.count > 1) visit(patch.twist);
+}
+
+}  // namespace tumble::contact_rows

@@ -1,0 +1,126 @@
+#include "sim/contact/model/sleep.h"
+
+#include "sim/contact/model/contact_constraint.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+
+namespace tumble {
+
+void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
+    const auto group = watches_[body].group;
+    if (!group) return;
+    ++changes_;
+    sleepers_ -= group->size();
+    for (const std::uint32_t i : *group) {
+        bodies[i].asleep = false;
+        watches_[i] = Watch{};
+    }
+}
+
+namespace {
+
+// Touching now, or before the step is over.
+bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
+    const double touch = touch_distance(a.radius, b.radius);
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[std::size_t(i)];
+        const double v = relative_velocity(p, m.normal, a, b);
+        if (p.separation <= touch + h * std::max(0.0, speed_change - v)) return true;
+    }
+    return false;
+}
+
+// Fixed, or kinematic and on no way in the coming step.
+bool stands(const Body& body) {
+    return !body.dynamic() && body.velocity.isZero(0.0) && body.angular_velocity.isZero(0.0);
+}
+
+}  // namespace
+
+bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
+    if (sleepers_ == 0) return false;
+    bool woken = false;
+    // A woken group may touch another sleeping one: repeat until nobody wakes.
+    for (bool again = true; again;) {
+        again = false;
+        for (const Manifold& m : manifolds) {
+            const Body &a = bodies[m.a], &b = bodies[m.b];
+            if (a.asleep == b.asleep) continue;
+            const Body& other = a.asleep ? b : a;
+            const bool disturbs = other.dynamic() || !other.velocity.isZero(0.0) || !other.angular_velocity.isZero(0.0);
+            if (!disturbs || !meets(m, a, b, h, speed_change)) continue;
+            wake(a.asleep ? m.a : m.b, bodies);
+            again = woken = true;
+        }
+    }
+    return woken;
+}
+
+// Whether it has been at rest for one of the spans.
+bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
+    bool rests = false;
+    const double least = (tuning::sleep_looks + 1) * h;   // steps may be as long as a span: its trend must be known
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+        Span& span = spans[k];
+        const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
+        // The surface moves by at most |dx| + r |dtheta|, with |dtheta| about 2 |dq|.
+        const double turned = 2.0 * (body.orientation.coeffs() - span.orientation.coeffs()).norm();
+        if ((body.position - span.position).norm() + body.radius * turned > most) {
+            span = {body.position, body.orientation, 0.0};
+        } else {
+            span.still += h;
+            rests = rests || span.still >= std::max(time, least);
+        }
+    }
+    return rests;
+}
+
+// Whether its velocity changes steadily.
+bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
+    trend.since += h;
+    if (trend.since >= tuning::sleep_look) {
+        Trend::Velocity velocity;
+        velocity << body.velocity, body.radius * body.angular_velocity;
+        const Trend::Velocity change = velocity - trend.velocity;
+        const bool grew = velocity.dot(trend.velocity) > trend.velocity.squaredNorm();
+        const bool same = change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
+        const bool any = change.norm() > tuning::sleep_rounding * speed_change;
+        trend = {velocity, change, 0.0, any && (grew || same) ? trend.steady + 1 : 0};
+    }
+    return trend.steady >= tuning::sleep_looks;
+}
+
+void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
+                           double h, double speed_change) {
+    for (std::size_t island = 0; island < islands.size(); ++island) {
+        bool still = true, leans = false;
+        for (const std::uint32_t i : islands.bodies(island)) {
+            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);   // each step, whatever the others do
+            const bool rests = follow(watches_[i].spans, bodies[i], h) && !under_way;
+            still = still && rests && !bodies[i].flying;
+        }
+        if (!still) continue;
+        for (const std::uint32_t k : islands.manifolds(island)) {
+            const Manifold& m = manifolds[k];
+            if (!stands(bodies[m.a]) && !stands(bodies[m.b])) continue;
+            for (int i = 0; i < m.count; ++i) leans = leans || m.points[std::size_t(i)].impulse > 0.0;
+        }
+        if (!leans) continue;
+        ++changes_;
+        sleepers_ += islands.bodies(island).size();
+        const auto members = islands.bodies(island);
+        const auto group = std::make_shared<const std::vector<std::uint32_t>>(members.begin(), members.end());
+        for (const std::uint32_t i : members) {
+            Body& body = bodies[i];
+            body.asleep = true;
+            body.momentum.setZero();
+            body.angular_momentum.setZero();
+            body.derive();
+            watches_[i].group = group;
+        }
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,353 @@
+#include "sim/contact/soft/soft_batch.h"
+
+#include "sim/contact/model/predicted_gap.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tumble {
+namespace {
+
+void put(float* row, int stride, const Vec3& v) {
+    row[0] = float(v.x());
+    row[stride] = float(v.y());
+    row[2 * stride] = float(v.z());
+}
+
+void put_all(float* row, const std::array<double, 8>& values) {
+    for (std::size_t i = 0; i < 8; ++i) row[i] = float(values[i]);
+}
+
+// What the direct solver holds between masses of 1 : 1e6 would be a blow for soft contacts: of its impulses no more is
+// handed over than some weights of the lighter body.
+void temper(Manifold& m, const ContactProblem& problem) {
+    if (!m.solved_directly) return;
+    m.solved_directly = false;
+    double mass = std::numeric_limits<double>::infinity(), speed = 0.0;
+    for (const std::uint32_t i : {m.a, m.b}) {
+        const Body& body = problem.bodies[i];
+        if (!body.dynamic()) continue;
+        mass = std::min(mass, body.mass);
+        speed = std::max(speed, (body.velocity - problem.before[i].velocity).norm());
+    }
+    const double sum = normal_impulse(m), most = tuning::direct_handover * mass * speed;
+    if (sum > most) scale_impulses(m, most / sum);
+}
+
+// A sweep goes from point to point, and what comes last is held best: the deepest, not a corner for its number, which is another in a
+// mirror image. (With the deepest first, small boxes topple.)
+std::array<std::uint8_t, Manifold::capacity> deepest_last(const Manifold& m) {
+    constexpr std::size_t n = Manifold::capacity;
+    double gap[n];
+    std::size_t place[n] = {0, 1, 2, 3};
+    for (std::size_t i = 0; i < n; ++i) gap[i] = int(i) < m.count ? m.points[i].separation : -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = i + 1; k < n; ++k) {
+            const std::size_t before = gap[k] > gap[i];
+            place[i] += before;
+            place[k] -= before;
+        }
+    std::array<std::uint8_t, n> order;
+    for (std::size_t i = 0; i < n; ++i) order[place[i]] = std::uint8_t(i);
+    return order;
+}
+
+}  // namespace
+
+SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel) {}
+
+void SoftBatch::Floats::resize(std::size_t count) {
+    if (memory_.size() < count + 16) memory_.resize(count + 16);
+    data_ = memory_.data() + (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
+}
+
+// For a substep of d seconds (formulas: soft_solver.h).
+soft::Softness SoftBatch::softness(double frequency, double d) {
+    const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
+    const double a = 2.0 * z + d * w, c = d * w * a;
+    return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
+}
+
+void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit) {
+    layout_ = &layout;
+    mass_unit_ = mass_unit;
+    substeps_ = substeps_of(problem.patches.h) * finer;
+    d_ = problem.patches.h / substeps_;
+    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
+                softness(tuning::soft_frequency_of_fixed / d_, d_)};
+    energies_.open(layout, problem.bodies);
+    const std::size_t dynamic = 1 + layout.blocks().order().size();   // slots
+    places_.resize(dynamic);
+    reached_.assign(dynamic, 0);
+    slots_ = dynamic + layout.movers().size();
+    state_.resize(slots_ * soft::body_floats);
+    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
+    const std::size_t groups = layout.groups(), lanes = std::size_t(kernel_.lanes);
+    rows_.resize(groups * soft::group_rows * lanes);
+    lane_bodies_.resize(2 * lanes * groups);
+    lane_moved_.resize(2 * groups);
+    lane_points_.resize(groups);
+    sources_.resize(groups * lanes);
+}
+
+// Of the places first to last in the blocks' order.
+void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
+    const double share = 1.0 / substeps_, swinging = tuning::swing_turn / problem.patches.h;
+    for (std::size_t k = first; k < last; ++k) {
+        const std::uint32_t i = layout_->blocks().order()[k];
+        const Body& body = problem.bodies[i];
+        places_[k + 1] = place_of(body, std::uint32_t(k + 1));
+        places_[k + 1].swings = problem.before[i].angular_velocity.squaredNorm() > swinging * swinging;
+        energies_.begin(k, body, problem.before[i]);
+        const auto& [v, w] = problem.before[i];
+        const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
+        const Mat3 inverse = mass_unit_ * body.inverse_inertia;
+        const Vec3 turning = w + body.gyration;
+        put_all(state(k + 1), {v.x(), v.y(), v.z(), turning.x(), turning.y(), turning.z(), mass_unit_ * body.inverse_mass});
+        put_all(state(k + 1) + 8, {});
+        put_all(forces_.data() + 8 * (k + 1), {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
+        put_all(before_.data() + 8 * (k + 1), {});
+        put_all(inertia_.data() + soft::inertia_floats * (k + 1),
+                {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)});
+    }
+}
+
+// And slot 0, which stands still.
+void SoftBatch::pack_movers(const ContactProblem& problem) {
+    const std::size_t dynamic = layout_->blocks().order().size();
+    for (Floats* array : {&inertia_, &before_, &forces_}) {
+        std::fill_n(array->data(), soft::inertia_floats, 0.0f);
+        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats, layout_->movers().size() * soft::inertia_floats, 0.0f);
+    }
+    std::fill_n(state(0), soft::body_floats, 0.0f);
+    std::fill_n(state(1 + dynamic), layout_->movers().size() * soft::body_floats, 0.0f);
+    for (std::size_t k = 0; k < layout_->movers().size(); ++k) {
+        const Body& body = problem.bodies[layout_->movers()[k].body];
+        const BodyVelocity& start = problem.before[layout_->movers()[k].body];
+        // The way of the whole step, evenly faster from substep to substep as the body's velocity grows or turns: all at once it
+        // would ask more of friction than a substep's load allows.
+        const Vec3 faster = 2.0 / substeps_ * (body.velocity - start.velocity);
+        const Vec3 spun_up = 2.0 / substeps_ * (body.angular_velocity - start.angular_velocity);
+        Vec3 turned = Vec3::Zero();
+        if (layout_->movers()[k].manifold != SoftLayout::none) {
+            const Manifold& m = problem.manifolds[layout_->movers()[k].manifold];
+            const std::uint32_t rider = m.a == layout_->movers()[k].body ? m.b : m.a;
+            turned = d_ * turn_of_carrier(body, problem.before[rider].velocity - start.velocity, m.normal);
+        }
+        float* s = state(1 + dynamic + k);
+        float* f = forces_.data() + soft::inertia_floats * (1 + dynamic + k);
+        put(s, 1, start.velocity - 0.5 * (faster + turned));
+        put(s + 3, 1, start.angular_velocity - 0.5 * spun_up);
+        put(f, 1, faster + turned);
+        put(f + 3, 1, spun_up);
+    }
+}
+
+// `made`: room for a place that is not kept.
+const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                                              const std::vector<std::uint32_t>& slot, Place& made) const {
+    const Body& b = problem.bodies[body];
+    if (b.dynamic()) return places_[slot[body]];
+    if (b.type != BodyType::kinematic) return made = place_of(b, 0);
+    const auto place = std::lower_bound(layout_->movers().begin(), layout_->movers().end(), SoftLayout::mover(problem.bodies, body, manifold)) - layout_->movers().begin();
+    return made = place_of(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
+}
+
+// Lane l of group g.
+void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t g, std::size_t l,
+                          const std::vector<std::uint32_t>& slot) {
+    Manifold& m = problem.manifolds[manifold];
+    temper(m, problem);
+    Place made_a, made_b;
+    const Place &first = find_place(m.a, manifold, problem, slot, made_a), &second = find_place(m.b, manifold, problem, slot, made_b);
+    // Arms go from the body that moves, of two from the smaller: from the other's centre single precision may be too coarse.
+    const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
+    const Place &a = swapped ? second : first, &b = swapped ? first : second;
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    const int stride = kernel_.lanes;
+    lane_bodies_[2 * lanes * g + l] = std::uint32_t(soft::body_floats) * a.slot;
+    lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
+    lane_moved_[2 * g] |= std::uint16_t(a.dynamic << l);
+    lane_moved_[2 * g + 1] |= std::uint16_t(b.dynamic << l);
+    const double share = 1.0 / (substeps_ * mass_unit_);
+    const double size = std::min(a.radius, b.radius);
+    const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
+    Source& source = sources_[lanes * g + l];
+    float* const head = row(g, 0) + l;
+    float* point = head + soft::head_rows * stride;
+    int count = 0;
+    const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
+    const bool curves = a.swings || b.swings || m.on_ball == OnBall::curve;
+    const auto order = deepest_last(m);
+    for (int k = 0; k < m.count; ++k) {
+        const int i = order[std::size_t(k)];
+        const ContactPoint& p = m.points[std::size_t(i)];
+        Passing seen{p.position, p.separation, 0.0};
+        // For a substep more than the step: the last sweep looks as far ahead.
+        if (curves) seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
+        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
+        source.point[count++] = std::uint8_t(i);
+        if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
+        const Vec3 place = acting_place(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
+        put(point + soft::turn * stride, stride, place - a.position);
+        point[soft::normal_mass * stride] = 1.0f;
+        point[soft::lever * stride] = m.share[std::size_t(i)];
+        point[soft::separation * stride] = float(seen.gap);
+        point[soft::impulse * stride] = float(share * p.impulse);
+        point += soft::point_rows * stride;
+    }
+    if (count == 0) return release(m);   // left to bounce
+    source.count = std::uint8_t(count);
+    source.swapped = swapped;
+    lane_points_[g] = std::max(lane_points_[g], source.count);
+
+    const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
+    put(head + soft::normal * stride, stride, swapped ? Vec3(-m.normal) : m.normal);
+    put(head + soft::tangent_1 * stride, stride, m.tangent);
+    put(head + soft::between * stride, stride, a.position - b.position);
+    put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    put_row(soft::size, size);
+    put_row(soft::spread, double(m.spread));
+    // Seen from the other body the second tangent is opposite too, and so is an impulse along the first.
+    put_row(soft::friction_1, (swapped ? -share : share) * m.friction[0]);
+    put_row(soft::friction_2, share * m.friction[1]);
+    put_row(soft::twist, share * m.twist);
+}
+
+void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    int points = 0;
+    for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
+        if (const std::uint32_t m = layout_->manifold(lane); m != SoftLayout::none) points = std::max(points, int(problem.manifolds[m].count));
+    std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
+    lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
+    lane_points_[group] = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+        sources_[lanes * group + l] = {};
+        if (const std::uint32_t m = layout_->manifold(lanes * group + l); m != SoftLayout::none) pack_lane(problem, m, group, l, slot);
+    }
+}
+
+void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
+                    SpinBarrier& barrier) {
+    const auto meet = [&] {
+        if (team > 1) barrier.wait();
+    };
+    const soft::Groups groups{rows_.data(), lane_bodies_.data(), lane_moved_.data(), lane_points_.data()};
+    const soft::Bodies bodies{state_.data(), inertia_.data(), forces_.data(), before_.data()};
+    const SoftLayout& layout = *layout_;
+    const BodyBlocks& blocks = layout.blocks();
+    const std::size_t across = blocks.size();
+    const auto own = layout.blocks_of(thread, team);
+    const std::size_t first_body = blocks.first(own.begin), end_body = blocks.first(own.end);
+    const auto group_of = [&](std::size_t home) { return layout.first_group(layout.first_color(home)); };
+    const std::size_t first_across = group_of(across), all_across = layout.groups() - first_across;
+    // Colour by colour: in this thread's blocks, then between blocks.
+    const auto each_color = [&](auto&& pass) {
+        for (std::size_t c = layout.first_color(own.begin); c < layout.first_color(own.end); ++c)
+            pass(layout.first_group(c), layout.first_group(c + 1));
+        if (all_across == 0) return;
+        meet();
+        const bool shared = all_across >= tuning::soft_shared_groups;
+        for (std::size_t c = layout.first_color(across); c < layout.first_color(across + 1); ++c) {
+            const std::size_t first = layout.first_group(c), count = layout.first_group(c + 1) - first;
+            if (shared) {
+                pass(first + count * thread / team, first + count * (thread + 1) / team);
+                meet();
+            } else if (thread == 0) {
+                pass(first, first + count);
+            }
+        }
+        if (!shared) meet();
+    };
+
+    pack_bodies(problem, first_body, end_body);
+    if (thread == 0) pack_movers(problem);
+    meet();
+    const auto pack_groups = [&](std::size_t first, std::size_t last) {
+        for (std::size_t g = first; g < last; ++g) pack(problem, g, slot);
+        kernel_.prepare(groups, first, last, bodies);
+    };
+    pack_groups(group_of(own.begin), group_of(own.end));
+    pack_groups(first_across + all_across * thread / team, first_across + all_across * (thread + 1) / team);
+    meet();
+    for (int step = 0; step < substeps_; ++step) {
+        kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
+        if (!layout_->movers().empty()) {   // which all threads look at
+            meet();
+            if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
+            meet();
+        }
+        if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+        each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
+        kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
+        if (!layout_->movers().empty()) {
+            meet();
+            if (thread == 0) kernel_.move(1 + layout_->blocks().order().size(), slots_, bodies, float(d_));
+            meet();
+        }
+        each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
+    }
+    each_color([&](std::size_t f, std::size_t l) {
+        kernel_.sum(groups, f, l);
+        for (std::size_t g = f; g < l; ++g) unpack(problem, g);
+    });
+    hand_back(problem, first_body, end_body);
+    meet();
+    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
+}
+
+// Impulses to the manifolds, and to the momenta of their bodies.
+void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
+    const std::size_t lanes = std::size_t(kernel_.lanes);
+    const double all = substeps_ * mass_unit_;
+    for (std::size_t l = 0; l < lanes; ++l) {
+        const Source& source = sources_[lanes * g + l];
+        if (source.count == 0) continue;
+        Manifold& m = problem.manifolds[layout_->manifold(lanes * g + l)];
+        const float* head = row(g, 0) + l;
+        const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
+        release(m);
+        const float* impulse = head + soft::head_rows * lanes + soft::impulse * lanes;
+        for (int i = 0; i < source.count; ++i, impulse += soft::point_rows * lanes)
+            m.points[source.point[i]].impulse = all * double(*impulse);
+        m.friction[0] = (source.swapped ? -all : all) * double(head[soft::friction_1 * lanes]);
+        m.friction[1] = all * double(head[soft::friction_2 * lanes]);
+        m.twist = all * double(head[soft::twist * lanes]);
+        m.tangent = three(soft::tangent_1);
+        const Vec3 force = mass_unit_ * three(soft::force), moment = mass_unit_ * three(soft::moment);   // on B; about A's centre
+        if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
+        const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;
+        Body &a = problem.bodies[source.swapped ? m.b : m.a], &b = problem.bodies[source.swapped ? m.a : m.b];
+        if (lane_moved_[2 * g] >> l & 1) {
+            reached_[slot_a] = 1;
+            a.momentum -= force;
+            a.angular_momentum -= moment;
+        }
+        if (lane_moved_[2 * g + 1] >> l & 1) {
+            reached_[slot_b] = 1;
+            b.momentum += force;
+            b.angular_momentum += moment + (a.position - b.position).cross(force);
+        }
+    }
+}
+
+void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std::size_t last) {
+    const double rate = 1.0 / problem.patches.h;
+    for (std::size_t k = first; k < last; ++k) {
+        if (!reached_[k + 1]) continue;
+        Body& body = problem.bodies[layout_->blocks().order()[k]];
+        body.derive_velocities();
+        const float* moved = state(k + 1) + 8;
+        body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
+        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity - body.gyration;
+        energies_.end(k, body);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,18 @@
+// The soft contact solver's inner loops, 8 lanes (avx2).
+#include "sim/contact/soft/soft_kernel.h"
+#include "sim/contact/model/spin_friction.h"
+#include "sim/settings/tuning.h"
+
+#pragma GCC target("avx2")
+#include <immintrin.h>
+
+#define TUMBLE_LANES 8
+
+namespace tumble::soft {
+namespace {
+#include "sim/contact/soft/soft_kernel_lanes.h"
+}  // namespace
+
+const Kernel avx2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
+
+}  // namespace tumble::soft

@@ -1,0 +1,22 @@
+// The soft contact solver's inner loops, 16 lanes (avx512).
+#include "sim/contact/soft/soft_kernel.h"
+#include "sim/contact/model/spin_friction.h"
+#include "sim/settings/tuning.h"
+
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"   // g++ 12 on its own "undefined" vectors
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <immintrin.h>
+
+#define TUMBLE_LANES 16
+
+namespace tumble::soft {
+namespace {
+#include "sim/contact/soft/soft_kernel_lanes.h"
+}  // namespace
+
+const Kernel avx512_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
+
+}  // namespace tumble::soft
+#pragma GCC diagnostic pop

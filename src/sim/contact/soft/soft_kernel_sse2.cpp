@@ -1,0 +1,18 @@
+// The soft contact solver's inner loops, 4 lanes (sse2).
+#include "sim/contact/soft/soft_kernel.h"
+#include "sim/contact/model/spin_friction.h"
+#include "sim/settings/tuning.h"
+
+#pragma GCC target("sse2")
+#include <immintrin.h>
+
+#define TUMBLE_LANES 4
+
+namespace tumble::soft {
+namespace {
+#include "sim/contact/soft/soft_kernel_lanes.h"
+}  // namespace
+
+const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
+
+}  // namespace tumble::soft

@@ -1,0 +1,133 @@
+#include "sim/contact/soft/soft_layout.h"
+
+#include "sim/contact/model/contact_constraint.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t colors = 64;   // bits of a mask; what finds none free is solved one by one
+// Manifolds of a colour side by side by what they cost: with impulses before those without, which may stay idle, and as many
+// points together: no lane waits for another's fourth.
+constexpr std::size_t costs = 2 * Manifold::capacity;
+std::size_t cost_class(const Manifold& m) {
+    return std::size_t(Manifold::capacity - m.count) + (normal_impulse(m) > 0.0 ? 0 : Manifold::capacity);
+}
+
+// By any thread; written to only where it changes, for all read what lies beside it.
+void set(std::uint8_t& flag) {
+    const std::atomic_ref shared(flag);
+    if (shared.load(std::memory_order_relaxed) == 0) shared.store(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+SoftLayout::Mover SoftLayout::mover(const std::vector<Body>& bodies, std::uint32_t body, std::uint32_t manifold) {
+    return {body, bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
+}
+
+void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot, std::size_t team) {
+    blocks_.clear();
+    islands_.clear();
+    const std::size_t dynamic = 1 + part.bodies.size();   // slots
+    block_of_.resize(dynamic);
+    island_of_.resize(dynamic);
+    lasts_ = true;
+    steps_ = 0;
+    std::size_t first = 0;
+    for (const std::size_t end : part.island_ends) {
+        const std::size_t first_block = blocks_.size();
+        blocks_.add(std::span(part.bodies).subspan(first, end - first), bodies);
+        std::fill(island_of_.begin() + std::ptrdiff_t(first + 1), island_of_.begin() + std::ptrdiff_t(end + 1), std::uint32_t(islands_.size()));
+        islands_.push_back({.first = first, .end = end, .first_block = first_block, .end_block = blocks_.size()});
+        lasts_ = lasts_ && blocks_.size() <= first_block + 1;
+        first = end;
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        for (std::size_t k = blocks_.first(b); k < blocks_.first(b + 1); ++k) {
+            slot[blocks_.order()[k]] = std::uint32_t(k + 1);
+            block_of_[k + 1] = std::uint32_t(b);
+        }
+    taken_.assign(dynamic, {});
+    class_size_.assign((blocks_.size() + 1) * colors * costs, 0);
+    class_.resize(part.manifolds.size());
+    found_movers_.assign(team, {});
+}
+
+// Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
+// gets depends on its island alone. Each thread colours its own blocks, whose manifolds its core's cache holds, and one what lies
+// between them.
+void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
+                       const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team) {
+    const Share own = blocks_of(thread, team);
+    const std::size_t across = blocks_.size();
+    for (std::size_t k = 0; k < part.pairs.size(); ++k) {
+        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];   // 0: not dynamic
+        const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
+        const std::size_t home = inside ? block_of_[a != 0 ? a : b] : across;
+        if (inside ? home < own.begin || home >= own.end : thread + 1 < team) continue;
+        if (a == 0 || b == 0) {
+            Island& island = islands_[island_of_[a != 0 ? a : b]];
+            const std::uint32_t other = a != 0 ? part.pairs[k].b : part.pairs[k].a;
+            set(bodies[other].moves() ? island.driven : island.leans);
+            if (bodies[other].type == BodyType::kinematic) found_movers_[thread].push_back(mover(bodies, other, part.manifolds[k]));
+        }
+        std::uint64_t fixed = 0;
+        std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
+        std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
+        const auto c = std::size_t(std::countr_one(of_a | of_b));
+        if (c == colors) {   // one by one, in the end
+            class_[k] = none;
+            continue;
+        }
+        const std::uint64_t bit = std::uint64_t(1) << c;
+        of_a |= bit;
+        of_b |= bit;
+        class_[k] = std::uint32_t((home * colors + c) * costs + cost_class(manifolds[part.manifolds[k]]));
+        ++class_size_[class_[k]];
+    }
+}
+
+void SoftLayout::close(const SoftPart& part, std::size_t lanes) {
+    movers_.clear();
+    for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
+    std::sort(movers_.begin(), movers_.end());
+    movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
+    lasts_ = lasts_ && movers_.empty();
+
+    const std::size_t homes = blocks_.size() + 1;
+    std::size_t groups = 0;
+    first_group_.clear();
+    first_color_.assign(1, 0);
+    for (std::size_t home = 0; home < homes; ++home) {
+        for (std::size_t c = 0; c < colors; ++c) {
+            std::uint32_t lane = std::uint32_t(groups * lanes);
+            for (std::size_t p = 0; p < costs; ++p) {   // sizes become places
+                std::uint32_t& of_class = class_size_[(home * colors + c) * costs + p];
+                const std::uint32_t size = of_class;
+                of_class = lane;
+                lane += size;
+            }
+            if (lane == groups * lanes) continue;
+            first_group_.push_back(groups);
+            groups = (lane + lanes - 1) / lanes;
+        }
+        if (home + 1 < homes) first_color_.push_back(first_group_.size());
+    }
+    for (const std::uint32_t c : class_)
+        if (c == none) first_group_.push_back(groups++);
+    first_color_.push_back(first_group_.size());
+    first_group_.push_back(groups);
+
+    lane_manifolds_.assign(groups * lanes, none);
+    std::size_t alone = groups * lanes;
+    for (std::size_t i = class_.size(); i-- > 0;)
+        if (class_[i] == none) lane_manifolds_[alone -= lanes] = part.manifolds[i];
+    for (std::size_t i = 0; i < class_.size(); ++i)
+        if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = part.manifolds[i];
+}
+
+}  // namespace tumble

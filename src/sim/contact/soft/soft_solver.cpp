@@ -1,0 +1,94 @@
+#include "sim/contact/soft/soft_solver.h"
+
+#include "sim/contact/soft/soft_batch.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// The mass (kg) that single precision counts in: squares of impulses must neither overflow nor vanish. 1 for what a hand or a crane
+// lifts; for dust and moons the power of two in the middle of the scene's masses, by which numbers change without rounding.
+double mass_unit(const std::vector<Body>& bodies) {
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const Body& body : bodies) {
+        if (!body.dynamic()) continue;
+        least = std::min(least, body.mass);
+        most = std::max(most, body.mass);
+    }
+    if (!(most > 0.0) || (least >= tuning::soft_least_mass && most <= tuning::soft_most_mass)) return 1.0;
+    return std::ldexp(1.0, (std::ilogb(least) + std::ilogb(most)) / 2);
+}
+
+}  // namespace
+
+int substeps_of(double h) {
+    // A step of exactly so many substeps must not get one more by rounding.
+    const double n = std::ceil(h / tuning::soft_substep - 1e-6);
+    return int(std::clamp(n, double(tuning::soft_least_substeps), double(tuning::soft_most_substeps)));
+}
+
+SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
+SoftSolver::~SoftSolver() = default;
+
+void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, bool same, ThreadPool& pool) {
+    if (mass_unit_ == 0.0) mass_unit_ = mass_unit(problem.bodies);
+    const auto threads = std::size_t(pool.size());
+    const auto lanes = std::size_t(kernel_.lanes);
+    while (batches_.size() < threads) batches_.push_back(std::make_unique<SoftBatch>(kernel_));
+    if (layouts_.size() < parts.size()) layouts_.resize(parts.size());
+    small_.clear();
+    std::size_t all_small = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const Part& part = parts[k];
+        const bool one_large = part.island_ends.size() == 1 && part.manifolds.size() >= tuning::soft_team_manifolds;
+        if (threads == 1 || !one_large) {
+            small_.push_back(k);
+            all_small += part.manifolds.size();
+            continue;
+        }
+        SoftLayout& layout = layouts_[k];
+        layout.open(part, problem.bodies, slot_, threads);
+        for (std::size_t thread = 0; thread < threads; ++thread)
+            for (const std::uint32_t i : layout.bodies_of(thread, threads)) pool.give(i, thread);
+        SpinBarrier barrier(threads);
+        pool.together([&](std::size_t thread) {
+            layout.color(part, problem.bodies, problem.manifolds, slot_, thread, threads);
+            barrier.wait();
+            if (thread == 0) {
+                layout.close(part, lanes);
+                batches_[0]->prepare(problem, part.finer, layout, mass_unit_);
+            }
+            barrier.wait();
+            batches_[0]->run(problem, slot_, thread, threads, barrier);
+        });
+    }
+    // Neighbours in the list, and the same ones from step to step.
+    const auto each_of = [&](std::size_t thread, std::size_t team, auto&& visit) {
+        for (std::size_t s = small_.size() * thread / team; s < small_.size() * (thread + 1) / team; ++s) visit(small_[s]);
+    };
+    const auto run = [&](std::size_t thread, std::size_t team) {
+        each_of(thread, team, [&](std::size_t k) {
+            SoftLayout& layout = layouts_[k];
+            if (!same || !layout.lasts()) {
+                layout.open(parts[k], problem.bodies, slot_, 1);
+                layout.color(parts[k], problem.bodies, problem.manifolds, slot_, 0, 1);
+                layout.close(parts[k], lanes);
+            }
+            SpinBarrier alone(1);
+            batches_[thread]->prepare(problem, parts[k].finer, layout, mass_unit_);
+            batches_[thread]->run(problem, slot_, 0, 1, alone);
+        });
+    };
+    if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);
+    for (std::size_t thread = 0; thread < threads; ++thread)
+        each_of(thread, threads, [&](std::size_t k) {
+            for (const std::uint32_t i : parts[k].bodies) pool.give(i, thread);
+        });
+    pool.together([&](std::size_t thread) { run(thread, threads); });
+}
+
+}  // namespace tumble

@@ -1,0 +1,418 @@
+#include "sim/detection/narrow_phase.h"
+
+#include "sim/geometry/impulse_matching.h"
+#include "sim/geometry/manifold_growth.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+namespace tumble {
+namespace {
+
+// Entries that are asked for before their turn: looking at so many takes about as long as one comes from far memory.
+constexpr std::size_t ahead = 6;
+
+bool awake(const Body& body) { return body.moves() && !body.asleep; }
+
+// To single precision, of what is not negative.
+float rounded_down(double x) { return float(x) * (1.0f - std::numeric_limits<float>::epsilon()); }
+float rounded_up(double x) { return float(x) * (1.0f + std::numeric_limits<float>::epsilon()); }
+
+// Along the world's axis that separates them best.
+double distance(const Bounds& a, const Bounds& b) {
+    double most = b.min[0] - a.max[0];
+    for (int k = 0; k < 3; ++k) most = std::max({most, b.min[k] - a.max[k], a.min[k] - b.max[k]});
+    return most;
+}
+
+bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l.part < r.part : !l.more && r.more; }
+
+// Manifolds and anchors are numbers without anything to own, whatever Eigen's constructors say: copied as memory.
+template <class T>
+void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to, std::size_t place) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    if (count > 0) std::memcpy(static_cast<void*>(to.data() + place), from.data() + first, count * sizeof(T));
+}
+
+// Manifolds side by side that stay so.
+struct Run {
+    std::uint32_t from = 0, to = 0, count = 0;
+};
+
+std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch& scratch) {
+    return std::span(scratch.left_out).subspan(m.first_left_out, m.left_out);
+}
+
+}  // namespace
+
+double NarrowPhase::margin(const View& a, const View& b, double h) const {
+    if (mode_ == Mode::measure) return touch_distance(a.radius, b.radius);
+    return a.speculative + b.speculative + h * ((b.velocity - a.velocity).norm() + a.spin + b.spin);
+}
+
+NarrowPhase::Placement NarrowPhase::placement(const View& small, const View& large) {
+    Placement p{large.pose.to_body(small.pose.position), {}};
+    const Quat turn = large.orientation.conjugate() * small.orientation;
+    for (int k = 0; k < 4; ++k) p.orientation[k] = float(turn.coeffs()[k]);
+    return p;
+}
+
+// How far (m) any point within `radius` of the body's centre has moved at most. Two unit quaternions t / 2 apart on their sphere
+// tell of a turn by t: the farthest point moved by 2 r sin(t / 2), and the chord between the quaternions is 2 sin(t / 4), so that
+// twice the chord times r is no less.
+double NarrowPhase::motion(const Placement& from, const Placement& to, double radius) {
+    float near = 0.0f, opposite = 0.0f;   // a turn has two quaternions
+    for (int k = 0; k < 4; ++k) {
+        const float less = to.orientation[k] - from.orientation[k], more = to.orientation[k] + from.orientation[k];
+        near += less * less;
+        opposite += more * more;
+    }
+    return (to.position - from.position).norm() + 2.0 * double(std::sqrt(std::min(near, opposite))) * radius;
+}
+
+// What each thread has to do; all by one where meeting costs more than it saves.
+template <class Work>
+void NarrowPhase::each_share(ThreadPool& pool, Work&& work) {
+    if (pool.size() > 1 && entries_.size() >= tuning::parallel_grain) return pool.together([&](std::size_t thread) { work(found_[thread]); });
+    for (Found& found : found_) work(found);
+}
+
+std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies,
+                                         double h, ThreadPool& pool) {
+    const bool changed = match(pairs, bodies);
+    views_.resize(bodies.size());
+    const bool shares_stand = !changed && seen_owners_ == pool.owner_changes();
+    seen_owners_ = pool.owner_changes();
+    if (!shares_stand) ++share_;
+    seen_.resize(bodies.size(), 0);
+    each_share(pool, [&](Found& found) {
+        found.manifolds.clear();
+        found.anchors.clear();
+        found.changes.clear();
+        if (!shares_stand) take_share(pool, found);
+        for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
+    });
+    each_share(pool, [&](Found& found) {
+        for (std::size_t k = 0; k < found.entries.size(); ++k) {
+            if (k + ahead < found.entries.size()) ask_for(found.entries[k + ahead]);
+            examine(found.entries[k], h, found);
+        }
+    });
+    put_in_order(pool);
+    return manifolds_;
+}
+
+// Which bodies and pairs a thread looks at. Of the bodies in the list only: those that sleep far from all others are not even looked at.
+void NarrowPhase::take_share(const ThreadPool& pool, Found& found) {
+    const bool alone = found_.size() == 1;
+    const auto thread = std::size_t(&found - found_.data());
+    const auto own = [&](std::uint32_t body) { return alone || pool.thread_of(body) == thread; };
+    found.bodies.clear();
+    found.entries.clear();
+    for (std::uint32_t k = 0; k < entries_.size(); ++k) {
+        for (const std::uint32_t i : {entries_[k].pair.a, entries_[k].pair.b}) {
+            if (!own(i) || seen_[i] == share_) continue;
+            seen_[i] = share_;
+            found.bodies.push_back(i);
+        }
+        if (own(entries_[k].mover)) found.entries.push_back(k);
+    }
+}
+
+// The entries for the new list of pairs; whether it is another one.
+bool NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies) {
+    const auto same = [](const Entry& entry, const BroadPhase::Pair& pair) { return entry.pair == pair; };
+    if (std::equal(entries_.begin(), entries_.end(), pairs.begin(), pairs.end(), same)) return false;
+    spare_entries_.clear();
+    auto old = entries_.begin();
+    const auto leave = [&](const Entry& entry) {
+        const Body &a = bodies[entry.pair.a], &b = bodies[entry.pair.b];
+        moved_ = moved_ || entry.count > 0;
+        if (entry.count > 0 && !awake(a) && !awake(b) && mode_ == Mode::step) park(entry);
+        free_searches_.push_back(entry.search);
+    };
+    for (const BroadPhase::Pair& pair : pairs) {
+        for (; old != entries_.end() && old->pair < pair; ++old) leave(*old);
+        if (old != entries_.end() && old->pair == pair) {
+            spare_entries_.push_back(*old++);
+            continue;
+        }
+        Entry entry{pair};
+        entry.mover = bodies[pair.a].moves() ? pair.a : pair.b;
+        if (free_searches_.empty()) {
+            entry.search = std::uint32_t(searches_.size());
+            searches_.emplace_back();
+        } else {
+            entry.search = free_searches_.back();
+            free_searches_.pop_back();
+            searches_[entry.search] = {};
+        }
+        if (!parked_.empty()) unpark(entry);
+        spare_entries_.push_back(entry);
+    }
+    for (; old != entries_.end(); ++old) leave(*old);
+    entries_.swap(spare_entries_);
+    return true;
+}
+
+void NarrowPhase::park(const Entry& entry) {
+    Parked& parked = parked_[entry.pair];
+    parked.search = searches_[entry.search];
+    parked.manifolds.assign(manifolds_.begin() + entry.first, manifolds_.begin() + entry.first + entry.count);
+    parked.anchors.assign(anchors_.begin() + entry.first, anchors_.begin() + entry.first + entry.count);
+}
+
+void NarrowPhase::unpark(Entry& entry) {
+    const auto found = parked_.find(entry.pair);
+    if (found == parked_.end()) return;
+    const Parked& parked = found->second;
+    searches_[entry.search] = parked.search;
+    entry.first = std::uint32_t(manifolds_.size());
+    entry.count = std::uint32_t(parked.manifolds.size());
+    manifolds_.insert(manifolds_.end(), parked.manifolds.begin(), parked.manifolds.end());
+    anchors_.insert(anchors_.end(), parked.anchors.begin(), parked.anchors.end());
+    moved_ = true;
+    parked_.erase(found);
+}
+
+void NarrowPhase::view(View& v, const Body& body) const {
+    if (body.moves())
+        v.travel += (body.position - v.pose.position).norm() + 2.0 * (body.orientation.coeffs() - v.orientation.coeffs()).norm() * body.radius;
+    v.pose = body.pose();
+    v.orientation = body.orientation;
+    v.radius = body.radius;
+    v.velocity.setZero();
+    v.spin = v.speculative = 0.0;
+    if (body.moves()) {
+        v.velocity = body.velocity;
+        v.spin = body.angular_velocity.norm() * body.radius;
+        v.speculative = tuning::speculative * body.radius;
+    }
+    const Bounds bounds = world_bounds(body.collider, v.pose);
+    v.bounds = bounds;   // by way of a name: find_gyration()
+    v.collider = &body.collider;
+    v.awake = awake(body);
+    v.flying = body.flying;
+    v.kind = std::holds_alternative<Ball>(body.collider)                                ? View::Kind::ball
+             : std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) ? View::Kind::polyhedron
+                                                                                        : View::Kind::fixed;
+}
+
+// Entries come in the order of their first bodies; what belongs to the second, and the search, lies anywhere.
+void NarrowPhase::ask_for(std::uint32_t index) const {
+    const Entry& entry = entries_[index];
+    const auto* view = reinterpret_cast<const char*>(&views_[entry.pair.b]);
+    __builtin_prefetch(&searches_[entry.search]);
+    __builtin_prefetch(view);
+    __builtin_prefetch(view + 64);
+}
+
+void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
+    const Entry& entry = entries_[index];
+    const View &a = views_[entry.pair.a], &b = views_[entry.pair.b];
+    Search& last = searches_[entry.search];
+    const auto drop = [&] {
+        if (entry.count == 0) return;
+        last.outcome = Search::Outcome::none;
+        found.changes.push_back({index, 0, 0});
+    };
+    // Exact flights meet others at impacts, not at steps.
+    if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return drop();
+    const double apart = distance(a.bounds, b.bounds);
+    // Most pairs end here: first without the square root, by the sum of the components.
+    const bool far = mode_ == Mode::step && apart > a.speculative + b.speculative +
+                                                        h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
+    const double reach = far ? 0.0 : margin(a, b, h);
+    if (far || apart > reach) return drop();
+    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, h, found);
+
+    // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
+    const double travel = a.travel + b.travel;
+    Standing now = standing(entry, a, b, reach, last, double(last.spent) + (travel - last.travel));
+    if (now == Standing::holds) return;
+    const bool a_larger = a.radius >= b.radius;
+    const View &large = a_larger ? a : b, &small = a_larger ? b : a;
+    const Placement now_at = placement(small, large);
+    last.spent = rounded_up(double(last.spent) + motion(last.placement, now_at, small.radius));
+    last.placement = now_at;
+    last.travel = travel;
+    if (now == Standing::out_of_date) now = standing(entry, a, b, reach, last, double(last.spent));
+    if (now == Standing::holds) return;
+    last.sank = last.sank || now == Standing::sank;
+    const double moved = last.spent;
+    last.spent = 0.0f;
+    search(index, a, b, reach, moved, h, found);
+}
+
+// Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
+// date.
+NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last,
+                                            double moved) {
+    const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
+    const double radius = std::min(a.radius, b.radius);
+    if (last.outcome == Search::Outcome::apart) return told(double(last.gap) - moved > reach);
+    if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * radius) return Standing::out_of_date;
+    const double touch = touch_distance(a.radius, b.radius);
+    bool stands = true, missed = false;
+    double deepest = 0.0, spare = 0.0;   // of a pair of faces, in one manifold or two
+    for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
+        Manifold& m = manifolds_[k];
+        follow(anchors_[k], a.pose, b.pose, m);
+        double nearest = reach;
+        for (int i = 0; i < m.count; ++i) {
+            stands = stands && m.points[std::size_t(i)].separation <= reach;
+            nearest = std::min(nearest, m.points[std::size_t(i)].separation);
+        }
+        deepest = m.more ? std::min(deepest, nearest) : nearest;
+        if (!m.more) spare = deepest_spare(anchors_[k], a.pose, b.pose, m);
+        const bool last_of_faces = k + 1 == entry.first + entry.count || !manifolds_[k + 1].more;
+        missed = missed || (last_of_faces && sank(spare, deepest, radius));
+        // Whether it touches is told to less than what anchors on edges and balls are off by.
+        stands = stands && (nearest <= touch || nearest > moved);
+    }
+    return missed ? Standing::sank : told(stands);
+}
+
+void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, double h, Found& found) {
+    const Entry& entry = entries_[index];
+    Search& last = searches_[entry.search];
+    const double radius = std::min(a.radius, b.radius);
+    const auto begin = std::uint32_t(found.manifolds.size());
+    found.scratch.axis = last.axis;
+    found.scratch.gap = 0.0;
+    found.scratch.on_ball = false;
+    found.scratch.left_out.clear();
+    found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
+    found.scratch.way = h * (b.velocity - a.velocity);
+    found.scratch.turning = h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
+    collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
+    last.axis = std::uint16_t(found.scratch.axis);
+    last.gap = rounded_down(found.scratch.gap);
+    for (std::size_t k = begin; k < found.manifolds.size(); ++k) {
+        const Manifold& m = found.manifolds[k];
+        if (!remembers_ || m.count + m.left_out <= 2 * Manifold::capacity) continue;
+        last.sank = moved < tuning::missed_motion * radius &&
+                    (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m, left_out(m, found.scratch), radius));
+    }
+    last.sank = last.sank && entry.count > 0;
+    if (last.sank) add_more(entry, radius, begin, found);
+    const auto count = std::uint32_t(found.manifolds.size()) - begin;
+    // A point on a ball runs over it as it rolls. Left behind for a thousandth of the radius it bears the body from behind, and what rolls
+    // slowly gathers speed out of nothing.
+    last.outcome = count == 0 ? Search::Outcome::apart : found.scratch.on_ball ? Search::Outcome::none : Search::Outcome::near;
+    if (count == 0) {
+        if (entry.count > 0) found.changes.push_back({index, 0, 0});
+        return;
+    }
+    // A surface's triangles are found in the order of its tree.
+    const auto first = found.manifolds.begin() + begin;
+    if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
+    const bool swapped = b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
+    std::uint32_t old = entry.first;
+    const std::uint32_t old_end = entry.first + entry.count;
+    for (auto m = first; m != found.manifolds.end(); ++m) {
+        m->a = entry.pair.a;
+        m->b = entry.pair.b;
+        const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;   // without a second manifold
+        const auto bring = [&] {   // the old points to where they are now on the larger body
+            for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
+                manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a()[i])
+                                                                          : b.pose.to_world(anchors_[old].on_b()[i]);
+        };
+        while (old < old_end && earlier(manifolds_[old], *m)) ++old;
+        if (old < old_end && !earlier(*m, manifolds_[old])) {
+            bring();
+            carry_over(manifolds_[old++], tuning::carry_reach * radius, *m);
+            if (old < old_end && manifolds_[old].part == m->part && alone) {
+                bring();
+                hand_over(manifolds_[old], *m);
+            }
+        }
+        Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
+        if (m->more) continue;
+        keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
+    }
+    if (count != entry.count) {
+        found.changes.push_back({index, begin, count});
+        return;
+    }
+    std::copy(first, found.manifolds.end(), manifolds_.begin() + entry.first);
+    std::copy(found.anchors.begin() + begin, found.anchors.end(), anchors_.begin() + entry.first);
+    found.manifolds.resize(begin);
+    found.anchors.resize(begin);
+}
+
+// Second manifolds where points that were left out are needed; found after all others.
+void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin, Found& found) {
+    const auto old = std::span(manifolds_).subspan(entry.first, entry.count);
+    const std::size_t end = found.manifolds.size();
+    for (std::size_t k = begin; k < end; ++k) {
+        const auto of_part = [part = found.manifolds[k].part](const Manifold& m) { return m.part == part; };
+        const auto first = std::find_if(old.begin(), old.end(), of_part);
+        const auto last = std::find_if_not(first, old.end(), of_part);
+        if (first == last) continue;
+        const Manifold more = grow({first, last}, radius, found.manifolds[k], found.scratch.left_out);
+        if (more.count > 0) found.manifolds.push_back(more);
+    }
+}
+
+// Brings the manifolds into the order of the entries, where any have come or gone.
+void NarrowPhase::put_in_order(ThreadPool& pool) {
+    const auto unchanged = [](const Found& found) { return found.changes.empty(); };
+    if (!moved_ && std::all_of(found_.begin(), found_.end(), unchanged)) return;
+    const auto count = std::uint32_t(entries_.size());
+    new_count_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) new_count_[i] = entries_[i].count;
+    for (const Found& found : found_)
+        for (const Change& change : found.changes) new_count_[change.entry] = change.count;
+    new_first_.resize(count);
+    std::uint32_t all = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        new_first_[i] = all;
+        all += new_count_[i];
+    }
+    spare_manifolds_.resize(all);
+    spare_anchors_.resize(all);
+    each_share(pool, [&](const Found& found) {
+        // What did not change still lies side by side, mostly: it goes in one piece.
+        Run run;
+        const auto flush = [&] {
+            copy_plain(manifolds_, run.from, run.count, spare_manifolds_, run.to);
+            copy_plain(anchors_, run.from, run.count, spare_anchors_, run.to);
+        };
+        auto change = found.changes.begin();
+        for (const std::uint32_t i : found.entries) {
+            if (change != found.changes.end() && change->entry == i) {
+                copy_plain(found.manifolds, change->first, change->count, spare_manifolds_, new_first_[i]);
+                copy_plain(found.anchors, change->first, change->count, spare_anchors_, new_first_[i]);
+                ++change;
+                continue;
+            }
+            const Entry& entry = entries_[i];
+            if (entry.count == 0) continue;
+            if (entry.first != run.from + run.count || new_first_[i] != run.to + run.count) {
+                flush();
+                run = {entry.first, new_first_[i], 0};
+            }
+            run.count += entry.count;
+        }
+        flush();
+    });
+    touching_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        entries_[i].first = new_first_[i];
+        entries_[i].count = new_count_[i];
+        touching_.insert(touching_.end(), new_count_[i], entries_[i].pair);
+    }
+    ++changes_;
+    manifolds_.swap(spare_manifolds_);
+    anchors_.swap(spare_anchors_);
+    moved_ = false;
+}
+
+}  // namespace tumble

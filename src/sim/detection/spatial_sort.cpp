@@ -1,0 +1,49 @@
+#include "sim/detection/spatial_sort.h"
+
+#include "sim/math/kd_split.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace tumble {
+namespace {
+
+// `upward`: the axis nearest to gravity's, -1 without gravity.
+void cut(std::span<PlacedBody> items, int upward) {
+    if (items.size() <= tuning::ordered_column) {
+        std::sort(items.begin(), items.end(), PlacedBody::before(upward >= 0 ? upward : longest_side(items)));
+        return;
+    }
+    const std::size_t half = cut_at_median(items, longest_side(items, upward));
+    cut(items.first(half), upward);
+    cut(items.subspan(half), upward);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const Vec3& gravity) {
+    std::vector<std::uint32_t> order;
+    std::vector<PlacedBody> movers;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        if (bodies[i].dynamic()) movers.push_back({bodies[i].position, i});
+        else order.push_back(i);
+    }
+    if (movers.size() < tuning::ordered_bodies) {
+        order.resize(bodies.size());
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    int upward = -1;
+    if (!gravity.isZero(0.0)) gravity.cwiseAbs().maxCoeff(&upward);
+    cut(movers, upward);
+    for (const PlacedBody& mover : movers) order.push_back(mover.body);
+    std::vector<Body> ordered;
+    ordered.reserve(bodies.size());
+    for (const std::uint32_t i : order) ordered.push_back(std::move(bodies[i]));
+    bodies = std::move(ordered);
+    return order;
+}
+
+}  // namespace tumble

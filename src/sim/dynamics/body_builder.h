@@ -1,0 +1,42 @@
+// From a body's description to a body at rest in the simulation: its mass, inertia tensor and collision shape.
+#pragma once
+
+#include "scene/description/description.h"
+#include "sim/dynamics/body.h"
+#include "sim/geometry/compound.h"
+
+#include <array>
+#include <map>
+#include <memory>
+
+namespace tumble {
+
+/// Builds bodies. Equal boxes share one collider, and so do bodies of the same mesh or compound.
+class BodyBuilder {
+public:
+    /// `integrator` is the simulation's, for bodies that name none of their own.
+    Body build(const BodyDescription& description, IntegratorKind integrator);
+
+private:
+    struct Mesh {
+        std::shared_ptr<const Polyhedron> hull;
+        std::shared_ptr<const TriangleSurface> surface;
+    };
+    Collider mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin);
+    Collider collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
+    Collider compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
+
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: one is 2 KB
+    // Looked up only, never iterated: the order of addresses decides nothing.
+    std::map<const MeshAsset*, Mesh> meshes_;
+    struct KnownCompound {
+        Vec3 origin = Vec3::Zero();
+        std::shared_ptr<const Compound> made;
+    };
+    std::map<const void*, KnownCompound> compounds_;
+};
+
+/// All of a scene's bodies, in its order.
+std::vector<Body> build_bodies(const SceneDescription& scene);
+
+}  // namespace tumble

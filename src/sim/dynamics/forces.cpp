@@ -1,0 +1,130 @@
+#include "sim/dynamics/forces.h"
+
+#include "sim/math/free_rotation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+bool covers(const ForceDescription& f, double from, double to) { return f.start <= from && f.end >= to; }
+
+void add(Wrench& sum, const ForceDescription& f, const Body& body, const Mat3& rotation) {
+    const Vec3 force = f.body_frame ? Vec3(rotation * f.force) : f.force;
+    const Vec3 r = rotation * (f.point - body.center_of_mass);
+    sum.force += force;
+    sum.torque += r.cross(force);   // notes eq. 6
+}
+
+}  // namespace
+
+ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order)
+    : gravity_(scene.simulation.gravity), wind_(scene.wind), at_points_(scene.bodies.size()) {
+    std::vector<std::size_t> places(scene.bodies.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[order.empty() ? i : order[i]] = i;
+    for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
+    for (std::uint32_t i = 0; i < at_points_.size(); ++i)
+        if (!at_points_[i].empty()) pushed_.push_back(i);
+}
+
+Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
+    Wrench sum;
+    sum.force = body.mass * gravity_;
+    if (wind_) {
+        // F = 1/2 rho C_d A |u| u with u the air's velocity past the body.
+        const Vec3 u = wind_->velocity - velocity;
+        sum.force += 0.5 * wind_->density * wind_->drag * body.drag_area * u.norm() * u;
+    }
+    return sum;
+}
+
+template <class Choose>
+void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation, const Choose& choose) const {
+    for (const ForceDescription& f : at_points_[index])
+        if (choose(f)) add(sum, f, body, rotation);
+}
+
+Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation,
+                      double time) const {
+    Wrench sum = fields(body, velocity);
+    add_points(sum, index, body, rotation, [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
+    return sum;
+}
+
+Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = fields(body);
+    add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to); });
+    return sum;
+}
+
+Wrench ForceField::endless(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = fields(body);
+    add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to) && std::isinf(f.end); });
+    return sum;
+}
+
+// The parts that a span has in successive steps are differences of the same times: they add up to the span.
+template <class Choose>
+Impulse ForceField::impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const {
+    Impulse sum;
+    for (const ForceDescription& f : at_points_[index]) {
+        const double start = std::max(f.start, from), end = std::min(f.end, to);
+        if (!(end > start) || !choose(f)) continue;
+        Mat3 rotation = body.rotation;
+        if (!covers(f, from, to) && !body.angular_momentum.isZero(0.0)) {   // throughout: at t_n, as all that acts for a step
+            const FreeRotation turning(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
+            rotation = turning.at(0.5 * (start + end) - from).toRotationMatrix();
+        }
+        Wrench wrench;
+        add(wrench, f, body, rotation);
+        sum = sum + Impulse{(end - start) * wrench.force, (end - start) * wrench.torque};
+    }
+    return sum;
+}
+
+Impulse ForceField::brief(std::size_t index, const Body& body, double from, double to) const {
+    return impulse(index, body, from, to, [&](const ForceDescription& f) { return !covers(f, from, to); });
+}
+
+Impulse ForceField::ending(std::size_t index, const Body& body, double from, double to) const {
+    return impulse(index, body, from, to, [&](const ForceDescription& f) { return !std::isinf(f.end); });
+}
+
+ForceField ForceField::without_points() const {
+    ForceField field = *this;
+    field.pushed_.clear();
+    for (auto& list : field.at_points_) list.clear();
+    return field;
+}
+
+bool ForceField::changes(std::size_t index, double from, double to) const {
+    for (const ForceDescription& f : at_points_[index])
+        if ((f.start >= from && f.start < to) || (f.end >= from && f.end < to)) return true;
+    return false;
+}
+
+double ForceField::next_change(std::size_t index, double time) const {
+    double next = std::numeric_limits<double>::infinity();
+    for (const ForceDescription& f : at_points_[index])
+        for (const double change : {f.start, f.end})
+            if (change > time) next = std::min(next, change);
+    return next;
+}
+
+bool ForceField::constant(std::size_t index, double from, double to) const {
+    return !wind_ && std::none_of(at_points_[index].begin(), at_points_[index].end(),
+                                  [&](const ForceDescription& f) { return f.start < to && f.end > from; });
+}
+
+bool ForceField::torque_free(std::size_t index, double time) const {
+    return std::none_of(at_points_[index].begin(), at_points_[index].end(),
+                        [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
+}
+
+double ForceField::drag_rate(const Body& body) const {
+    return wind_ ? wind_->density * wind_->drag * body.drag_area * body.inverse_mass : 0.0;
+}
+
+}  // namespace tumble

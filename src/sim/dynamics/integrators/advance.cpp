@@ -1,0 +1,126 @@
+#include "sim/dynamics/integrators/advance.h"
+
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "sim/math/free_rotation.h"
+#include "sim/dynamics/integrators/extrapolation.h"
+#include "sim/dynamics/integrators/runge_kutta_4.h"
+#include "sim/dynamics/integrators/splitting.h"
+#include "sim/settings/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// Calls part(start, end, law) for the parts of [from, to] within which no force begins or ends.
+template <class Part>
+void for_each_part(const Body& body, const ForceField& forces, std::size_t index, double from, double to,
+                   const Part& part) {
+    while (from < to) {
+        const double end = std::min(to, forces.next_change(index, from));
+        // What acts at the part's middle acts throughout; asked at its ends, rounding of times would decide.
+        const double middle = 0.5 * (from + end);
+        const auto law = [&](const Vec3& velocity, const Mat3& rotation) {
+            return forces.at(index, body, velocity, rotation, middle);
+        };
+        part(from, end, law);
+        from = end;
+    }
+}
+
+// The power of two that is the cube root of x or up to twice as large: libm's would not be the same everywhere.
+double cube_root_above(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, exponent > 0 ? (exponent + 2) / 3 : exponent / 3);
+}
+
+// The rate (1/s) at which the motion changes: of drag, of the rotation, of the angular velocity by the torque.
+double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, bool turns, double drag_rate,
+               const Vec3& wind, double span) {
+    const Vec3 velocity = mass.inverse_mass * s.momentum;
+    const Mat3 rotation = s.orientation.toRotationMatrix();
+    const Wrench wrench = law(velocity, rotation);
+    double rate = 0.0;
+    if (drag_rate > 0.0) {
+        // Of dv/dt = a - k |u| u, k half the drag rate, it is k |u|; where the speed is yet to come, sqrt(k a).
+        const double speed = (velocity - wind).norm(), acceleration = mass.inverse_mass * wrench.force.norm();
+        rate += drag_rate * speed + std::sqrt(drag_rate * acceleration);
+        // The singularity is |u| / a away. In h it amounts to k a^2 h^3 of the velocity, at last to nothing.
+        if (acceleration > 0.0) {
+            const double nothing = tuning::extrapolation_no_drag * (velocity.norm() + acceleration * span);
+            const double finest = cube_root_above(drag_rate * acceleration * acceleration / nothing);
+            rate += tuning::extrapolation_rest_in_air * std::min(acceleration / speed, finest);
+        }
+    }
+    if (turns) {
+        const double most = 1.0 / mass.principal_inertia.minCoeff();
+        const Vec3 omega = mass.inverse_inertia * (rotation.transpose() * s.angular_momentum);   // body axes
+        const double twice_energy = omega.dot(rotation.transpose() * s.angular_momentum);
+        rate += std::min(std::sqrt(std::max(0.0, twice_energy) * most), s.angular_momentum.norm() * most);
+        rate += std::sqrt(wrench.torque.norm() * most);
+    }
+    return rate;
+}
+
+}  // namespace
+
+bool steps_whole_state(IntegratorKind kind) {
+    return kind == IntegratorKind::splitting || kind == IntegratorKind::runge_kutta_4;
+}
+
+void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from,
+                      double to) {
+    RigidState state = state_of(body);
+    const RigidMass mass = mass_of(body);
+    for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
+        if (kind == IntegratorKind::splitting) splitting_step(state, mass, ForceLaw(law), end - start);
+        else runge_kutta_4_step(state, mass, ForceLaw(law), end - start);
+    });
+    set_state(body, state);
+}
+
+RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from, double to) {
+    RigidState state = state_of(body);
+    const RigidMass mass = mass_of(body);
+    const double drag_rate = forces.drag_rate(body);
+    for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
+        const double span = end - start;
+        const bool turns = !forces.torque_free(index, 0.5 * (start + end));
+        const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation,
+                                    state.angular_momentum);
+        if (forces.constant(index, start, end)) {
+            const Vec3 force = ForceLaw(law)(Vec3::Zero(), Mat3::Identity()).force;
+            state.position += span * mass.inverse_mass * (state.momentum + 0.5 * span * force);
+            state.momentum += span * force;
+        } else {
+            // Nothing but forces at points depends on the orientation: without them it is left out of the steps.
+            RigidMass moved = mass;
+            const Vec3 angular_momentum = state.angular_momentum;
+            if (!turns) state.angular_momentum.setZero();
+            double done = 0.0;
+            for (int step = 0; done < span; ++step) {
+                if (step == tuning::most_substeps) {
+                    throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
+                                               "than {} steps: the forces on it are too large for its mass",
+                                               safe_text(body.name), start, end, tuning::most_substeps));
+                }
+                const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
+                // The rest in equal steps at the present rate; the next one decides anew.
+                const double rest = span - done, count = std::ceil(rest * rate / tuning::extrapolation_phase);
+                extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
+                if (!(count > 1.0)) break;
+                done += rest / count;
+            }
+            if (!turns) state.angular_momentum = angular_momentum;
+        }
+        if (!turns) state.orientation = rotation.at(span);
+    });
+    return state;
+}
+
+}  // namespace tumble

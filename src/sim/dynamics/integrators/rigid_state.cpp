@@ -1,0 +1,34 @@
+#include "sim/dynamics/integrators/rigid_state.h"
+
+#include "sim/dynamics/body.h"
+
+namespace tumble {
+
+RigidState state_of(const Body& body) {
+    return {body.position, body.orientation, body.momentum, body.angular_momentum};
+}
+
+RigidMass mass_of(const Body& body) {
+    return {body.inverse_mass, body.inverse_inertia_body, body.principal_inertia, body.principal_axes};
+}
+
+void set_state(Body& body, const RigidState& state) {
+    body.position = state.position;
+    body.orientation = state.orientation;
+    body.rotation = state.orientation.toRotationMatrix();
+    body.momentum = state.momentum;
+    body.angular_momentum = state.angular_momentum;
+    body.derive();
+}
+
+Mat3 rotation_of(const Quat& q) {
+    const double s = 2.0 / q.squaredNorm();
+    const Vec3 v = q.vec(), u = s * v, w = s * q.w() * v;
+    Mat3 r;
+    r << 1.0 - u.y() * v.y() - u.z() * v.z(), u.x() * v.y() - w.z(), u.x() * v.z() + w.y(),   //
+        u.x() * v.y() + w.z(), 1.0 - u.x() * v.x() - u.z() * v.z(), u.y() * v.z() - w.x(),    //
+        u.x() * v.z() - w.y(), u.y() * v.z() + w.x(), 1.0 - u.x() * v.x() - u.y() * v.y();
+    return r;
+}
+
+}  // namespace tumble

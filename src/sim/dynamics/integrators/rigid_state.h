@@ -1,0 +1,53 @@
+// What the integrators of higher order work on: the state of one body, its mass, and a law of force; nothing else of
+// the simulation. World frame unless said otherwise.
+#pragma once
+
+#include "core/vector.h"
+#include "sim/math/wrench.h"
+
+namespace tumble {
+
+struct Body;
+
+/// X = (x, q, P, L) (notes eq. 1 with section 3.1's quaternion).
+struct RigidState {
+    Vec3 position = Vec3::Zero();           // m, of the centre of mass
+    Quat orientation = Quat::Identity();    // body to world
+    Vec3 momentum = Vec3::Zero();           // kg m/s
+    Vec3 angular_momentum = Vec3::Zero();   // kg m^2/s, about the centre of mass
+};
+
+/// How a body resists.
+struct RigidMass {
+    double inverse_mass = 0.0;               // 1/kg
+    Mat3 inverse_inertia = Mat3::Zero();     // 1/(kg m^2), body frame
+    Vec3 principal_inertia = Vec3::Ones();   // kg m^2
+    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
+};
+
+RigidState state_of(const Body& body);
+RigidMass mass_of(const Body& body);
+/// Also makes what is derived from the state.
+void set_state(Body& body, const RigidState& state);
+
+/// The rotation matrix of a quaternion of any length: the stages of a step leave the unit sphere a little.
+Mat3 rotation_of(const Quat& q);
+
+/// What acts on a body in a place, with a velocity: Wrench(velocity, rotation) of any callable, which must outlive it.
+/// No time: a span of time over which forces come or go is stepped in parts.
+class ForceLaw {
+public:
+    template <class Callable>
+    explicit ForceLaw(const Callable& law)
+        : law_(&law), call_([](const void* object, const Vec3& velocity, const Mat3& rotation) -> Wrench {
+              return (*static_cast<const Callable*>(object))(velocity, rotation);
+          }) {}
+
+    Wrench operator()(const Vec3& velocity, const Mat3& rotation) const { return call_(law_, velocity, rotation); }
+
+private:
+    const void* law_;
+    Wrench (*call_)(const void*, const Vec3&, const Mat3&);
+};
+
+}  // namespace tumble

@@ -1,0 +1,98 @@
+#include "sim/event_driven/contact_transition.h"
+
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// Of the body's point at `arm`, without contacts: g + alpha x r + omega x (omega x r), alpha = -I^-1 (omega x L).
+Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, bool supported) {
+    if (supported || !body.dynamic()) return Vec3::Zero();
+    const Vec3& omega = body.angular_velocity;
+    const Vec3 alpha = -(body.inverse_inertia * omega.cross(body.angular_momentum));
+    return gravity + alpha.cross(arm) + omega.cross(omega.cross(arm));
+}
+
+// n' of the contact's normal (1/s): with the body whose face it is; of crossing edges n stays across both, so that with
+// c = e_a x e_b, n' is the part of c' / |c| across n.
+Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
+    if (c.corners == Corners::of_a || c.on_ball == OnBall::a_over_face) return b.angular_velocity.cross(c.normal);
+    if (c.corners == Corners::of_b || c.on_ball == OnBall::b_over_face) return a.angular_velocity.cross(c.normal);
+    const Vec3 across = c.edge_a.cross(c.edge_b);
+    const double length = across.norm();
+    if (!(length > 0.0)) return Vec3::Zero();
+    const Vec3 change = a.angular_velocity.cross(c.edge_a).cross(c.edge_b) + c.edge_a.cross(b.angular_velocity.cross(c.edge_b));
+    const double sign = across.dot(c.normal) < 0.0 ? -1.0 : 1.0;
+    return sign / length * (change - c.normal.dot(change) * c.normal);
+}
+
+// What the turning of the normal adds to n.a, for places that pass each other at v. The gap between two points, d n, or between a
+// point and a line along the unit e, less a radius: with s = d n.e, d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. Any other gap:
+// d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based Modeling", resting contact).
+double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
+    if (c.on_ball != OnBall::curve) return 2.0 * normal_rate(c, a, b).dot(v);
+    const double distance = (b.position + c.place_b - a.position - c.place_a).norm();
+    if (!(distance > 0.0)) return 0.0;
+    const Body& edged = std::holds_alternative<Ball>(a.collider) ? b : a;
+    const double along = v.dot(c.straight) + distance * c.normal.dot(edged.angular_velocity.cross(c.straight));
+    return ((v - c.normal.dot(v) * c.normal).squaredNorm() - along * along) / distance;
+}
+
+// A sum whose terms cancel but for rounding is none.
+double beyond_rounding(double sum, double terms) { return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0; }
+
+}  // namespace
+
+double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported) {
+    const bool on_ball = c.on_ball != OnBall::no;
+    const Vec3 &arm_a = on_ball ? c.place_a : c.arm_a, &arm_b = on_ball ? c.place_b : c.arm_b;
+    const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported), of_b = free_acceleration(b, arm_b, gravity, b_supported);
+    const double more = turning(c, a, b, b.point_velocity(arm_b) - a.point_velocity(arm_a));
+    return beyond_rounding(c.normal.dot(of_b - of_a) + more, of_a.norm() + of_b.norm() + std::abs(more));
+}
+
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
+               std::vector<bool>& held) {
+    std::vector<std::uint32_t> found;
+    do {   // in rounds: whom a contact holds does not hang on the contacts' order
+        found.clear();
+        for (const Contact& c : contacts) {
+            const Body &a = bodies[c.a], &b = bodies[c.b];
+            if (!(c.separation <= std::max(c.touch_distance, near)) || (held[c.a] && held[c.b])) continue;
+            // What rests overlaps by as much as is not pushed out, to the last digit: that is no overlap to be held for.
+            const double left = tuning::direct_slop * std::min(a.radius, b.radius);
+            const bool overlap = c.separation < -(left + c.touch_distance);
+            if (!overlap) {
+                if (relative_velocity(c, a, b) > release) continue;
+                const bool a_stands = !a.dynamic() || a.asleep || held[c.a], b_stands = !b.dynamic() || b.asleep || held[c.b];
+                if (!(pressing_acceleration(c, a, b, gravity, a_stands, b_stands) < 0.0)) continue;
+            }
+            for (const std::uint32_t k : {c.a, c.b})
+                if (bodies[k].dynamic() && !held[k]) found.push_back(k);
+        }
+        for (const std::uint32_t k : found) held[k] = true;
+    } while (!found.empty());
+}
+
+bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time) {
+    if (acceleration >= 0.0) return false;
+    const double v = relative_velocity(c, a, b);
+    if (2.0 * v < -acceleration * time) return true;
+    return v * v < -2.0 * acceleration * (gap_rounding(a, a.position) + gap_rounding(b, b.position));
+}
+
+double harmless_time(const Traveller& a, const Traveller& b) {
+    double size = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const Traveller* t : {&a, &b}) {
+        if (!t->body->moves()) continue;
+        size = std::min(size, t->body->radius);
+        most += t->path->acceleration(t->since).norm() + t->path->turning_bound() * t->body->radius;
+    }
+    return std::sqrt(2.0 * tuning::impact_harmless * size / most);
+}
+
+}  // namespace tumble

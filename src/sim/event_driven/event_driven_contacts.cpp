@@ -1,0 +1,233 @@
+// Flights: the bodies that contacts hold. How they go through a step, fall asleep and wake, and how flights end in contact.
+#include "sim/event_driven/event_driven_motion.h"
+
+#include "core/sort_unique.h"
+#include "sim/event_driven/contact_transition.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asleep; }
+
+}  // namespace
+
+bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+    held_.assign(bodies.size(), false);
+    // What rolls over a hill goes off it along the tangent in each step, v^2 h^2 / 2 R: less than gravity's way for as long as it stays on.
+    const double g = settings_.gravity.norm();
+    mark_held(contacts, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
+    bool any = false;
+    for (const std::uint32_t i : movers_) {
+        if (!held(bodies[i]) || held_[i]) continue;
+        fliers_[i].pushed = false;
+        fly(i, bodies, forces, {step, 0.0});
+        taken_off_.push_back(i);
+        any = true;
+    }
+    return any;
+}
+
+// Moves a held body evenly to the end of the step. What has to stop on its way goes slower: it ends where it would have
+// stopped.
+void Flights::hold(std::uint32_t i, const BodyVelocity& motion, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now) {
+    const Body& body = bodies[i];
+    Vec3 velocity = limit.share * motion.velocity;
+    if (limit.carrier != StepLimit::none) {
+        const Body& carrier = bodies[limit.carrier];
+        velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
+    }
+    start(i, Path::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
+    fliers_[i].spin = spin(body);
+}
+
+void Flights::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<StepLimit>& limits,
+                         const ForceField& forces, std::int64_t step) {
+    const Moment now{step, 0.0};
+    changed_.swap(taken_off_);
+    taken_off_.clear();
+    for (const std::uint32_t i : movers_) {
+        const Body& body = bodies[i];
+        fliers_[i].pushed = !body.flying && !body.asleep;
+        if (body.flying) {
+            if (!fliers_[i].driven || fliers_[i].start == now) continue;
+            bring(i, bodies, now);
+            fly(i, bodies, forces, now);
+        } else if (body.asleep) {
+            continue;
+        } else {
+            hold(i, motions[i], limits[i], bodies, now);
+            fliers_[i].meetings = 0;
+        }
+        changed_.push_back(i);
+    }
+    predict_changed(bodies, now);
+}
+
+void Flights::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
+    const Moment now{step, 0.0};
+    for (const std::uint32_t i : movers_) {
+        if (!bodies[i].asleep || fliers_[i].until == never) continue;
+        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
+        fliers_[i].meetings = 0;
+        changed_.push_back(i);
+    }
+    predict_changed(bodies, now);
+}
+
+// Held bodies that the blow has freed fly from now on, not from the next step.
+void Flights::release_struck(std::vector<Body>& bodies) {
+    const auto& struck = cluster_.struck();
+    if (std::none_of(struck.begin(), struck.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
+    held_.resize(bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
+    for (const std::uint32_t k : struck) held_[k] = false;
+    mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
+    for (const std::uint32_t k : struck)
+        if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
+}
+
+void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now) {
+    was_asleep_.clear();
+    for (const std::uint32_t k : movers_)
+        if (bodies[k].asleep) was_asleep_.push_back(k);
+    sleep.wake(i, bodies);
+    for (const std::uint32_t k : was_asleep_)
+        if (!bodies[k].asleep) changed_.push_back(k);
+    until_ = std::min(until_, now.step + 1);
+}
+
+// What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
+void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    std::vector<std::uint32_t> landed;
+    std::vector<std::uint32_t> landing;
+    do {   // in rounds: who lands does not hang on the contacts' order
+        landing.clear();
+        for (const Contact& c : cluster_.contacts()) {
+            const Body &a = bodies[c.a], &b = bodies[c.b];
+            if (!a.flying && !b.flying) continue;
+            const double acceleration = pressing_acceleration(c, a, b, settings_.gravity, !a.flying, !b.flying);
+            const double time = std::max(a.flying ? landing_time(c.a) : 0.0, b.flying ? landing_time(c.b) : 0.0);
+            const double speed = std::abs(relative_velocity(c, a, b));
+            const bool stutter = (a.flying && stutters(c.a, bodies, speed)) || (b.flying && stutters(c.b, bodies, speed));
+            if (!stutter && !hop_is_shorter(c, a, b, acceleration, time)) continue;
+            for (const std::uint32_t k : {c.a, c.b})
+                if (bodies[k].flying) landing.push_back(k);
+        }
+        sort_unique(landing);
+        for (const std::uint32_t k : landing) bodies[k].flying = false;
+        landed.insert(landed.end(), landing.begin(), landing.end());
+    } while (!landing.empty());
+    if (landed.empty()) return;
+    until_ = std::min(until_, now.step + 1);
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    if (!(rest > 0.0)) return;
+    landing_manifolds_.clear();
+    std::vector<std::uint32_t> touched;
+    for (const Manifold& m : cluster_.manifolds()) {   // those of what it lands on, too: that may lean on something
+        if (bodies[m.a].flying || bodies[m.b].flying) continue;
+        landing_manifolds_.push_back(m);   // the little it would still bounce is given up
+        for (const std::uint32_t k : {m.a, m.b})
+            if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
+    }
+    sort_unique(touched);
+    for (const std::uint32_t k : touched) {
+        velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
+        fliers_[k].spin = unknown;
+    }
+    for (const std::uint32_t k : landed) {
+        Body& body = bodies[k];
+        const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
+        const bool pushed = fliers_[k].pushed;
+        const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
+        const Impulse blow = pushed ? Impulse{} : forces.brief(k, body, from, to);
+        advance_momenta(body, wrench.force, wrench.torque, rest);
+        advance_momenta(body, blow);
+        body.derive();
+        fliers_[k].pushed = true;
+    }
+    islands_.find(body_pairs(landing_manifolds_), bodies, touched);
+    contact_solver_.solve({bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}},
+                          islands_, alone_);
+    for (const std::uint32_t k : touched) {
+        bodies[k].push_velocity.setZero();
+        bodies[k].push_angular_velocity.setZero();
+        changed_.push_back(k);
+    }
+    for (const std::uint32_t k : landed) changed_.push_back(k);
+}
+
+// Held bodies meet what is fixed, and each other, by steps. But those that a blow has just sent another way, or that have
+// landed, go in what is left of this step no farther than they meet something, and so does who was on his way to them: there
+// the next impact is. So a few times in a step; then they stop there. But two that touch and are free to move go on, as they
+// would lose their common motion, and are left to the next step's contact.
+void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    std::vector<std::uint32_t> going, near;
+    for (const std::uint32_t k : changed_)
+        if (held(bodies[k])) going.push_back(k);
+    if (going.empty()) return;
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    motions_.resize(bodies.size());
+    for (const std::uint32_t k : going)
+        motions_[k] = {bodies[k].velocity + bodies[k].push_velocity, bodies[k].angular_velocity + bodies[k].push_angular_velocity};
+    const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
+    const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
+    const std::vector<StepLimit>* limits = nullptr;
+    for (bool more = true; more;) {
+        sort_unique(going);
+        std::vector<BroadPhase::Pair> pairs;
+        near = going;
+        for (const std::uint32_t k : going) {
+            const auto add = [&](std::uint32_t other) {
+                const auto [a, b] = std::minmax(k, other);
+                const bool both = bodies[a].dynamic() && bodies[b].dynamic();
+                const bool often = both && std::max(fliers_[a].meetings, fliers_[b].meetings) >= tuning::meetings_in_step;
+                if (!often || !depth(a, b)) pairs.push_back({a, b});
+            };
+            for (const std::uint32_t other : neighbourhood_.fixed(k)) add(other);
+            for (const std::uint32_t other : neighbourhood_.moving(k)) {
+                if (bodies[other].flying) continue;
+                near.push_back(other);
+                add(other);
+            }
+        }
+        sort_unique(near);
+        sort_unique(pairs);
+        for (const std::uint32_t k : near) {
+            if (goes(k)) continue;
+            bring(k, bodies, now);
+            const Motion motion = fliers_[k].path.at(clock_.between(fliers_[k].start, now));
+            motions_[k] = {motion.velocity, motion.angular_velocity};
+        }
+        const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
+        const bool any_fast = std::any_of(near.begin(), near.end(), [&](std::uint32_t k) { return motion_limit_.fast(k, motions_[k], rest); });
+        limits = &motion_limit_.limits(find_pairs, depth, bodies, motions_, rest, any_fast);
+        std::vector<std::uint32_t> stopped;
+        for (const std::uint32_t k : near)
+            if (!goes(k) && held(bodies[k]) && (*limits)[k].share < 1.0) stopped.push_back(k);
+        going.insert(going.end(), stopped.begin(), stopped.end());
+        more = !stopped.empty();
+    }
+    for (const std::uint32_t k : going) {
+        const StepLimit& limit = (*limits)[k];
+        changed_.push_back(k);
+        if (limit.met != StepLimit::none && fliers_[k].meetings < tuning::meetings_in_step) {
+            hold(k, motions_[k], {}, bodies, now);
+            fliers_[k].until = later(now, limit.share * rest);
+            fliers_[k].met = limit.met;
+            continue;
+        }
+        if (limit.share < 1.0) {
+            const Wrench wrench = forces.endless(k, bodies[k], clock_.seconds(now), clock_.seconds(now.step + 1));
+            return_work(bodies[k], rest * wrench.force, rest * wrench.torque, limit.share);
+        }
+        hold(k, motions_[k], limit, bodies, now);
+    }
+    for (const std::uint32_t k : near) motions_[k] = {};
+}
+
+}  // namespace tumble

@@ -1,0 +1,377 @@
+#include "sim/event_driven/event_driven_motion.h"
+
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "core/sort_unique.h"
+#include "sim/event_driven/contact_transition.h"
+#include "sim/dynamics/integrators/advance.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/settings/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+
+Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps)
+    : settings_(settings),
+      clock_{fps, settings.steps_per_frame},
+      h_(clock_.seconds(1)),
+      fliers_(bodies.size()),
+      balls_(bodies.size()),
+      grounds_(bodies.size()),
+      neighbourhood_(bodies),
+      queue_(bodies.size()),
+      motion_limit_(bodies),
+      islands_(bodies.size()),
+      contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
+      velocities_before_(bodies.size()) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
+        if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
+        if (bodies[i].moves()) {
+            movers_.push_back(i);
+        } else if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
+            const Vec3 normal = bodies[i].rotation * space->normal;
+            grounds_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
+        }
+    }
+}
+
+Moment Flights::later(const Moment& now, double seconds) const {
+    const double offset = now.offset + seconds;
+    if (!(offset < 1e12 * h_)) return never;
+    const auto steps = std::int64_t(std::floor(offset / h_));
+    return {now.step + steps, offset - clock_.seconds(steps)};
+}
+
+void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until) {
+    Flier& f = fliers_[i];
+    f.path = path;
+    f.start = now;
+    f.until = until;
+    f.driven = false;
+    f.met = StepLimit::none;
+    f.spin = unknown;
+    ++f.version;
+    Ballistic& ball = balls_[i];
+    ball.valid = ball.radius > 0.0 && path.parabolic() && path.acceleration(0.0) == settings_.gravity && until == never;
+    ball.position = path.position(0.0);
+    ball.velocity = path.velocity(0.0);
+    ball.start = now;
+}
+
+// A driven path goes to the step's end, but not across the beginning or end of a force. Moments within a step are told apart by
+// their offsets: the same change always has the same.
+Moment Flights::drive_end(std::uint32_t i, const ForceField& forces, const Moment& now) const {
+    const double step_start = clock_.seconds(now.step), step_end = clock_.seconds(now.step + 1);
+    for (double change = forces.next_change(i, step_start); change < step_end; change = forces.next_change(i, change))
+        if (change - step_start > now.offset) return {now.step, change - step_start};
+    return {now.step + 1, 0.0};
+}
+
+// Sets a body free from its present state.
+void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+    Body& body = bodies[i];
+    body.flying = true;
+    if (forces.only_gravity(i)) {
+        start(i, Path::flight(body, settings_.gravity), now, never);
+        return;
+    }
+    // Under other forces, step by step; the step's end is as good as double precision allows.
+    const bool pushed = fliers_[i].pushed;
+    const Moment end = pushed ? Moment{now.step + 1, 0.0} : drive_end(i, forces, now);
+    const double from = clock_.seconds(now), to = clock_.seconds(end), span = clock_.between(now, end);
+    const RigidState there = advance_exactly(body, pushed ? forces.without_points() : forces, i, from, to);
+    Motion motion;
+    motion.position = there.position;
+    motion.velocity = body.inverse_mass * there.momentum;
+    motion.orientation = there.orientation;
+    const bool torque_free = there.angular_momentum == body.angular_momentum;
+    start(i, Path::towards(body, motion, span, torque_free), now, end);
+    fliers_[i].driven = true;
+    fliers_[i].turn_from = body.angular_momentum;
+    fliers_[i].turn_to = there.angular_momentum;
+}
+
+Traveller Flights::traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const {
+    return {&bodies[i], &fliers_[i].path, clock_.between(fliers_[i].start, now)};
+}
+
+void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+    show(i, bodies, now);
+    if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();   // the others are derived already
+}
+
+// The body's state and velocities, but not what only contacts need.
+void Flights::show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+    Body& body = bodies[i];
+    if (!body.moves() || body.asleep) return;
+    const Flier& f = fliers_[i];
+    const double t = clock_.between(f.start, now);
+    const Motion motion = f.path.at(t);
+    body.position = motion.position;
+    body.orientation = motion.orientation;
+    body.rotation = motion.rotation;
+    if (!body.dynamic()) return;
+    if (!body.flying) {
+        body.derive();
+        if (spin_grew(body, f.spin)) limit_spin(body, f.spin);
+        return;
+    }
+    body.velocity = motion.velocity;
+    body.momentum = body.mass * motion.velocity;
+    body.angular_velocity = motion.angular_velocity;
+    if (!f.driven) return;
+    const double span = clock_.between(f.start, f.until);
+    body.angular_momentum = f.turn_from + (t / span) * (f.turn_to - f.turn_from);
+    body.derive();
+}
+
+void Flights::place(std::vector<Body>& bodies, std::int64_t step) const {
+    for (const std::uint32_t i : movers_)
+        if (bodies[i].dynamic()) show(i, bodies, {step, 0.0});
+}
+
+bool Flights::stepping(const std::vector<Body>& bodies) const {
+    return std::any_of(movers_.begin(), movers_.end(), [&](std::uint32_t i) {
+        const Body& body = bodies[i];
+        return body.flying ? fliers_[i].driven : !body.asleep;
+    });
+}
+
+void Flights::predict_changed(const std::vector<Body>& bodies, const Moment& now) {
+    sort_unique(changed_);
+    for (const std::uint32_t i : changed_) box(i, bodies, now);
+    for (const std::uint32_t i : changed_) predict(i, bodies, now);
+    changed_.clear();
+}
+
+// A box that holds the body for about the time it takes to leave its own place; at least for the step.
+void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    f.boxed_until = never;
+    if (!neighbourhood_.crowded()) {
+        if (!neighbourhood_.known(i)) neighbourhood_.enclose(i, Bounds{Vec3::Zero(), Vec3::Zero()});
+        return;
+    }
+    const double r = bodies[i].radius, t = clock_.between(f.start, now);
+    const double v = f.path.velocity(t).norm(), a = f.path.acceleration(t).norm();
+    const double way = f.box_way * r;
+    double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way)) : std::numeric_limits<double>::infinity();
+    time = std::min(std::max(time, h_), clock_.between(now, f.until));
+    if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
+    else f.boxed_until = later(now, time);
+    // A part of the way may fit into the box there is: cheaper than to look for neighbours anew. No small part of a step:
+    // parts of what is left of one never come to its end.
+    for (const double part : {1.0, 0.5, 0.25}) {
+        if (part < 1.0 && part * time < 0.25 * h_) break;
+        if (!neighbourhood_.encloses(i, f.path.swept(t, t + part * time).grown(r))) continue;
+        if (part < 1.0) f.boxed_until = later(now, part * time);
+        return;
+    }
+    neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
+    // Larger boxes last longer but hold more neighbours.
+    const std::size_t neighbours = neighbourhood_.moving(i).size();
+    if (neighbours < tuning::few_neighbours) f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
+    else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
+}
+
+void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    const bool flying = bodies[i].flying;
+    f.event = Flier::Event::leaves_box;
+    Moment next = std::min(f.boxed_until, f.until);
+    double horizon = clock_.between(now, next);
+    const Traveller self = traveller(i, bodies, now);
+    const auto look = [&](std::uint32_t j) {
+        const double limit = std::min(horizon, clock_.between(now, fliers_[j].until));
+        const TimeOfImpact found = search_.find(self, traveller(j, bodies, now), limit);
+        if (found.kind == TimeOfImpact::Kind::none || !(found.time < horizon)) return;
+        horizon = found.time;
+        next = later(now, found.time);
+        f.event = found.kind == TimeOfImpact::Kind::impact ? Flier::Event::impact : Flier::Event::looks_again;
+        f.partner = j;
+        f.partner_version = fliers_[j].version;
+    };
+    if (flying)
+        for (const std::uint32_t j : neighbourhood_.fixed(i))
+            if (!grounds_[j].valid || !grounds_[j].stays_below(f.path, bodies[i].radius, self.since, horizon)) look(j);
+    const Ballistic& ball = balls_[i];
+    const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
+    for (const std::uint32_t j : neighbourhood_.moving(i)) {
+        const Ballistic& other = balls_[j];
+        if (ball.valid && other.valid) {
+            // Both fall alike: d(t) = d + v t, in touch when d(t)^2 = (r + r')^2. Those too far or parting need no more.
+            const double t = roughly(other.start, now);
+            const Vec3 d = position(other, t) - at, v = other.velocity + t * settings_.gravity - velocity;
+            const double closing = -d.dot(v), reach = ball.radius + other.radius, c = d.squaredNorm() - reach * reach;
+            if (!(closing > 0.0) || c > 2.0 * closing * horizon || closing * closing < v.squaredNorm() * c) continue;
+        }
+        if (flying || bodies[j].flying) look(j);
+    }
+    if (f.event == Flier::Event::leaves_box && f.met != StepLimit::none && f.until <= f.boxed_until) {
+        f.event = Flier::Event::impact;
+        f.partner = f.met;
+        f.partner_version = fliers_[f.met].version;
+        next = f.until;
+    }
+    // Nothing more within its path: World takes it up at the end of the step, itself where a force begins or ends.
+    if (f.event == Flier::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < Moment{now.step + 1, 0.0}) {
+        f.event = Flier::Event::drives_on;
+        queue_.set(i, f.until);
+    } else if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
+    else queue_.set(i, next);
+}
+
+std::int64_t Flights::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until) {
+    until_ = until;
+    while (!queue_.empty() && queue_.first_moment() < Moment{until_, 0.0}) {
+        const std::uint32_t i = queue_.first();
+        const Moment now = queue_.first_moment();
+        const Flier& f = fliers_[i];
+        if (f.event == Flier::Event::leaves_box) box(i, bodies, now);
+        if (f.event == Flier::Event::drives_on) {
+            bring(i, bodies, now);
+            fly(i, bodies, forces, now);
+            changed_.push_back(i);
+            predict_changed(bodies, now);
+        } else if (f.event == Flier::Event::impact && fliers_[f.partner].version == f.partner_version) {
+            collide(i, f.partner, bodies, sleep, forces, now);
+        } else {
+            predict(i, bodies, now);
+        }
+    }
+    return until_;
+}
+
+// Counts the body's impacts that follow close on one another; a run of more than any motion has is an error.
+void Flights::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
+    Flier& f = fliers_[i];
+    f.since_impact = f.impacts_in_row > 0 ? clock_.between(f.last_impact, now) : h_;
+    f.last_impact = now;
+    f.impacts_in_row = f.since_impact < tuning::in_a_row ? f.impacts_in_row + 1 : 1;
+    const std::int64_t frame = now.step / settings_.steps_per_frame;
+    if (frame != frame_) {
+        frame_ = frame;
+        impacts_in_frame_ = 0;
+    }
+    const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
+    if (++impacts_in_frame_ > limit)
+        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
+                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
+}
+
+// Hops are followed down to a stated time; in a long row of impacts longer and longer ones, up to the step, count as short.
+double Flights::landing_time(std::uint32_t i) const {
+    const int excess = std::max(0, fliers_[i].impacts_in_row - tuning::impacts_before_landing) / 8;
+    return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
+}
+
+// Whether the body's last hop was too short to see and to follow, whatever pressed it back. Measured, for what the formula
+// of a contact's acceleration does not know: edges that turn against each other.
+bool Flights::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
+    const Flier& f = fliers_[i];
+    return f.impacts_in_row > tuning::impacts_before_stutter && f.since_impact < landing_time(i) &&
+           speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
+}
+
+// The commonest impact without the machinery: two frictionless balls, or a ball and a fixed half-space, and nobody else
+// near. Eq. 20 with r x n = 0. False where it is not that.
+bool Flights::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now) {
+    const Body &a = bodies[i], &b = bodies[j];
+    const auto* ball = std::get_if<Ball>(&a.collider);
+    const auto* other_ball = std::get_if<Ball>(&b.collider);
+    const Ground* plane = grounds_[j].valid ? &grounds_[j] : nullptr;
+    if (!ball || !a.flying || fliers_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
+    if (!plane && !(other_ball && b.flying && !fliers_[j].driven)) return false;
+    const double ta = clock_.between(fliers_[i].start, now), tb = clock_.between(fliers_[j].start, now);
+    const Vec3 at = fliers_[i].path.position(ta), va = fliers_[i].path.velocity(ta);
+    const Vec3 vb = other_ball ? fliers_[j].path.velocity(tb) : Vec3(Vec3::Zero());
+    const Vec3 n = other_ball ? Vec3((fliers_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
+    const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
+    if (!(v < 0.0)) return false;
+    const double press = plane ? -n.dot(settings_.gravity) : 0.0;
+    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;   // this one lands
+    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now))) return false;
+    const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
+    start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
+    changed_.push_back(i);
+    if (other_ball) {
+        start(j, fliers_[j].path.deflected(tb, vb + (b.inverse_mass * impulse) * n), now, never);
+        changed_.push_back(j);
+    }
+    predict_changed(bodies, now);
+    return true;
+}
+
+// Whether no third body can touch the ball at `at`.
+bool Flights::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const Moment& now) const {
+    const double r = bodies[i].radius * (1.0 + tuning::touch);
+    for (const std::uint32_t k : neighbourhood_.moving(i)) {
+        if (k == but) continue;
+        const double reach = r + bodies[k].radius * (1.0 + tuning::touch);
+        const Ballistic& ball = balls_[k];
+        const Vec3 there = ball.valid ? position(ball, roughly(ball.start, now))
+                                      : fliers_[k].path.position(clock_.between(fliers_[k].start, now));
+        if ((there - at).squaredNorm() <= reach * reach) return false;
+    }
+    for (const std::uint32_t k : neighbourhood_.fixed(i)) {
+        if (k == but) continue;
+        const Body& body = bodies[k];
+        if (grounds_[k].valid) {
+            if (grounds_[k].normal.dot(at) - grounds_[k].offset <= r) return false;
+        } else if ((body.position - at).norm() <= r + body.radius) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now) {
+    count_impact(i, bodies, now);
+    if (bodies[j].dynamic()) count_impact(j, bodies, now);
+    const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
+    if (bounce_balls(i, j, bodies, now)) return;
+    // Where held bodies meet, slow approaches do not bounce, as at a step.
+    const bool meeting = meets(i, j, now);
+    if (meeting)
+        for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
+    const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
+    const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body,
+                                          {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
+    if (!changed && meeting) {   // no more of that in this step
+        fliers_[i].meetings = tuning::meetings_in_step;
+        changed_.push_back(i);
+        hold_struck(bodies, forces, now);
+        predict_changed(bodies, now);
+        return;
+    }
+    if (!changed) {
+        // Touching without approaching, by rounding: looked at again after a while, a longer one each time, but before anything
+        // can have come of it.
+        Flier& f = fliers_[i];
+        f.event = Flier::Event::looks_again;
+        const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
+        queue_.set(i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
+        return;
+    }
+    for (const std::uint32_t k : cluster_.struck()) {
+        if (bodies[k].asleep) wake(k, bodies, sleep, now);
+        fliers_[k].spin = unknown;
+        changed_.push_back(k);
+    }
+    if (meeting) changed_.push_back(i);   // whether or not the blow has come to it, its path goes no farther
+    release_struck(bodies);
+    land(bodies, forces, now);
+    sort_unique(changed_);
+    for (const std::uint32_t k : changed_)
+        if (bodies[k].flying) fly(k, bodies, forces, now);
+    hold_struck(bodies, forces, now);
+    predict_changed(bodies, now);
+}
+
+}  // namespace tumble

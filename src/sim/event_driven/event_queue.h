@@ -1,0 +1,78 @@
+// Each body's next event, the earliest on top: a binary heap that knows where every body stands in it, ordered by
+// moment and then by body, so that the order never depends on how it came about.
+#pragma once
+
+#include "sim/event_driven/event_time.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+class EventQueue {
+public:
+    explicit EventQueue(std::size_t bodies) : place_(bodies, none) {}
+
+    bool empty() const { return heap_.empty(); }
+    std::uint32_t first() const { return heap_[0].body; }
+    const Moment& first_moment() const { return heap_[0].moment; }
+
+    void set(std::uint32_t body, const Moment& moment) {
+        if (place_[body] == none) {
+            place_[body] = std::uint32_t(heap_.size());
+            heap_.push_back({moment, body});
+        } else {
+            heap_[place_[body]].moment = moment;
+        }
+        sink(rise(place_[body]));
+    }
+
+    void remove(std::uint32_t body) {
+        const std::uint32_t at = place_[body];
+        if (at == none) return;
+        place_[body] = none;
+        const Entry last = heap_.back();
+        heap_.pop_back();
+        if (at == heap_.size()) return;
+        put(at, last);
+        sink(rise(at));
+    }
+
+private:
+    static constexpr std::uint32_t none = UINT32_MAX;
+    struct Entry {
+        Moment moment;
+        std::uint32_t body;
+        friend auto operator<=>(const Entry&, const Entry&) = default;
+    };
+
+    void put(std::uint32_t at, const Entry& entry) {
+        heap_[at] = entry;
+        place_[entry.body] = at;
+    }
+    std::uint32_t rise(std::uint32_t at) {
+        const Entry entry = heap_[at];
+        while (at > 0 && entry < heap_[(at - 1) / 2]) {
+            put(at, heap_[(at - 1) / 2]);
+            at = (at - 1) / 2;
+        }
+        put(at, entry);
+        return at;
+    }
+    void sink(std::uint32_t at) {
+        const Entry entry = heap_[at];
+        for (std::uint32_t child = 2 * at + 1; child < heap_.size(); child = 2 * at + 1) {
+            if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
+            if (!(heap_[child] < entry)) break;
+            put(at, heap_[child]);
+            at = child;
+        }
+        put(at, entry);
+    }
+
+    std::vector<Entry> heap_;
+    std::vector<std::uint32_t> place_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,151 @@
+#include "sim/event_driven/impact_cluster.h"
+
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace tumble {
+namespace {
+
+template <class T>
+bool contains(const std::vector<T>& list, const T& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+template <class T>
+bool add_once(std::vector<T>& list, const T& value) {
+    if (contains(list, value)) return false;
+    list.push_back(value);
+    return true;
+}
+
+// How near (m) two bodies touch in an impact. Bodies that rest on each other do so within the resting contact's own play.
+double touch_distance(const Body& a, const Body& b) {
+    const double size = std::min(a.radius, b.radius);
+    const double place = std::min(a.position.cwiseAbs().maxCoeff(), b.position.cwiseAbs().maxCoeff());
+    const bool held = (a.dynamic() && !a.flying) || (b.dynamic() && !b.flying);
+    return (held ? tuning::touch : tuning::impact_touch) * size + 16.0 * tuning::impact_position_rounding * place;
+}
+
+// Of v_rel (m/s), from the speeds that it is the difference of.
+double rounding(const Contact& c, const Body& a, const Body& b) {
+    const auto speed = [](const Body& body, const Vec3& arm) { return body.velocity.norm() + body.angular_velocity.norm() * arm.norm(); };
+    return tuning::impact_speed_rounding * (speed(a, c.arm_a) + speed(b, c.arm_b));
+}
+
+}  // namespace
+
+void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring) {
+    const auto pair = std::minmax(i, j);
+    if (!add_once(pairs_, {pair.first, pair.second})) return;
+    if (add_once(brought_, j)) bring(j);
+    const Body &a = bodies[pair.first], &b = bodies[pair.second];
+    const double near = widening_ * touch_distance(a, b), margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
+    const double reach = a.radius + b.radius + margin;
+    if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
+    const std::size_t first = manifolds_.size();
+    scratch_.left_out.clear();
+    tumble::collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_, manifolds_);
+    // Faces that meet at a trace of an angle meet all at once: corner after corner, that trace alone would tell where they go.
+    const auto apart = [&](const Manifold& m) {
+        return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > near; });
+    };
+    manifolds_.erase(std::remove_if(manifolds_.begin() + std::ptrdiff_t(first), manifolds_.end(), apart), manifolds_.end());
+    for (std::size_t k = first; k < manifolds_.size(); ++k) {
+        manifolds_[k].a = pair.first;
+        manifolds_[k].b = pair.second;
+    }
+}
+
+void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+    expanded_.push_back(body);
+    if (add_once(brought_, body)) bring(body);
+    if (!bodies[body].dynamic()) return;
+    for (const std::uint32_t other : neighbourhood.moving(body)) touch(body, other, bodies, bring);
+    for (const std::uint32_t other : neighbourhood.fixed(body)) touch(body, other, bodies, bring);
+}
+
+void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
+    reach_.clear();
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact& c = contacts_[i];
+        const Body &a = bodies[c.a], &b = bodies[c.b];
+        const double least = rounding(c, a, b);
+        const bool struck = c.impact > 0.0 || before_[i] < -least, moved = std::abs(relative_velocity(c, a, b) - before_[i]) > least;
+        reach_.push_back(struck ? Reach::blow : moved ? Reach::motion : Reach::none);
+    }
+}
+
+// Whether the body strikes anything now: then it takes part.
+bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+    const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();
+    expand(body, bodies, neighbourhood, bring);
+    own_.clear();
+    for (std::size_t m = first; m < manifolds_.size(); ++m) add_contacts(manifolds_[m], bodies, own_);
+    for (const Contact& c : own_)
+        if (relative_velocity(c, bodies[c.a], bodies[c.b]) < -rounding(c, bodies[c.a], bodies[c.b])) return true;
+    pairs_.resize(pairs);   // as if nobody had looked
+    manifolds_.resize(first);
+    expanded_.resize(expanded);
+    return false;
+}
+
+// Whom the blow has come to takes part with all his contacts: who got an impulse, or was struck, though others may have taken the
+// whole blow in the end; and who flies, strikes something else at this very moment, and saw what he touches change its way.
+bool ImpactCluster::grow(std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+    bool grown = false;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+        for (const std::uint32_t k : {contacts_[i].a, contacts_[i].b}) {
+            if (reach_[i] == Reach::none || !bodies[k].dynamic() || contains(expanded_, k)) continue;
+            if (reach_[i] == Reach::blow) expand(k, bodies, neighbourhood, bring);
+            else if (!bodies[k].flying || !add_once(looked_at_, k) || !strikes(k, bodies, neighbourhood, bring)) continue;
+            grown = true;
+        }
+    return grown;
+}
+
+bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const Neighbourhood& neighbourhood,
+                            const Bring& bring, const ImpactSettings& settings) {
+    struck_.clear();
+    // Should the manifold miss what the search saw, a wider look finds it.
+    for (widening_ = 1.0; widening_ <= 1e4 && struck_.empty(); widening_ *= 1e2) {
+        brought_.clear();
+        expanded_.clear();
+        looked_at_.clear();
+        pairs_.clear();
+        manifolds_.clear();
+        expand(a, bodies, neighbourhood, bring);
+        expand(b, bodies, neighbourhood, bring);
+        for (bool grown = true; grown;) {
+            std::sort(manifolds_.begin(), manifolds_.end(), [](const Manifold& l, const Manifold& r) {
+                return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
+            });
+            make_contacts(manifolds_, bodies, contacts_);
+            Island island;
+            for (const std::uint32_t k : brought_)
+                if (bodies[k].dynamic()) island.bodies.push_back(k);
+            std::sort(island.bodies.begin(), island.bodies.end());
+            island.contacts.resize(contacts_.size());
+            std::iota(island.contacts.begin(), island.contacts.end(), 0u);
+            before_.clear();
+            for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
+            resolve_impacts(island, contacts_, bodies, settings);
+            note_reach(bodies);
+            for (const std::uint32_t k : island.bodies) bodies[k].derive();   // the velocities before the blow
+            grown = grow(bodies, neighbourhood, bring);
+        }
+        for (const Contact& c : contacts_) {
+            if (c.impact <= 0.0) continue;
+            add_impact(c, bodies[c.a], bodies[c.b]);
+            for (const std::uint32_t k : {c.a, c.b})
+                if (bodies[k].dynamic()) add_once(struck_, k);
+        }
+    }
+    std::sort(struck_.begin(), struck_.end());
+    for (const std::uint32_t k : brought_)
+        if (bodies[k].dynamic()) bodies[k].derive();
+    return !struck_.empty();
+}
+
+}  // namespace tumble

@@ -1,0 +1,23 @@
+// With exact impacts, the frame and the order that the bodies are computed in: those of the scene itself, not of its file. A scene
+// far from the world's origin keeps the digits of one at it, and the list of its bodies decides nothing.
+#pragma once
+
+#include "scene/description/description.h"
+#include "sim/dynamics/body.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// The middle (m, world) of the dynamic bodies' places; the world's origin where there are none.
+Vec3 local_origin(const SceneDescription& scene);
+
+/// The scene with `origin` for its origin: its bodies and keyframes. What is only drawn stays in the world's frame.
+SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin);
+
+/// Moves the bodies into the order of memory_order.h, begun from one that follows from the bodies' places and properties alone. Returns
+/// for each place the body's index in the scene. `gravity`: m/s^2.
+std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity);
+
+}  // namespace tumble

@@ -1,0 +1,54 @@
+#include "sim/event_driven/neighbor_boxes.h"
+
+#include <algorithm>
+
+namespace tumble {
+
+Neighbourhood::Neighbourhood(const std::vector<Body>& bodies) : moving_(bodies.size()), standing_(bodies.size()) {
+    std::vector<Bounds> bounds;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = bodies[i];
+        if (std::holds_alternative<HalfSpace>(body.collider)) {
+            half_spaces_.push_back(i);
+        } else if (body.moves()) {
+            ++movers_;
+        } else {
+            fixed_.push_back(i);
+            bounds.push_back(world_bounds(body.collider, body.pose()));
+        }
+    }
+    fixed_tree_ = BoundsTree(std::move(bounds));
+}
+
+bool Neighbourhood::encloses(std::uint32_t body, const Bounds& box) const {
+    if (!tree_.holds(body)) return false;
+    const Bounds& held = tree_.box(body);
+    return (box.min.array() >= held.min.array()).all() && (box.max.array() <= held.max.array()).all();
+}
+
+void Neighbourhood::enclose(std::uint32_t body, const Bounds& box) {
+    tree_.set(body, box);
+    found_.clear();
+    tree_.query(box, stack_, [&](std::uint32_t other) {
+        if (other != body) found_.push_back(other);
+    });
+    std::sort(found_.begin(), found_.end());
+    std::vector<std::uint32_t>& mine = moving_[body];
+    for (const std::uint32_t other : mine) {
+        if (std::binary_search(found_.begin(), found_.end(), other)) continue;
+        auto& theirs = moving_[other];
+        theirs.erase(std::lower_bound(theirs.begin(), theirs.end(), body));
+    }
+    for (const std::uint32_t other : found_) {
+        auto& theirs = moving_[other];
+        const auto place = std::lower_bound(theirs.begin(), theirs.end(), body);
+        if (place == theirs.end() || *place != body) theirs.insert(place, body);
+    }
+    mine.swap(found_);
+    std::vector<std::uint32_t>& standing = standing_[body];
+    standing = half_spaces_;
+    fixed_tree_.query(box, [&](std::uint32_t k) { standing.push_back(fixed_[k]); });
+    std::sort(standing.begin(), standing.end());
+}
+
+}  // namespace tumble

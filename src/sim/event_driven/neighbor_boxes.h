@@ -1,0 +1,39 @@
+// Who may meet whom: each moving body has a box it stays in for a while, and the bodies whose boxes overlap it are its
+// neighbours. A body that leaves its box gets another; nobody else has to be asked.
+#pragma once
+
+#include "sim/dynamics/body.h"
+#include "sim/geometry/bounds_tree.h"
+#include "sim/geometry/dynamic_tree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+class Neighbourhood {
+public:
+    explicit Neighbourhood(const std::vector<Body>& bodies);
+
+    /// Puts the body into this box and finds its neighbours anew; theirs are kept in step.
+    void enclose(std::uint32_t body, const Bounds& box);
+    bool known(std::uint32_t body) const { return tree_.holds(body); }
+    bool encloses(std::uint32_t body, const Bounds& box) const;
+
+    const std::vector<std::uint32_t>& moving(std::uint32_t body) const { return moving_[body]; }
+    /// Fixed bodies near the body's box; half-spaces always.
+    const std::vector<std::uint32_t>& fixed(std::uint32_t body) const { return standing_[body]; }
+    /// Whether there is anybody but half-spaces that a body could ever meet.
+    bool crowded() const { return movers_ > 1 || !fixed_.empty(); }
+
+private:
+    std::vector<std::uint32_t> half_spaces_, fixed_;
+    BoundsTree fixed_tree_;
+    DynamicTree tree_;
+    DynamicTree::Stack stack_;
+    std::size_t movers_ = 0;
+    std::vector<std::vector<std::uint32_t>> moving_, standing_;   // by body
+    std::vector<std::uint32_t> found_;
+};
+
+}  // namespace tumble

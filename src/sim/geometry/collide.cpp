@@ -1,0 +1,143 @@
+#include "sim/geometry/collide.h"
+
+#include "sim/geometry/compound.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace tumble {
+namespace {
+
+using PolyhedronRef = std::shared_ptr<const Polyhedron>;
+using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+using CompoundRef = std::shared_ptr<const Compound>;
+
+// The pairs that have a routine of their own, in the order it takes them.
+struct Pair {
+    const Pose &pose_a, &pose_b;
+    double margin;
+    CollisionScratch& scratch;
+    std::vector<Manifold>& out;
+
+    void operator()(const HalfSpace& a, const Ball& b) const { collide_half_space_ball(a, pose_a, b, pose_b, margin, out); }
+    void operator()(const HalfSpace& a, const PolyhedronRef& b) const {
+        collide_half_space_polyhedron(a, pose_a, *b, pose_b, margin, scratch, out);
+    }
+    void operator()(const Ball& a, const Ball& b) const { collide_balls(a, pose_a, b, pose_b, margin, out); }
+    void operator()(const PolyhedronRef& a, const Ball& b) const {
+        collide_polyhedron_ball(*a, pose_a, b, pose_b, margin, out);
+    }
+    void operator()(const PolyhedronRef& a, const PolyhedronRef& b) const {
+        collide_polyhedra(*a, pose_a, *b, pose_b, margin, scratch, out);
+    }
+    void operator()(const SurfaceRef& a, const Ball& b) const {
+        collide_surface_ball(*a, pose_a, b, pose_b, margin, scratch, out);
+    }
+    void operator()(const SurfaceRef& a, const PolyhedronRef& b) const {
+        collide_surface_polyhedron(*a, pose_a, *b, pose_b, margin, scratch, out);
+    }
+};
+
+// Neither shape can be on a moving body.
+template <class T>
+constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, SurfaceRef>;
+// Taken apart before.
+template <class T>
+constexpr bool compound = std::is_same_v<T, CompoundRef>;
+
+// In how many ways a pair with this collider can be told apart by Manifold::part. Below 2^32 for two colliders together:
+// limits::parts and limits::mesh_triangles see to it.
+std::uint32_t part_count(const Collider& collider) {
+    if (const auto* surface = std::get_if<SurfaceRef>(&collider)) return std::uint32_t((*surface)->triangles.size());
+    if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
+    return 1;
+}
+
+// Which parts come within the margin of the other shape, by bounds, ascending.
+void find_near_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, double margin,
+                     std::vector<std::uint32_t>& parts) {
+    const Pose relative = seen_from(pose, pose_other);
+    const Bounds bounds = world_bounds(other, relative).grown(margin);
+    parts.clear();
+    whole.tree.query(bounds, [&](std::uint32_t part) { parts.push_back(part); });
+    std::sort(parts.begin(), parts.end());
+}
+
+bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
+    const Vec3 p = part.place.to_body(point);
+    if (const auto* ball = std::get_if<Ball>(&part.collider)) return p.norm() <= ball->radius + tolerance;
+    const auto& faces = std::get<PolyhedronRef>(part.collider)->faces;
+    return std::all_of(faces.begin(), faces.end(), [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
+}
+
+// Whether what part k would push towards is the body itself: what slides over a seam between parts is not caught by it.
+bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
+    const double size = whole.parts[k].reach;
+    return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
+        // From the body's own surface: where it is deep in the other, halfway between the two is inside of it anyway.
+        const Vec3 probe = pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
+        bool inside = false;
+        whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
+            inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
+        });
+        return inside;
+    });
+}
+
+// Each part of a compound against the whole of the other shape, in the given order.
+void collide_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, bool whole_is_a,
+                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const std::uint32_t stride = part_count(other);
+    std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
+    find_near_parts(whole, pose, other, pose_other, margin, near);
+    for (const std::uint32_t k : near) {
+        const std::size_t first = out.size();
+        const Compound::Part& part = whole.parts[k];
+        scratch.part += k * stride;
+        if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
+        else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
+        const auto seam = [&](const Manifold& m) { return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal)); };
+        out.erase(std::remove_if(out.begin() + std::ptrdiff_t(first), out.end(), seam), out.end());
+        for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
+        scratch.part -= k * stride;
+    }
+    scratch.gap = 0.0;   // one part's says nothing of the others
+}
+
+}  // namespace
+
+bool CollisionScratch::was_on_b() const {
+    const auto found = std::find_if(before.begin(), before.end(), [&](const Manifold& m) { return m.part == part; });
+    return found != before.end() && found->on_b();
+}
+
+void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
+             CollisionScratch& scratch, std::vector<Manifold>& out) {
+    if (const auto* whole = std::get_if<CompoundRef>(&a)) {
+        collide_parts(**whole, pose_a, b, pose_b, true, margin, scratch, out);
+        return;
+    }
+    if (const auto* whole = std::get_if<CompoundRef>(&b)) {
+        collide_parts(**whole, pose_b, a, pose_a, false, margin, scratch, out);
+        return;
+    }
+    std::visit(
+        [&](const auto& shape_a, const auto& shape_b) {
+            using A = std::decay_t<decltype(shape_a)>;
+            using B = std::decay_t<decltype(shape_b)>;
+            const std::size_t first = out.size();
+            if constexpr ((immovable<A> && immovable<B>) || compound<A> || compound<B>) {
+                return;
+            } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
+                Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
+            } else {   // the same pair the other way round: swap, collide, turn the normals
+                Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
+                for (std::size_t i = first; i < out.size(); ++i) out[i].swap();
+            }
+            if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>) scratch.on_ball = scratch.on_ball || out.size() > first;
+        },
+        a, b);
+}
+
+}  // namespace tumble

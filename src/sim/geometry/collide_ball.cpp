@@ -1,0 +1,152 @@
+// Spheres against half-spaces, spheres and polyhedra; half-spaces against polyhedra.
+#include "sim/geometry/collide.h"
+#include "sim/geometry/contact_area.h"
+#include "sim/geometry/separating_axis.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+void add_point(const Vec3& normal, const Vec3& position, double separation, std::vector<Manifold>& out) {
+    Manifold m;
+    m.normal = normal;
+    m.count = 1;
+    m.points[0] = {position, separation, 0};
+    out.push_back(m);
+}
+
+struct Nearest {
+    Vec3 point = Vec3::Zero();
+    bool inside = false;   // the face; else on its border
+    Vec3 edge = Vec3::Zero();   // its direction, where that is nearest; none at a corner
+};
+
+// The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
+Nearest nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, const Vec3& p) {
+    const Vec3 foot = p - (face.normal.dot(p) - face.offset) * face.normal;
+    double best = std::numeric_limits<double>::infinity();
+    Nearest nearest{foot, true};
+    const std::size_t n = face.vertices.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 &a = shape.vertices[face.vertices[i]], &b = shape.vertices[face.vertices[(i + 1) % n]];
+        const Vec3 edge = b - a;
+        if (edge.cross(face.normal).dot(foot - a) <= 0.0) continue;
+        const double t = std::clamp(edge.dot(foot - a) / edge.squaredNorm(), 0.0, 1.0);
+        const Vec3 candidate = a + t * edge;
+        const double d = (candidate - p).squaredNorm();
+        if (d < best) {
+            best = d;
+            nearest = {candidate, false, t > 0.0 && t < 1.0 ? Vec3(edge.normalized()) : Vec3(Vec3::Zero())};
+        }
+    }
+    return nearest;
+}
+
+}  // namespace
+
+void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out) {
+    const Vec3 normal = pose_a.rotation * a.normal;
+    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
+    const double separation = height - b.radius;
+    if (separation > margin) return;
+    add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+    out.back().set_ball(pose_b.position);
+}
+
+void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                   std::vector<Manifold>& out) {
+    const Vec3 d = pose_b.position - pose_a.position;
+    const double reach = a.radius + b.radius + margin;
+    if (d.squaredNorm() > reach * reach) return;
+    const double distance = d.norm();
+    // Same centre, or so near that the squares underflow: any way is as good.
+    const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
+    const double separation = distance - a.radius - b.radius;
+    add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
+    out.back().set_curve({distance, Vec3::Zero(), pose_a.position, pose_b.position});
+}
+
+void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                             std::vector<Manifold>& out) {
+    const Vec3 center = pose_a.to_body(pose_b.position);
+    const double reach = b.radius + margin;
+    // The face it is most outside of: a bound of the distance, and the way out when the centre is inside.
+    double most = -std::numeric_limits<double>::infinity();
+    const Polyhedron::Face* face = a.faces.data();   // some face even where the centre is no number: the step's end tells of that
+    for (const Polyhedron::Face& f : a.faces) {
+        const double d = f.normal.dot(center) - f.offset;
+        if (d > reach) return;
+        if (d > most) {
+            most = d;
+            face = &f;
+        }
+    }
+    if (most <= 0.0) {
+        const Vec3 normal = pose_a.rotation * face->normal;
+        const double separation = most - b.radius;
+        add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
+        out.back().set_ball(pose_b.position);
+        return;
+    }
+    // Only faces seen from the centre can hold the nearest point.
+    double best = std::numeric_limits<double>::infinity();
+    Nearest nearest;
+    for (const Polyhedron::Face& f : a.faces) {
+        const double d = f.normal.dot(center) - f.offset;
+        if (d <= 0.0 || d * d >= best) continue;
+        const Nearest candidate = nearest_on_face(a, f, center);
+        const double square = candidate.inside ? d * d : (center - candidate.point).squaredNorm();
+        if (square < best) {
+            best = square;
+            nearest = candidate;
+            face = &f;
+        }
+    }
+    const double distance = std::sqrt(best);
+    if (distance > reach) return;
+    // Over a face its own normal, and so on its border too when rounding has left no direction.
+    const bool of_face = nearest.inside || distance <= 1e-12 * a.radius;
+    const Vec3 normal = pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
+    const double separation = distance - b.radius;
+    const Vec3 point = pose_a.to_world(nearest.point);
+    add_point(normal, point + 0.5 * separation * normal, separation, out);
+    if (of_face) out.back().set_ball(pose_b.position);
+    else out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
+}
+
+void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+                                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const Vec3 normal = pose_a.rotation * a.normal;
+    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
+    if (height > b.radius + margin) return;
+    const Vec3 local = pose_b.rotation.transpose() * normal;
+    scratch.points.clear();
+    const auto keep = [&](std::uint32_t i) {
+        const double separation = height + local.dot(b.vertices[i]);
+        if (separation <= margin) scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
+    };
+    for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
+    if (scratch.points.empty()) return;
+    if (scratch.turning && scratch.points.size() > Manifold::capacity) {
+        // Of what rolls those count that it rolls on, not those that span a large area with them.
+        scratch.points.clear();
+        for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices) keep(i);
+    }
+    Manifold m;
+    m.normal = normal;
+    m.corners = Corners::of_b;
+    keep_best_points(scratch.points, m, scratch.left_out);
+    if (m.count > 1) {
+        // All corners lie over the plane: those of the face that lies along it are the area.
+        scratch.incident.clear();
+        for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices)
+            scratch.incident.push_back(pose_b.to_world(b.vertices[i]));
+        spread_pressure(contact_area(scratch.incident, normal), m);
+    }
+    out.push_back(m);
+}
+
+}  // namespace tumble

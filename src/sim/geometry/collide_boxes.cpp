@@ -1,0 +1,265 @@
+// Box against box: the answers of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp) with the same
+// choices and the same names of features, from the matrix that turns one box into the other.
+#include "sim/geometry/box_axes.h"
+#include "sim/geometry/contact_area.h"
+#include "sim/geometry/feature_contact.h"
+#include "sim/geometry/separating_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr double lowest = BoxAxes::lowest;
+
+struct FaceAxis {
+    int axis = 0;
+    double separation = lowest;
+};
+
+// The largest; the one whose face the other's centre is highest above wins a tie, as in separating_axis.cpp.
+FaceAxis best_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& separation) {
+    int first = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(center[k]) - half[k] > std::abs(center[first]) - half[first]) first = k;
+    FaceAxis best{first, separation[first]};
+    for (int k = 0; k < 3; ++k)
+        if (separation[k] > best.separation) best = {k, separation[k]};
+    return best;
+}
+
+// Edge of a box along an axis, by the signs of its other two coordinates: all boxes are numbered alike.
+struct BoxEdges {
+    std::array<std::array<std::uint32_t, 4>, 3> index{};
+    BoxEdges() {
+        const Polyhedron box = make_box(Vec3::Constant(2.0));
+        for (std::uint32_t e = 0; e < box.edges.size(); ++e) {
+            const Vec3 sum = box.vertices[box.edges[e].tail] + box.vertices[box.edges[e].head];
+            for (int k = 0; k < 3; ++k)
+                if (sum[k] == 0.0) index[std::size_t(k)][sign_bits(sum, k)] = e;
+        }
+    }
+    static std::size_t sign_bits(const Vec3& direction, int axis) {
+        return std::size_t(direction[(axis + 1) % 3] > 0.0) | std::size_t(direction[(axis + 2) % 3] > 0.0) << 1;
+    }
+};
+
+// The corners of a box's faces, by the signs of their coordinates, and which coordinate the side from each to the next runs
+// along the limit of: all boxes are alike.
+struct BoxFaces {
+    struct Side {
+        int axis = 0;
+        double sign = 1.0;
+    };
+    struct Face {
+        std::array<std::uint32_t, 4> corner{};
+        std::array<Side, 4> side{};
+    };
+    std::array<Face, 6> faces;
+    std::array<Vec3, 8> signs;   // by vertex
+    BoxFaces() {
+        const Polyhedron box = make_box(Vec3::Constant(2.0));
+        std::copy(box.vertices.begin(), box.vertices.end(), signs.begin());
+        for (std::size_t f = 0; f < 6; ++f)
+            for (std::size_t s = 0; s < 4; ++s) {
+                const std::uint32_t from = box.faces[f].vertices[s], to = box.faces[f].vertices[(s + 1) % 4];
+                faces[f].corner[s] = from;
+                for (int k = 0; k < 3; ++k)
+                    if (k != int(f) / 2 && signs[from][k] == signs[to][k]) faces[f].side[s] = {k, signs[from][k]};
+            }
+    }
+};
+
+// The face of a box that lies against a plane across a direction (Polyhedron::face_at_support): at the farthest corner, the
+// one with most corners no farther than `depth` behind it, then the one that looks most that way.
+std::uint32_t face_at_support(const Vec3& half, const Vec3& direction, double depth) {
+    std::uint32_t best = 0;
+    int best_count = 0;
+    double most = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double drop1 = 2.0 * half[(k + 1) % 3] * std::abs(direction[(k + 1) % 3]);
+        const double drop2 = 2.0 * half[(k + 2) % 3] * std::abs(direction[(k + 2) % 3]);
+        const int count = 1 + (drop1 <= depth) + (drop2 <= depth) + (drop1 + drop2 <= depth);
+        const double d = std::abs(direction[k]);
+        if (count < best_count || (count == best_count && d <= most)) continue;
+        best = std::uint32_t(2 * k + (direction[k] <= 0.0));
+        best_count = count;
+        most = d;
+    }
+    return best;
+}
+
+struct Corner {
+    Vec3 p;                  // in the reference box's frame
+    std::uint64_t feature;
+    std::uint32_t edge;      // label of the edge that starts here
+};
+struct Polygon {
+    static constexpr int capacity = 8;   // a rectangle cut by four lines
+    std::array<Corner, capacity> corners;
+    int count = 0;
+};
+
+// Keeps sign * p[axis] <= limit. Whether anything had to go: otherwise `out` is left as it was.
+bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t side, Polygon& out) {
+    std::array<double, Polygon::capacity> beyond;
+    bool cuts = false;
+    for (std::size_t i = 0; i < std::size_t(in.count); ++i) {
+        beyond[i] = sign * in.corners[i].p[axis] - limit;
+        cuts = cuts || beyond[i] > 0.0;
+    }
+    if (!cuts) return false;
+    out.count = 0;
+    for (int i = 0; i < in.count; ++i) {
+        const int next = i + 1 < in.count ? i + 1 : 0;
+        const Corner &p = in.corners[std::size_t(i)], &q = in.corners[std::size_t(next)];
+        const double dp = beyond[std::size_t(i)], dq = beyond[std::size_t(next)];
+        if (dp <= 0.0 && out.count < Polygon::capacity) out.corners[std::size_t(out.count++)] = p;
+        if ((dp <= 0.0) == (dq <= 0.0) || out.count == Polygon::capacity) continue;
+        Corner& cut = out.corners[std::size_t(out.count++)];
+        cut.p = p.p + dp / (dp - dq) * (q.p - p.p);
+        cut.feature = (std::uint64_t(1) << 40) | (std::uint64_t(p.edge) << 20) | side_label(side);
+        cut.edge = dp <= 0.0 ? side_label(side) : p.edge;
+    }
+    return true;
+}
+
+// The incident box in the reference box's frame: centre c, axes the columns of r. `n`: the reference face's outward sign.
+void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pose& pose, const Vec3& c, const Mat3& r,
+              int axis, double sign, bool on_b, bool must_touch, double margin, CollisionScratch& scratch,
+              std::vector<Manifold>& out) {
+    const std::uint32_t face = std::uint32_t(2 * axis + (sign < 0.0));
+    const double depth = axis_preference(std::min(reference.radius, incident.radius));
+    const std::uint32_t opposite = face_at_support(incident.half_extent, -sign * r.row(axis).transpose(), depth);
+    static const BoxFaces box;
+    const BoxFaces::Face &incident_face = box.faces[opposite], &reference_face = box.faces[face];
+    const Mat3 half_axes = r * incident.half_extent.asDiagonal();
+    Polygon polygons[2];
+    Polygon *polygon = &polygons[0], *spare = &polygons[1];
+    polygon->count = 4;
+    for (std::size_t i = 0; i < 4; ++i)
+        polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i], std::uint32_t(i)};
+    const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
+    Corner deepest = polygon->corners[0];
+    for (std::size_t i = 1; i < 4 && must_touch; ++i)
+        if (height(polygon->corners[i].p) < height(deepest.p)) deepest = polygon->corners[i];
+
+    for (std::uint32_t s = 0; s < 4; ++s) {
+        const BoxFaces::Side& side = reference_face.side[s];
+        if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare)) std::swap(polygon, spare);
+    }
+    const std::uint64_t base = face_feature(on_b, face);
+    scratch.points.clear();
+    const auto keep = [&](const Corner& corner) {
+        const double separation = height(corner.p);
+        if (separation > margin) return;
+        Vec3 p = corner.p;
+        p[axis] -= 0.5 * sign * separation;
+        scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
+    };
+    for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
+    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
+    if (scratch.points.empty()) return;
+    Manifold& m = out.emplace_back();
+    m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
+    m.corners = on_b ? Corners::of_a : Corners::of_b;
+    keep_best_points(scratch.points, m, scratch.left_out);
+    spread_pressure(contact_area(scratch.points, m.normal), m);
+}
+
+}  // namespace
+
+void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                   CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const BoxAxes axes(a.half_extent, pose_a, b.half_extent, pose_b);
+    const Vec3 &t = axes.t, &t_in_b = axes.t_in_b;
+    const Mat3& r = axes.r;
+    const auto apart = [&](std::uint32_t axis, double separation) {
+        if (separation <= margin) return false;
+        scratch.axis = axis;
+        scratch.gap = separation;
+        return true;
+    };
+    if (scratch.axis < 15 && apart(scratch.axis, axes.along(scratch.axis))) return;
+    const BoxAxes::Lanes faces_a = axes.faces_a(), faces_b = axes.faces_b();
+    const FaceAxis face_a = best_face(t, a.half_extent, faces_a);
+    if (apart(std::uint32_t(face_a.axis), face_a.separation)) return;
+    const FaceAxis face_b = best_face(t_in_b, b.half_extent, faces_b);
+    if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
+
+    const double smaller = std::min(a.radius, b.radius);
+    const double preference = axis_preference(smaller, scratch.choice);
+    bool of_b = face_b.separation > face_a.separation + (scratch.was_on_b() ? -preference : preference);
+    double best = (of_b ? face_b.separation : face_a.separation) + preference;
+    int edge_i = -1, edge_j = -1;
+    bool flip = false;
+    for (int i = 0; i < 3; ++i) {
+        const BoxAxes::Edges e = axes.edges(i);
+        // Most are no better than the best: told by the squares, by more than rounding, without root and division.
+        const double needed = std::min(best, margin), square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
+        const BoxAxes::Lanes more = e.separation * e.separation - square * e.square;
+        for (int j = 0; j < 3; ++j) {
+            if (needed < 0.0 ? e.separation[j] < 0.0 && more[j] > 0.0 : e.separation[j] < 0.0 || more[j] < 0.0) continue;
+            const double s = BoxAxes::separation(e, j);
+            if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
+            if (s <= best) continue;
+            best = s;
+            edge_i = i;
+            edge_j = j;
+            flip = e.across[j] < 0.0;
+        }
+    }
+    const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
+        return on_b ? Vec3((t_in_b[k] < 0.0 ? -1.0 : 1.0) * r.col(k)) : Vec3((t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
+    };
+    int face = of_b ? face_b.axis : face_a.axis;
+    const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation, .normal = normal_of(of_b, face)};
+    SeparatingAxis by_edges{.separation = best};
+    bool speak = edge_i >= 0, given_up = false;   // the edges; for a face
+    if (speak) {
+        by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
+        if (flip) by_edges.normal = -by_edges.normal;
+        given_up = edges_along_face(by_edges, best_of_faces, smaller, scratch.choice);
+        speak = !given_up;
+    }
+    const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
+    bool must_touch = axis.separation < 0.0 && !given_up;
+    if (may_slide_past(axis.separation, scratch.way, smaller)) {
+        Vec3 way = Vec3::Zero();   // asked for only where both graze
+        if (axis.separation < preference) way = pose_a.rotation.transpose() * scratch.way;
+        double most = -preference;   // lower ones are no faces that are grazed
+        for (const bool on_b : {false, true})
+            for (int k = 0; k < 3; ++k) {
+                const double s = (on_b ? faces_b : faces_a)[k];
+                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, way, smaller, scratch.choice)) continue;
+                most = s;
+                speak = given_up = must_touch = false;
+                of_b = on_b;
+                face = k;
+            }
+    }
+    if (!speak) {
+        const std::size_t first = out.size();
+        if (of_b) {
+            // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
+            add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch, margin, scratch, out);
+        } else {
+            add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, must_touch, margin, scratch, out);
+        }
+        speak = given_up && misses_edges(std::span(out).subspan(first), by_edges.separation, smaller);
+        if (!speak) return;
+        out.resize(first);
+    }
+    static const BoxEdges edges;
+    const Vec3& n = by_edges.normal;
+    const Vec3 n_in_b = r.transpose() * n;
+    const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
+    const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
+    const Pose b_in_a{t, r};
+    add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head], b_in_a.to_world(b.vertices[b.edges[eb].tail]),
+                      b_in_a.to_world(b.vertices[b.edges[eb].head]), n, by_edges.separation, ea, eb, pose_a, out);
+}
+
+}  // namespace tumble

@@ -1,0 +1,155 @@
+// Polyhedra against a triangle surface, triangle by triangle. Seams must not catch what slides over them: a normal that
+// leans over the border of a triangle counts only if the surface owns it there, else the triangle's own normal stands in.
+#include "sim/geometry/feature_contact.h"
+#include "sim/geometry/separating_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+struct TriangleAxis {
+    enum class Kind { none, triangle, face, edges };
+    Kind kind = Kind::none;
+    double separation = 0.0;
+    std::uint32_t feature = 0;    // face or edge of the polyhedron
+    int edge = 0;                 // of the triangle
+    Vec3 normal = Vec3::Zero();   // away from the triangle
+};
+
+// Whether a direction lies on the arc between the normals of an edge's two faces, so that the edge is farthest that way.
+// The direction stands across the edge.
+bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
+    const Vec3 turn = left.cross(right);
+    return left.cross(direction).dot(turn) >= 0.0 && direction.cross(right).dot(turn) >= 0.0 &&
+           direction.dot(left + right) > 0.0;
+}
+
+// All in the polyhedron's frame: t are the triangle's corners, n its normal on the body's side.
+TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], const Vec3& n, double margin,
+                                EdgeSearch search, CollisionScratch& scratch) {
+    std::vector<std::uint32_t>& edges = scratch.edges_b;
+    const auto triangle_reach = [&](const Vec3& d) { return std::max({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])}); };
+    TriangleAxis axis;
+    axis.separation = n.dot(shape.vertices[shape.support(-n)]) - n.dot(t[0]);
+    if (axis.separation > margin) return axis;
+    axis.kind = TriangleAxis::Kind::triangle;
+    axis.normal = n;
+    double best = axis.separation + axis_preference(shape.radius, scratch.choice);
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
+    for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
+        const Polyhedron::Face& face = shape.faces[f];
+        if (face.normal.dot(middle) - face.offset <= best) continue;   // the lowest corner is not above the middle
+        const double separation = -triangle_reach(-face.normal) - face.offset;
+        if (separation > margin) return {};
+        if (separation <= best) continue;
+        best = separation;
+        axis = {TriangleAxis::Kind::face, separation, f, 0, -face.normal};
+    }
+    // Where an edge lies in a face, edge against edge says the same to rounding, and would leave one point of two.
+    best = std::max(best, axis.separation + axis_preference(shape.radius, scratch.choice));
+    Bounds region;
+    for (const Vec3& corner : t) region.add(corner);
+    region = region.grown(edge_reach(search, margin, axis.separation));
+    edges.clear();
+    shape.edge_tree.query(region, [&](std::uint32_t e) { edges.push_back(e); });
+    std::sort(edges.begin(), edges.end());
+    for (const std::uint32_t e : edges) {
+        const Polyhedron::Edge& edge = shape.edges[e];
+        const Vec3 &tail = shape.vertices[edge.tail], &head = shape.vertices[edge.head];
+        const Vec3 along = head - tail, &left = shape.faces[edge.left].normal, &right = shape.faces[edge.right].normal;
+        for (int i = 0; i < 3; ++i) {
+            const Vec3 side = t[(i + 1) % 3] - t[i];
+            Vec3 m = side.cross(along);
+            const double square = m.squaredNorm();
+            if (square < 1e-8 * side.squaredNorm() * along.squaredNorm()) continue;
+            m /= std::sqrt(square);
+            if (m.dot(left + right) > 0.0) m = -m;   // out of the triangle, into the body
+            if (!on_arc(-m, left, right)) continue;
+            const double reach = triangle_reach(m), separation = m.dot(tail) - reach;
+            if (separation > margin) return {};
+            if (separation <= best || m.dot(t[i]) < reach - 1e-9 * shape.radius) continue;
+            best = separation;
+            axis = {TriangleAxis::Kind::edges, separation, e, i, m};
+        }
+    }
+    return axis;
+}
+
+void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& n, bool behind,
+                           const TriangleAxis& axis, const Pose& pose_b, double margin, CollisionScratch& scratch,
+                           std::vector<Manifold>& out) {
+    if (axis.kind == TriangleAxis::Kind::edges) {
+        const Polyhedron::Edge& e = b.edges[axis.feature];
+        add_edge_manifold(t[axis.edge], t[(axis.edge + 1) % 3], b.vertices[e.tail], b.vertices[e.head], axis.normal,
+                          axis.separation, std::uint64_t(axis.edge), axis.feature, pose_b, out);
+        return;
+    }
+    const bool on_body = axis.kind == TriangleAxis::Kind::face;
+    const std::uint32_t face = on_body ? axis.feature : b.face_at_support(-n, axis_preference(b.radius));
+    std::vector<Vec3>& of_triangle = on_body ? scratch.incident : scratch.reference;
+    std::vector<Vec3>& of_body = on_body ? scratch.reference : scratch.incident;
+    of_triangle.assign(t, t + 3);
+    if (behind) std::swap(of_triangle[1], of_triangle[2]);   // counter-clockwise about n
+    of_body.clear();
+    for (const std::uint32_t v : b.faces[face].vertices) of_body.push_back(b.vertices[v]);
+    if (on_body) scratch.labels.assign({0u, 1u, 2u});
+    else scratch.labels = b.faces[face].vertices;
+    // The manifold's A is the triangle: its normal, or against the body's face.
+    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch, out);
+}
+
+// Whether some contact point of the triangle lies in the body: proof that they do overlap.
+bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose) {
+    return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
+        const Vec3 on_triangle = pose.to_body(p.position - 0.5 * p.separation * m.normal);
+        return contains(shape, on_triangle, axis_preference(shape.radius));
+    });
+}
+
+}  // namespace
+
+void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+                                double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    // In the body's frame: hulls are larger than triangles.
+    const Pose a_in_b = seen_from(pose_b, pose_a);
+    Bounds region;
+    {
+        const Vec3 center = a_in_b.rotation.transpose() * (b.bounds.center() - a_in_b.position);
+        const Vec3 half = a_in_b.rotation.transpose().cwiseAbs() * (0.5 * b.bounds.extent());
+        region = Bounds{center - half, center + half}.grown(margin);
+    }
+    auto& candidates = scratch.vertices;
+    candidates.clear();
+    a.tree.query(region, [&](std::uint32_t t) { candidates.push_back(t); });
+    std::sort(candidates.begin(), candidates.end());
+    // The body's centre is its origin.
+    find_sides(a, candidates, a_in_b.rotation.transpose() * -a_in_b.position, scratch.sides);
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const std::uint32_t index = candidates[k];
+        const TriangleSurface::Triangle& triangle = a.triangles[index];
+        const bool behind = scratch.sides.behind[k] != 0;
+        if (behind && a.closed) continue;
+        Vec3 t[3];
+        for (int i = 0; i < 3; ++i) t[i] = a_in_b.to_world(a.corner(index, i));
+        Vec3 n = a_in_b.rotation * triangle.normal;
+        if (behind) n = -n;
+        for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
+            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch);
+            if (axis.kind == TriangleAxis::Kind::none) break;
+            if (axis.kind != TriangleAxis::Kind::triangle && !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
+                axis.kind = TriangleAxis::Kind::triangle;
+                axis.normal = n;
+            }
+            const std::size_t first = out.size();
+            add_triangle_manifold(b, t, n, behind, axis, pose_b, margin, scratch, out);
+            if (out.size() == first) break;
+            out[first].part = index;
+            if (search == EdgeSearch::all || axis.separation >= 0.0 || proves_overlap(out[first], b, pose_b)) break;
+            out.resize(first);   // rare: see EdgeSearch
+        }
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,85 @@
+// Polyhedron against polyhedron: the separating axis names the features, the features make the manifold.
+#include "sim/geometry/feature_contact.h"
+#include "sim/geometry/separating_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std::vector<Vec3>& out) {
+    out.clear();
+    for (const std::uint32_t v : shape.faces[face].vertices) out.push_back(pose.to_world(shape.vertices[v]));
+}
+
+void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
+                  const SeparatingAxis& axis, bool overlapping, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const Pose identity;
+    const double level = axis_preference(std::min(a.radius, b.radius));
+    switch (axis.kind) {
+        case SeparatingAxis::Kind::none: return;
+        case SeparatingAxis::Kind::face_a: {
+            const std::uint32_t incident = b.face_at_support(-(b_in_a.rotation.transpose() * axis.normal), level);
+            corners(a, axis.feature_a, identity, scratch.reference);
+            corners(b, incident, b_in_a, scratch.incident);
+            scratch.labels = b.faces[incident].vertices;
+            add_face_manifold(axis.normal, axis.feature_a, false, pose_a, margin, overlapping, scratch, out);
+            return;
+        }
+        case SeparatingAxis::Kind::face_b: {
+            const std::uint32_t incident = a.face_at_support(axis.normal, level);
+            corners(b, axis.feature_b, b_in_a, scratch.reference);
+            corners(a, incident, identity, scratch.incident);
+            scratch.labels = a.faces[incident].vertices;
+            add_face_manifold(-axis.normal, axis.feature_b, true, pose_a, margin, overlapping, scratch, out);
+            return;
+        }
+        case SeparatingAxis::Kind::edges: {
+            const Polyhedron::Edge &ea = a.edges[axis.feature_a], &eb = b.edges[axis.feature_b];
+            add_edge_manifold(a.vertices[ea.tail], a.vertices[ea.head], b_in_a.to_world(b.vertices[eb.tail]),
+                              b_in_a.to_world(b.vertices[eb.head]), axis.normal, axis.separation, axis.feature_a,
+                              axis.feature_b, pose_a, out);
+            return;
+        }
+    }
+}
+
+// Whether some contact point lies in both shapes: proof that they do overlap.
+bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
+    const double slack = axis_preference(std::min(a.radius, b.radius));
+    return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
+        return contains(a, pose_a.to_body(p.position), slack) && contains(b, pose_b.to_body(p.position), slack);
+    });
+}
+
+}  // namespace
+
+void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
+                       CollisionScratch& scratch, std::vector<Manifold>& out) {
+    const double radii = a.radius + b.radius, reach = radii + margin, square = (pose_b.position - pose_a.position).squaredNorm();
+    if (square > reach * reach) {
+        scratch.gap = std::sqrt(square) - radii;
+        return;
+    }
+    if (a.is_box && b.is_box) return collide_boxes(a, pose_a, b, pose_b, margin, scratch, out);
+    // In A's frame, which keeps the digits of scenes far from the origin.
+    const Pose b_in_a = seen_from(pose_a, pose_b);
+    const std::size_t first = out.size();
+    const auto add = [&](EdgeSearch search) {   // whether the shapes seem to overlap
+        SeparatingAxis edges;
+        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, pose_a.rotation.transpose() * scratch.way, scratch, &edges);
+        const bool preferred = edges.kind == SeparatingAxis::Kind::edges, overlapping = axis.separation < 0.0 && !axis.grazed;
+        add_manifold(a, pose_a, b, b_in_a, axis, overlapping && !preferred, margin, scratch, out);
+        if (!preferred || !misses_edges(std::span(out).subspan(first), edges.separation, std::min(a.radius, b.radius))) return overlapping;
+        out.resize(first);
+        add_manifold(a, pose_a, b, b_in_a, edges, false, margin, scratch, out);
+        return edges.separation < 0.0;
+    };
+    if (!add(EdgeSearch::nearby) || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
+    // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
+    out.resize(first);
+    add(EdgeSearch::all);
+}
+
+}  // namespace tumble

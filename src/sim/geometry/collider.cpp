@@ -1,0 +1,57 @@
+#include "sim/geometry/collider.h"
+
+#include "sim/geometry/compound.h"
+
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+
+// The box about a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
+Bounds turned(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
+    const Vec3 half = pose.rotation.cwiseAbs() * half_extent;
+    return {center - half, center + half};
+}
+Bounds turned(const Bounds& local, const Pose& pose) { return turned(pose.to_world(local.center()), 0.5 * local.extent(), pose); }
+Bounds turned(const Polyhedron& p, const Pose& pose) {
+    return p.is_box ? turned(pose.position, p.half_extent, pose) : turned(p.bounds, pose);
+}
+
+}  // namespace
+
+Bounds world_bounds(const Collider& collider, const Pose& pose) {
+    return std::visit(
+        Overloaded{[&](const HalfSpace&) { return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)}; },
+                   [&](const Ball& ball) { return Bounds{pose.position, pose.position}.grown(ball.radius); },
+                   [&](const std::shared_ptr<const Polyhedron>& p) { return turned(*p, pose); },
+                   [&](const std::shared_ptr<const TriangleSurface>& s) { return turned(s->tree.bounds(), pose); },
+                   [&](const std::shared_ptr<const Compound>& c) { return turned(c->tree.bounds(), pose); }},
+        collider);
+}
+
+double bounding_radius(const Collider& collider) {
+    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
+                                 [](const Ball& ball) { return ball.radius; },
+                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
+                                 [](const std::shared_ptr<const TriangleSurface>& s) { return s->radius; },
+                                 [](const std::shared_ptr<const Compound>& c) { return c->radius; }},
+                      collider);
+}
+
+double depth(const Collider& collider) {
+    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
+                                 [](const Ball& ball) { return ball.radius; },
+                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->inner_radius; },
+                                 [](const std::shared_ptr<const TriangleSurface>&) { return infinity; },
+                                 [](const std::shared_ptr<const Compound>& c) { return c->inner_radius; }},
+                      collider);
+}
+
+}  // namespace tumble

@@ -1,0 +1,174 @@
+#include "sim/geometry/contact_area.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// A polygon narrower than this part of its length is a line: its area is rounding.
+constexpr double narrow = 1e-6;
+// Least share of a point. Shares that would be less than that, of points all on one side of the area, are drawn towards 1.
+constexpr double least_share = 0.1;
+
+struct Flat {
+    double x, y;   // m
+    Flat operator-(const Flat& o) const { return {x - o.x, y - o.y}; }
+    double dot(const Flat& o) const { return x * o.x + y * o.y; }
+    double cross(const Flat& o) const { return x * o.y - y * o.x; }
+};
+
+// Coordinates across a normal, from a place: digits far from the world's origin.
+class Plane {
+public:
+    Plane(const Vec3& normal, const Vec3& origin) : origin_(origin) {
+        const int k = normal.x() * normal.x() < 0.36 ? 0 : 1;   // an axis that the normal looks little along
+        first_ = (Vec3::Unit(k) - normal[k] * normal) / std::sqrt(1.0 - normal[k] * normal[k]);
+        second_ = normal.cross(first_);
+    }
+    Flat operator()(const Vec3& p) const {
+        const Vec3 arm = p - origin_;
+        return {first_.dot(arm), second_.dot(arm)};
+    }
+    Vec3 world(const Flat& p) const { return origin_ + p.x * first_ + p.y * second_; }
+
+private:
+    Vec3 origin_, first_, second_;
+};
+
+// The mean of sqrt(h^2 + x^2) between two x, of h^2: Gauss and Legendre's three points.
+double mean_root(double square, double from, double to) {
+    constexpr double near = 0.11270166537925831;
+    const double a = from + near * (to - from), b = 0.5 * (from + to), c = to - near * (to - from);
+    return (5.0 / 18.0) * (std::sqrt(square + a * a) + std::sqrt(square + c * c)) + (8.0 / 18.0) * std::sqrt(square + b * b);
+}
+
+// The integral of the distance from the origin over the triangle (0, p, q): distance grows in proportion to the way out, so it is a
+// third of the height over pq times the integral along pq. Where the foot of the height lies on a long edge, the two sides of it apart: the
+// three points are then within 2e-3 for any edge, and exact for those that the origin lies on or is far from.
+double distance_integral(const Flat& p, const Flat& q) {
+    const Flat edge = q - p;
+    const double length_square = edge.dot(edge), twice = p.cross(q);
+    if (!(length_square > 0.0)) return 0.0;
+    const double length = std::sqrt(length_square), per_length = 1.0 / length, height = twice * per_length, square = height * height;
+    const double from = p.dot(edge) * per_length, to = from + length;
+    if (from < 0.0 && to > 0.0 && std::max(from * from, to * to) > square)
+        return height / 3.0 * (to * mean_root(square, 0.0, to) - from * mean_root(square, from, 0.0));
+    return twice / 3.0 * mean_root(square, from, to);
+}
+
+template <class At>
+ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
+    if (count < 2) return {count == 0 ? Vec3(Vec3::Zero()) : at(0), 0.0};
+    const Plane plane(normal, at(0));
+    double twice = 0.0, x = 0.0, y = 0.0, farthest = 0.0;   // twice the area, signed; its moments, six times
+    Flat far{0.0, 0.0}, p = far;
+    for (std::size_t i = 1; i < count; ++i) {   // triangles from the first corner on
+        const Flat q = plane(at(i));
+        const double part = p.cross(q), square = q.dot(q);
+        twice += part;
+        x += part * (p.x + q.x);
+        y += part * (p.y + q.y);
+        if (square > farthest) {
+            farthest = square;
+            far = q;
+        }
+        p = q;
+    }
+    if (std::abs(twice) <= narrow * farthest) {
+        Flat other{0.0, 0.0};   // the line's other end
+        for (std::size_t i = 1; i < count; ++i)
+            if (const Flat q = plane(at(i)); (q - far).dot(q - far) > (other - far).dot(other - far)) other = q;
+        return {plane.world({0.5 * (far.x + other.x), 0.5 * (far.y + other.y)}), 0.25 * std::sqrt((far - other).dot(far - other))};
+    }
+    const Flat centroid{x / (3.0 * twice), y / (3.0 * twice)};
+    double distance = 0.0;
+    const Flat first = Flat{0.0, 0.0} - centroid;
+    p = first;
+    for (std::size_t i = 1; i < count; ++i) {
+        const Flat q = plane(at(i)) - centroid;
+        distance += distance_integral(p, q);
+        p = q;
+    }
+    return {plane.world(centroid), (distance + distance_integral(p, first)) / (0.5 * twice)};
+}
+
+}  // namespace
+
+ContactArea contact_area(std::span<const Vec3> polygon, const Vec3& normal) {
+    return polygon_area(polygon.size(), normal, [&](std::size_t i) -> const Vec3& { return polygon[i]; });
+}
+ContactArea contact_area(std::span<const ContactPoint> polygon, const Vec3& normal) {
+    return polygon_area(polygon.size(), normal, [&](std::size_t i) -> const Vec3& { return polygon[i].position; });
+}
+
+ContactArea contact_area(const Manifold& m) {
+    ContactArea area;
+    const auto count = std::size_t(m.count);
+    double shares = 0.0, distance = 0.0;
+    for (std::size_t i = 0; i < count; ++i) shares += double(m.share[i]);
+    for (std::size_t i = 0; i < count; ++i) area.centroid += double(m.share[i]) / shares * m.points[i].position;
+    const Plane plane(m.normal, area.centroid);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Flat p = plane(m.points[i].position);
+        distance += double(m.share[i]) / shares * std::sqrt(p.dot(p));
+    }
+    area.mean_distance = double(m.spread) * distance;
+    return area;
+}
+
+// Shares 1 + (arm . slope), arms from the points' mean, with the centroid for their centre: of all that have, those nearest to 1.
+// slope = -S^-1 mean, S the arms' second moments; across a line of points there is nothing to be gained.
+void spread_pressure(const ContactArea& area, Manifold& m) {
+    m.share.fill(1.0f);
+    m.spread = 1.0f;
+    const auto count = std::size_t(m.count);
+    if (count < 2) return;
+    const Plane plane(m.normal, area.centroid);
+    const double each = 1.0 / double(count);
+    std::array<Flat, Manifold::capacity> arm{};
+    Flat mean{0.0, 0.0};
+    for (std::size_t i = 0; i < count; ++i) {
+        arm[i] = plane(m.points[i].position);
+        mean.x += each * arm[i].x;
+        mean.y += each * arm[i].y;
+    }
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        arm[i] = arm[i] - mean;
+        xx += each * arm[i].x * arm[i].x;
+        xy += each * arm[i].x * arm[i].y;
+        yy += each * arm[i].y * arm[i].y;
+    }
+    const double determinant = xx * yy - xy * xy, trace = xx + yy;
+    Flat slope{0.0, 0.0};
+    if (determinant > narrow * narrow * trace * trace)
+        slope = {(xy * mean.y - yy * mean.x) / determinant, (xy * mean.x - xx * mean.y) / determinant};
+    double least = 1.0;
+    for (std::size_t i = 0; i < count; ++i) least = std::min(least, 1.0 + slope.dot(arm[i]));
+    if (least < least_share) {
+        const double part = (1.0 - least_share) / (1.0 - least);
+        slope = {part * slope.x, part * slope.y};
+    }
+    std::array<double, Manifold::capacity> load;
+    Flat center{0.0, 0.0};   // of the load, from the points' mean
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = 1.0 + slope.dot(arm[i]);
+        m.share[i] = float(share);
+        load[i] = each * share;
+        center.x += load[i] * arm[i].x;
+        center.y += load[i] * arm[i].y;
+    }
+    double distance = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Flat from = arm[i] - center;
+        distance += load[i] * std::sqrt(from.dot(from));
+    }
+    // Where the points' own centre is off the area's, the friction there resists a spin too.
+    const Flat off{center.x + mean.x, center.y + mean.y};
+    const double square = area.mean_distance * area.mean_distance - off.dot(off);
+    if (distance > 0.0) m.spread = float(std::min(1.0, square > 0.0 ? std::sqrt(square) / distance : 0.0));
+}
+
+}  // namespace tumble

@@ -1,0 +1,30 @@
+// Even pressure over the polygon in which two faces meet, as the few points of a manifold stand for it.
+//
+// Friction of even pressure on an area acts at the area's centroid, and resists a spin about the normal there by mu N d,
+// with d the mean distance of the area from its centroid: 2/3 R of a disc. Four points on the rim have another mean, and lie
+// farther out. So each point gets a share of the load that has the centroid for its mean, and the manifold the factor
+// (Manifold::spread) from the points' mean distance to the area's.
+#pragma once
+
+#include "sim/geometry/manifold.h"
+
+#include <span>
+
+namespace tumble {
+
+struct ContactArea {
+    Vec3 centroid = Vec3::Zero();   // world
+    double mean_distance = 0.0;     // m, of the area from its centroid; 0: no area
+};
+
+/// `polygon`: convex, its corners in order about `normal`, of either sense; seen along the normal. One without area is a line.
+ContactArea contact_area(std::span<const Vec3> polygon, const Vec3& normal);
+ContactArea contact_area(std::span<const ContactPoint> polygon, const Vec3& normal);
+
+/// The area that the shares and the spread of `m` stand for.
+ContactArea contact_area(const Manifold& m);
+
+/// Sets the shares of the points of `m`, and its spread.
+void spread_pressure(const ContactArea& area, Manifold& m);
+
+}  // namespace tumble

@@ -1,0 +1,92 @@
+#include "sim/geometry/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Two candidates nearly as good as each other must not swap places from step to step: a later one must be better
+// by this factor.
+constexpr double clearly = 1.02;
+// Points no farther than this part of the manifold's size from touching carry the load or soon will: they come before
+// what is farther off, and the deepest (told apart to the second part) first. Where one that carries is left out, the body
+// sinks there until it is missed, and is kicked out.
+constexpr double near = 1e-3;
+constexpr double deeper = 1e-5;
+// What adds less than this part of the size, or of its square, adds nothing.
+constexpr double nothing = 1e-6;
+
+// What spans the area may lie over what touches: the upper corners of a thin plate over its lower ones. Then the lower one
+// counts: nearer along the normal by more than twice what it is aside.
+constexpr double steep = 0.5;
+
+Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
+
+// What a point adds to those chosen, seen along the normal: its distance (squared) from one, the area of the triangle with
+// two, how far it lies outside the triangle of three.
+double gain(const Manifold& chosen, const Vec3& p) {
+    const auto at = [&](int i) -> const Vec3& { return chosen.points[std::size_t(i)].position; };
+    const auto area = [&](int i, int k) { return chosen.normal.dot((at(k) - at(i)).cross(p - at(i))); };
+    if (chosen.count == 1) return across(chosen.normal, p - at(0)).squaredNorm();
+    if (chosen.count == 2) return std::abs(area(0, 1));
+    const double turn = chosen.normal.dot((at(1) - at(0)).cross(at(2) - at(0))) > 0.0 ? 1.0 : -1.0;
+    return -std::min({turn * area(0, 1), turn * area(1, 2), turn * area(2, 0)});
+}
+
+}  // namespace
+
+std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
+    std::vector<BodyPair> pairs;
+    for (const Manifold& m : manifolds) pairs.push_back({m.a, m.b});
+    return pairs;
+}
+
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out) {
+    if (candidates.size() <= Manifold::capacity) {
+        manifold.count = std::int16_t(candidates.size());
+        std::copy(candidates.begin(), candidates.end(), manifold.points.begin());
+        return;
+    }
+    Bounds box;
+    for (const ContactPoint& p : candidates) box.add(p.position);
+    const double size = box.extent().norm();
+
+    std::size_t deepest = 0;
+    for (std::size_t i = 1; i < candidates.size(); ++i)
+        if (candidates[i].separation < candidates[deepest].separation - deeper * size) deepest = i;
+    const double touching = std::max(0.0, candidates[deepest].separation) + near * size;
+    manifold.count = 1;
+    manifold.points[0] = candidates[deepest];
+    for (const bool far : {false, true}) {
+        while (manifold.count < int(Manifold::capacity)) {
+            const ContactPoint* best = nullptr;
+            double most = nothing * size * size;
+            for (const ContactPoint& p : candidates) {
+                if (!far && p.separation > touching) continue;
+                const double g = gain(manifold, p.position);
+                if (g <= (best ? clearly : 1.0) * most) continue;
+                most = g;
+                best = &p;
+            }
+            if (!best) break;
+            manifold.points[std::size_t(manifold.count++)] = *best;
+        }
+    }
+    for (int i = 0; i < manifold.count; ++i) {
+        ContactPoint& upper = manifold.points[std::size_t(i)];
+        for (const ContactPoint& lower : candidates) {
+            const double nearer = upper.separation - lower.separation;
+            if (!(nearer > nothing * size)) continue;
+            if (manifold.has(lower.feature)) continue;
+            if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
+                upper = lower;
+        }
+    }
+    manifold.first_left_out = std::uint32_t(left_out.size());
+    for (const ContactPoint& p : candidates)
+        if (!manifold.has(p.feature)) left_out.push_back(p);
+    manifold.left_out = std::uint16_t(left_out.size() - manifold.first_left_out);
+}
+
+}  // namespace tumble

@@ -1,0 +1,98 @@
+#include "sim/geometry/manifold_growth.h"
+
+#include "sim/geometry/contact_area.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// Which faces meet (feature_contact.cpp): what is left of a feature without its vertex, edge and side.
+std::uint64_t faces_of(const Manifold& m) { return m.points[0].feature >> 42; }
+
+// Of shapes with many corners there may be no room: then of the two nearest each other, seen along the normal, the one that hangs
+// higher gives way. Were it the highest of all, the points would gather where the body is deepest: it would tip over to the other
+// side, and back, for ever.
+void add(const ContactPoint& p, Manifold& first, Manifold& more) {
+    Manifold& to = first.count < Manifold::capacity ? first : more;
+    if (to.count < Manifold::capacity) {
+        to.points[std::size_t(to.count++)] = p;
+        return;
+    }
+    std::array<ContactPoint, 2 * Manifold::capacity + 1> all;
+    std::copy(more.points.begin(), more.points.end(), std::copy(first.points.begin(), first.points.end(), all.begin()));
+    all.back() = p;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t leaves = all.size() - 1;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            const double apart = first.normal.cross(all[i].position - all[k].position).squaredNorm();
+            if (!(apart < nearest)) continue;
+            nearest = apart;
+            leaves = all[i].separation > all[k].separation ? i : k;
+        }
+    if (leaves < Manifold::capacity) first.points[leaves] = p;
+    else if (leaves + 1 < all.size()) more.points[leaves - Manifold::capacity] = p;
+}
+
+}  // namespace
+
+bool sank(double left_out, double deepest, double radius) {
+    const double overlap = tuning::sunk_overlap * radius;
+    return left_out < -overlap && left_out < deepest - std::max(overlap, tuning::sunk_share * std::abs(deepest));
+}
+
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius) {
+    double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
+    const auto look_at = [&](const ContactPoint& p) {
+        deepest = std::min(deepest, p.separation);
+        for (const Manifold& m : before)
+            if (m.part == found.part && m.has(p.feature)) deepest_known = std::min(deepest_known, p.separation);
+    };
+    std::for_each(found.points.begin(), found.points.begin() + found.count, look_at);
+    std::for_each(left_out.begin(), left_out.end(), look_at);
+    return std::isfinite(deepest_known) && sank(deepest, deepest_known, radius);
+}
+
+Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& left_out) {
+    Manifold first = found, more = found;
+    first.count = more.count = 0;
+    more.more = true;
+    if (found.left_out == 0 || faces_of(found) != faces_of(before[0])) return more;
+    std::vector<ContactPoint> candidates(found.points.begin(), found.points.begin() + found.count);
+    candidates.insert(candidates.end(), left_out.begin() + found.first_left_out, left_out.begin() + found.first_left_out + found.left_out);
+    double deepest = std::numeric_limits<double>::infinity();
+    for (const ContactPoint& p : candidates)
+        for (std::size_t k = 0; k < std::min<std::size_t>(before.size(), 2); ++k) {
+            Manifold& to = k == 0 ? first : more;
+            if (!before[k].has(p.feature) || to.count == Manifold::capacity) continue;
+            to.points[std::size_t(to.count++)] = p;
+            deepest = std::min(deepest, p.separation);
+        }
+    const auto kept = [&](const ContactPoint& p) { return first.has(p.feature) || more.has(p.feature); };
+    for (const ContactPoint& p : candidates)
+        if (!kept(p) && sank(p.separation, deepest, radius)) add(p, first, more);
+    // Those of `found` come first. Of many corners these change all the time, as the body rolls: they are always in it.
+    const std::size_t always = candidates.size() > 2 * Manifold::capacity ? std::size_t(found.count) : 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], first, more);
+    if (first.count == 0) {   // all that is left of the first has gone
+        std::swap(first.points, more.points);
+        std::swap(first.count, more.count);
+    }
+    std::erase_if(candidates, kept);
+    first.first_left_out = std::uint32_t(left_out.size());
+    first.left_out = std::uint32_t(candidates.size());
+    left_out.insert(left_out.end(), candidates.begin(), candidates.end());
+    const ContactArea area = contact_area(found);
+    spread_pressure(area, first);
+    spread_pressure(area, more);
+    found = first;
+    return more;
+}
+
+}  // namespace tumble

@@ -1,0 +1,115 @@
+#include "sim/geometry/mesh_shape.h"
+
+#include "core/error.h"
+#include "core/mesh_components.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertices, the lower first
+
+// Turns triangles so that each sheet is wound as its first one is. What has one side only stays as it is and is none.
+void turn_to_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
+    std::vector<std::array<std::uint32_t, 3>> vertices;
+    vertices.reserve(triangles.size());
+    for (const TriangleSurface::Triangle& triangle : triangles) vertices.push_back(triangle.vertices);
+    const MeshSheets sheets = find_sheets(vertices);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (sheets.sheet[t] == MeshSheets::none) continue;
+        TriangleSurface::Triangle& triangle = triangles[t];
+        triangle.sheet = sheets.sheet[t];
+        if (!sheets.turned[t]) continue;
+        std::swap(triangle.vertices[1], triangle.vertices[2]);
+        triangle.normal = -triangle.normal;
+    }
+}
+
+}  // namespace
+
+TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
+    TriangleSurface s;
+    s.closed = closedness(mesh).closed();
+    for (const Vec3& v : mesh.vertices) {
+        s.vertices.push_back(v - origin);
+        s.radius = std::max(s.radius, s.vertices.back().norm());
+    }
+    std::vector<Bounds> bounds;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
+        const Vec3 n = (b - a).cross(c - a);
+        if (n.norm() == 0.0) continue;
+        TriangleSurface::Triangle triangle;
+        triangle.vertices = t;
+        triangle.normal = n.normalized();
+        s.triangles.push_back(triangle);
+        Bounds box;
+        for (const std::uint32_t v : t) box.add(s.vertices[v]);
+        bounds.push_back(box);
+    }
+    if (s.triangles.empty()) throw InputError("the mesh has no triangle with an area");
+    if (!s.closed) turn_to_sheets(s.triangles);
+    std::map<Edge, std::vector<std::pair<std::uint32_t, int>>> users;
+    s.fan_start.assign(s.vertices.size() + 1, 0);
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+        const auto& v = s.triangles[t].vertices;
+        for (int i = 0; i < 3; ++i) {
+            users[std::minmax(v[std::size_t(i)], v[std::size_t((i + 1) % 3)])].emplace_back(t, i);
+            ++s.fan_start[v[std::size_t(i)] + 1];
+        }
+    }
+    std::partial_sum(s.fan_start.begin(), s.fan_start.end(), s.fan_start.begin());
+    s.fan.resize(s.fan_start.back());
+    std::vector<std::uint32_t> next = s.fan_start;
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t)
+        for (const std::uint32_t v : s.triangles[t].vertices) s.fan[next[v]++] = t;
+    for (const auto& [ends, list] : users) {
+        for (const auto& [t, i] : list) s.triangles[t].edge[i] = s.edge_count;
+        ++s.edge_count;
+        if (list.size() != 2) continue;
+        const auto opposite = [&](const std::pair<std::uint32_t, int>& user) {
+            return std::int32_t(s.triangles[user.first].vertices[(user.second + 2) % 3]);
+        };
+        s.triangles[list[0].first].across[list[0].second] = opposite(list[1]);
+        s.triangles[list[1].first].across[list[1].second] = opposite(list[0]);
+    }
+    s.ring_start.assign(s.vertices.size() + 1, 0);
+    for (const auto& [ends, list] : users)
+        for (const std::uint32_t v : {ends.first, ends.second}) ++s.ring_start[v + 1];
+    std::partial_sum(s.ring_start.begin(), s.ring_start.end(), s.ring_start.begin());
+    s.ring.resize(s.ring_start.back());
+    next = s.ring_start;
+    for (const auto& [ends, list] : users) {
+        s.ring[next[ends.first]++] = ends.second;
+        s.ring[next[ends.second]++] = ends.first;
+    }
+    s.tree = BoundsTree(std::move(bounds));
+    return s;
+}
+
+bool TriangleSurface::owns_normal(const Triangle& triangle, const Vec3& normal) const {
+    constexpr double slack = 1e-9;   // sine of the angle forgiven to rounding
+    const auto farther = [&](std::uint32_t to, std::uint32_t from) {
+        const Vec3 way = vertices[to] - vertices[from];
+        return normal.dot(way) > slack * way.norm();
+    };
+    const auto& v = triangle.vertices;
+    std::size_t top = 0;
+    for (const std::size_t i : {1u, 2u})
+        if (farther(v[i], v[top])) top = i;
+    const std::size_t next = (top + 1) % 3, last = (top + 2) % 3;
+    const bool with_next = !farther(v[top], v[next]), with_last = !farther(v[top], v[last]);
+    if (with_next && with_last) return true;   // the triangle's own normal
+    if (with_next || with_last) {
+        const std::int32_t beyond = triangle.across[with_next ? top : last];
+        return beyond < 0 || !farther(std::uint32_t(beyond), v[top]);
+    }
+    return std::none_of(ring.begin() + ring_start[v[top]], ring.begin() + ring_start[v[top] + 1],
+                        [&](std::uint32_t w) { return farther(w, v[top]); });
+}
+
+}  // namespace tumble

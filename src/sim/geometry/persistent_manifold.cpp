@@ -1,0 +1,100 @@
+#include "sim/geometry/persistent_manifold.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+// A point's ends on the surfaces of A and B, body frames.
+struct Ends {
+    Vec3 on_a, on_b;
+};
+
+Ends ends_of(const ContactPoint& p, const Vec3& normal, const Pose& pose_a, const Pose& pose_b) {
+    const Vec3 half = 0.5 * p.separation * normal;
+    return {pose_a.to_body(p.position - half), pose_b.to_body(p.position + half)};
+}
+
+}  // namespace
+
+Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b) {
+    Anchors anchors;
+    anchors.normal_of_b = normal_of_b;
+    anchors.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
+    for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
+        const Ends ends = ends_of(m.points[i], m.normal, pose_a, pose_b);
+        anchors.feet.set(i, normal_of_b ? ends.on_b : ends.on_a);
+        anchors.corners.set(i, normal_of_b ? ends.on_a : ends.on_b);
+    }
+    return anchors;
+}
+
+void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
+                 Anchors& anchors) {
+    const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
+        const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
+        const Vec3 point = of_b ? on_a : on_b;
+        anchors.spare[std::size_t(anchors.spares++)] = {{float(point.x()), float(point.y()), float(point.z())},
+                                                        float(anchors.normal.dot(of_b ? on_b : on_a))};
+    };
+    if (left_out.size() <= Anchors::spare_capacity) {
+        std::for_each(left_out.begin(), left_out.end(), add);
+        return;
+    }
+    std::vector<double> farness;   // squared distance from the nearest that is kept or chosen
+    for (const ContactPoint& p : left_out) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Manifold& m : kept)
+            for (int i = 0; i < m.count; ++i) nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
+        farness.push_back(nearest);
+    }
+    while (anchors.spares < int(Anchors::spare_capacity)) {
+        const auto next = std::size_t(std::max_element(farness.begin(), farness.end()) - farness.begin());
+        add(left_out[next]);
+        for (std::size_t i = 0; i < left_out.size(); ++i)
+            farness[i] = std::min(farness[i], (left_out[i].position - left_out[next].position).squaredNorm());
+    }
+}
+
+double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
+    double deepest = std::numeric_limits<double>::infinity();
+    if (anchors.spares == 0) return deepest;   // the most part
+    const double between = m.normal.dot(pose_b.position - pose_a.position);
+    const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
+    for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
+        const Anchors::Spare& spare = anchors.spare[i];
+        const double height = n.dot(Vec3(spare.point[0], spare.point[1], spare.point[2])), face = spare.face;
+        deepest = std::min(deepest, between + (anchors.normal_of_b ? face - height : height - face));
+    }
+    return deepest;
+}
+
+// All points side by side, those that are not there too: the loops have no ends of their own and become vector code.
+void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
+    const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
+    const Vec3 between = other.position - of_face.position;   // the difference first: digits far from the origin
+    const Vec3 n = of_face.rotation * anchors.normal;
+    const auto &foot = anchors.feet.coordinate, &corner = anchors.corners.coordinate;
+    constexpr int points = Manifold::capacity;
+    double arm[3][points], height[points];   // of the corners, from the centre of the face's body and over the feet
+    for (int k = 0; k < 3; ++k) {
+        const double r0 = other.rotation(k, 0), r1 = other.rotation(k, 1), r2 = other.rotation(k, 2);
+        for (int i = 0; i < points; ++i) arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);
+    }
+    for (int i = 0; i < points; ++i)
+        height[i] = (n[0] * arm[0][i] + n[1] * arm[1][i] + n[2] * arm[2][i]) -
+                    (anchors.normal[0] * foot[0][i] + anchors.normal[1] * foot[1][i] + anchors.normal[2] * foot[2][i]);
+    // The corner slides over the face, and lever arms follow it.
+    for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < points; ++i) arm[k][i] = of_face.position[k] + (arm[k][i] - 0.5 * height[i] * n[k]);
+    m.normal = n;
+    const double sign = anchors.normal_of_b ? -1.0 : 1.0;   // the normal points from A to B
+    for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
+        m.points[i].separation = sign * height[i];
+        m.points[i].position = {arm[0][i], arm[1][i], arm[2][i]};
+    }
+}
+
+}  // namespace tumble

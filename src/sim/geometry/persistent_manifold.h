@@ -1,0 +1,58 @@
+// A manifold tied to its two bodies: while they hardly move against each other, points, separations and normal follow
+// from the poses and need no new search.
+//
+// The normal goes with the body whose face it belongs to, each point's two ends with their own bodies: the foot with the face,
+// the corner above it with the other body. The separation, the corner's height over the face, is then exact for faces, and right to
+// second order in the motion for edges: only where on the surfaces the points lie goes out of date.
+#pragma once
+
+#include "sim/geometry/collider.h"
+#include "sim/geometry/manifold.h"
+
+#include <array>
+#include <span>
+
+namespace tumble {
+
+struct Anchors {
+    // One end of each point, in the frame of its body: coordinate after coordinate, for all points side by side.
+    struct Ends {
+        double coordinate[3][Manifold::capacity] = {};
+        Vec3 operator[](std::size_t i) const { return {coordinate[0][i], coordinate[1][i], coordinate[2][i]}; }
+        void set(std::size_t i, const Vec3& p) {
+            for (int k = 0; k < 3; ++k) coordinate[k][i] = p[k];
+        }
+    };
+    Ends feet, corners;                                // feet: of the body that the normal belongs to
+    Vec3 normal = Vec3::Zero();                        // in the frame of that body
+    bool normal_of_b = false;
+    const Ends& on_a() const { return normal_of_b ? corners : feet; }
+    const Ends& on_b() const { return normal_of_b ? feet : corners; }
+
+    // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal
+    // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body). Single precision:
+    // they only tell whether something has sunk by more than a part of its size.
+    struct Spare {
+        float point[3];
+        float face;
+    };
+    static constexpr std::size_t spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
+    int spares = 0;
+    std::array<Spare, spare_capacity> spare;
+};
+
+/// `normal_of_b`: the normal is that of a face of B.
+Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
+
+/// Adds what was left out: of many, those farthest from what is kept and from each other.
+/// `kept`: the manifold, and its second one where there is one.
+void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
+                 Anchors& anchors);
+
+/// Separation of the spare that lies deepest, for `m` brought up to date; infinity where there is none.
+double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
+
+/// Normal, positions and separations of `m` for new poses.
+void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
+
+}  // namespace tumble

@@ -1,0 +1,356 @@
+#include "sim/impact/active_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// x = A^-1 x by Cholesky, A is overwritten; false when A is not positive definite. Eigen's own goes in blocks by the size
+// of the processor's cache, and so would the last digits.
+bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
+    const Eigen::Index n = a.rows();
+    for (Eigen::Index j = 0; j < n; ++j) {
+        for (Eigen::Index i = j; i < n; ++i)
+            for (Eigen::Index k = 0; k < j; ++k) a(i, j) -= a(i, k) * a(j, k);
+        if (!(a(j, j) > 0.0)) return false;
+        const double pivot = std::sqrt(a(j, j));
+        for (Eigen::Index i = j; i < n; ++i) a(i, j) /= pivot;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (Eigen::Index k = 0; k < i; ++k) x[i] -= a(i, k) * x[k];
+        x[i] /= a(i, i);
+    }
+    for (Eigen::Index i = n; i-- > 0;) {
+        for (Eigen::Index k = i + 1; k < n; ++k) x[i] -= a(k, i) * x[k];
+        x[i] /= a(i, i);
+    }
+    return true;
+}
+
+}  // namespace
+
+Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
+    : rows_(rows), exact_(exact), parent_(bodies), place_(bodies, VelocityRow::none) {}
+
+bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
+    bound_ = bound;
+    work_ = 0.0;
+    if (bound.velocity) return solve_part(demands, multipliers);   // a bound is on all velocities together
+    find_parts(demands);
+    if (part_count_ == 1) return solve_part(demands, multipliers);
+    bool met = true;
+    multipliers.assign(demands.size(), 0.0);
+    for (std::size_t k = 0; k < part_count_; ++k) {
+        part_demands_.clear();
+        for (const std::uint32_t i : parts_[k]) part_demands_.push_back(demands[i]);
+        met = solve_part(part_demands_, part_multipliers_) && met;
+        for (std::size_t i = 0; i < parts_[k].size(); ++i) multipliers[parts_[k][i]] = part_multipliers_[i];
+    }
+    return met;
+}
+
+std::uint32_t Projection::root(std::uint32_t body) {
+    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
+    return body;
+}
+
+// In the order of their first demands.
+void Projection::find_parts(const std::vector<Demand>& demands) {
+    const auto bodies_of = [&](const Demand& d) { return std::array{rows_[d.row].a, rows_[d.row].b}; };
+    for (const Demand& d : demands)
+        for (const std::uint32_t body : bodies_of(d))
+            if (body != VelocityRow::none) parent_[body] = body;
+    for (const Demand& d : demands) {
+        const auto [a, b] = bodies_of(d);
+        if (a != VelocityRow::none && b != VelocityRow::none) parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+    }
+    part_count_ = 0;
+    for (std::uint32_t i = 0; i < demands.size(); ++i) {
+        const auto [a, b] = bodies_of(demands[i]);
+        std::uint32_t& part = place_[root(a != VelocityRow::none ? a : b)];
+        if (part == VelocityRow::none) {
+            part = std::uint32_t(part_count_++);
+            if (parts_.size() < part_count_) parts_.emplace_back();
+            parts_[part].clear();
+        }
+        parts_[part].push_back(i);
+    }
+    for (const Demand& d : demands)
+        for (const std::uint32_t body : bodies_of(d))
+            if (body != VelocityRow::none) place_[body] = VelocityRow::none;
+}
+
+bool Projection::solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
+    demands_ = &demands;
+    multipliers_ = &multipliers;
+    multipliers.assign(demands.size(), 0.0);
+    work_ += double(demands.size()) * double(demands.size());
+    place_bodies();
+    change_.setZero(size_);
+    return demands.size() <= exact_ ? active_set() : sweeps();
+}
+
+// Only the bodies that the part touches take part: the cost is that of the part, not of the cluster.
+void Projection::place_bodies() {
+    local_.clear();
+    std::uint32_t count = 0;
+    const auto place = [&](std::uint32_t body) {
+        if (body == VelocityRow::none) return body;
+        if (place_[body] == VelocityRow::none) place_[body] = count++;
+        return place_[body];
+    };
+    for (const Demand& demand : *demands_) {
+        local_.push_back(rows_[demand.row]);
+        local_.back().a = place(local_.back().a);
+        local_.back().b = place(local_.back().b);
+    }
+    size_ = 6 * Index(count);
+    if (bound_.velocity) start_.resize(size_);
+    for (const Demand& demand : *demands_) {
+        const VelocityRow& row = rows_[demand.row];
+        if (bound_.velocity) {
+            for (const std::uint32_t body : {row.a, row.b})
+                if (body != VelocityRow::none && place_[body] != VelocityRow::none)
+                    start_.segment<6>(6 * Index(place_[body])) = bound_.velocity->segment<6>(6 * Index(body));
+        }
+        if (row.a != VelocityRow::none) place_[row.a] = VelocityRow::none;
+        if (row.b != VelocityRow::none) place_[row.b] = VelocityRow::none;
+    }
+}
+
+bool Projection::active_set() {
+    const std::size_t n = demands_->size();
+    held_.clear();
+    basis_.clear();
+    triangle_.clear();
+    out_.assign(n, 0);
+    bool all_met = true;
+    for (std::size_t round = 0; round < 10 * n + 50; ++round) {
+        std::size_t worst = n;
+        double lowest = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (out_[i]) continue;
+            const double s = value(i);
+            if (s < -(*demands_)[i].tolerance && s < lowest) {
+                lowest = s;
+                worst = i;
+            }
+        }
+        if (worst == n) {
+            spread();
+            refine();
+            return all_met;
+        }
+        if (!take_in(worst)) {
+            all_met = false;
+            out_[worst] = 1;   // it cannot be met with those held: the others still can
+        }
+    }
+    return false;
+}
+
+// Moves lambda_i up from zero until row i is met; rows whose multiplier reaches zero on the way are let go. Goldfarb and
+// Idnani's step: d moves along the remainder z of w_i by t, the held multipliers by -t R^-1 Q^T w_i.
+bool Projection::take_in(std::size_t i) {
+    std::vector<double>& lambda = *multipliers_;
+    for (;;) {
+        const bool independent = split(local_[i]);
+        back_substitute();
+        double blocked = infinity;
+        std::size_t blocking = 0;
+        const double least = independent ? tuning::projection_weight : tuning::projection_dependent;
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            if (weights_[k] <= least) continue;
+            const double t = lambda[held_[k]] / weights_[k];
+            if (t < blocked) {
+                blocked = t;
+                blocking = k;
+            }
+        }
+        const double full = independent ? std::max(0.0, -value(i)) / remainder_.squaredNorm() : infinity;
+        const double t = std::min(blocked, full);
+        if (t == infinity) return false;
+        if (independent) {
+            if (bound_.velocity && (start_ + change_ + t * remainder_).norm() > bound_.longest) return false;
+            change_ += t * remainder_;
+        }
+        for (std::size_t k = 0; k < held_.size(); ++k) lambda[held_[k]] = std::max(0.0, lambda[held_[k]] - t * weights_[k]);
+        lambda[i] += t;
+        if (full <= blocked) {
+            hold(i);
+            return true;
+        }
+        lambda[held_[blocking]] = 0.0;
+        let_go(blocking);
+    }
+}
+
+// w = Q along + remainder. A second pass where the first has cancelled digits (Daniel, Gragg, Kaufman, Stewart 1976:
+// twice is enough). False when w depends on the rows held.
+bool Projection::split(const VelocityRow& row) {
+    remainder_.setZero(size_);
+    row.add_to(remainder_, 1.0);
+    along_.assign(held_.size(), 0.0);
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+        const auto q = basis(k);
+        double t = 0.0;   // the row has twelve numbers at most
+        if (row.a != VelocityRow::none) t += row.on_a.dot(q.segment<6>(6 * Index(row.a)));
+        if (row.b != VelocityRow::none) t += row.on_b.dot(q.segment<6>(6 * Index(row.b)));
+        along_[k] = t;
+        remainder_ -= t * q;
+    }
+    if (remainder_.squaredNorm() < 0.5) {
+        for (std::size_t k = 0; k < held_.size(); ++k) {
+            const auto q = basis(k);
+            const double t = q.dot(remainder_);
+            along_[k] += t;
+            remainder_ -= t * q;
+        }
+    }
+    return remainder_.norm() > tuning::projection_dependent;
+}
+
+void Projection::back_substitute() {
+    weights_ = along_;
+    for (std::size_t k = held_.size(); k-- > 0;) {
+        weights_[k] /= column(k)[k];
+        for (std::size_t i = 0; i < k; ++i) weights_[i] -= column(k)[i] * weights_[k];
+    }
+}
+
+void Projection::forward_substitute(std::vector<double>& v) const {
+    for (std::size_t k = 0; k < held_.size(); ++k) {
+        for (std::size_t i = 0; i < k; ++i) v[k] -= column(k)[i] * v[i];
+        v[k] /= column(k)[k];
+    }
+}
+
+void Projection::hold(std::size_t i) {
+    const double length = remainder_.norm();
+    triangle_.insert(triangle_.end(), along_.begin(), along_.end());
+    triangle_.push_back(length);
+    basis_.resize((held_.size() + 1) * std::size_t(size_));
+    basis(held_.size()) = remainder_ / length;
+    held_.push_back(i);
+    out_[i] = 1;
+}
+
+// Column k leaves R; each later column moves up one place and its entry below the diagonal is turned away (Givens).
+void Projection::let_go(std::size_t k) {
+    out_[held_[k]] = 0;
+    sines_.clear();
+    cosines_.clear();
+    for (std::size_t j = k + 1; j < held_.size(); ++j) {
+        double* from = column(j);
+        for (std::size_t m = 0; m < sines_.size(); ++m) {
+            const double upper = from[k + m], lower = from[k + m + 1];
+            from[k + m] = cosines_[m] * upper + sines_[m] * lower;
+            from[k + m + 1] = cosines_[m] * lower - sines_[m] * upper;
+        }
+        const double length = std::sqrt(from[j - 1] * from[j - 1] + from[j] * from[j]);
+        const double cosine = from[j - 1] / length, sine = from[j] / length;
+        cosines_.push_back(cosine);
+        sines_.push_back(sine);
+        from[j - 1] = length;
+        std::copy(from, from + j, column(j - 1));
+        auto q = basis(j - 1), next = basis(j);
+        for (Index r = 0; r < size_; ++r) {
+            const double upper = q[r], lower = next[r];
+            q[r] = cosine * upper + sine * lower;
+            next[r] = cosine * lower - sine * upper;
+        }
+    }
+    held_.erase(held_.begin() + std::ptrdiff_t(k));
+    triangle_.resize(held_.size() * (held_.size() + 1) / 2);
+    basis_.resize(held_.size() * std::size_t(size_));
+}
+
+// Of all multipliers that make the same change, those of the least sum of squares: a flat box presses on its four corners
+// alike, not on two of them. With B = W_tight Q, over all rows that are just met, and B^T B c = Q^T d these are B c; where
+// one would turn negative, as far from the active set's own towards them as none does.
+void Projection::spread() {
+    std::vector<double>& lambda = *multipliers_;
+    const std::size_t own = held_.size();
+    tight_.clear();
+    for (std::size_t i = 0; i < lambda.size(); ++i)
+        if (!out_[i] && value(i) <= (*demands_)[i].tolerance) tight_.push_back(i);
+    if (own == 0 || tight_.empty()) return;
+    // Rows that add a direction extend Q for now; those that add none are rows of B beyond the held ones.
+    std::vector<std::size_t> dependent;
+    for (const std::size_t i : tight_) {
+        split(local_[i]);
+        const double left = remainder_.norm();
+        if (left > tuning::projection_spread_independent) hold(i);
+        else if (left <= tuning::projection_spread_dependent) dependent.push_back(i);
+    }
+    std::vector<std::size_t> rows = held_;
+    rows.insert(rows.end(), dependent.begin(), dependent.end());
+    const auto rank = Index(held_.size());
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(Index(rows.size()), rank);
+    Eigen::VectorXd now(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        now[Index(k)] = lambda[rows[k]];
+        if (k < held_.size()) {
+            for (std::size_t i = 0; i <= k; ++i) b(Index(k), Index(i)) = column(k)[i];
+        } else {
+            split(local_[rows[k]]);
+            for (std::size_t i = 0; i < held_.size(); ++i) b(Index(k), Index(i)) = along_[i];
+        }
+    }
+    if (Index(rows.size()) > rank) {
+        Eigen::MatrixXd gram = b.transpose().lazyProduct(b);
+        Eigen::VectorXd c = b.transpose().lazyProduct(now);
+        if (solve_symmetric(gram, c)) {
+            const Eigen::VectorXd even = b.lazyProduct(c);
+            double share = 1.0;
+            for (Index k = 0; k < now.size(); ++k)
+                if (even[k] < 0.0) share = std::min(share, now[k] / (now[k] - even[k]));
+            for (Index k = 0; k < now.size(); ++k)
+                lambda[rows[std::size_t(k)]] = std::max(0.0, now[k] + share * (even[k] - now[k]));
+        }
+    }
+    // What they press with now they are held by, too: unheld, their speeds are only met to the tolerance.
+    if (std::all_of(held_.begin(), held_.end(), [&](std::size_t i) { return lambda[i] > 0.0; })) return;
+    held_.resize(own);
+    triangle_.resize(own * (own + 1) / 2);
+    basis_.resize(own * std::size_t(size_));
+}
+
+// One step of iterative refinement on W^T W lambda = -s of the rows held, from the change that the multipliers make.
+void Projection::refine() {
+    std::vector<double>& lambda = *multipliers_;
+    change_.setZero(size_);
+    for (std::size_t i = 0; i < lambda.size(); ++i)
+        if (lambda[i] > 0.0) local_[i].add_to(change_, lambda[i]);
+    along_.resize(held_.size());
+    for (std::size_t k = 0; k < held_.size(); ++k) along_[k] = -value(held_[k]);
+    forward_substitute(along_);
+    back_substitute();
+    for (std::size_t k = 0; k < held_.size(); ++k) lambda[held_[k]] = std::max(0.0, lambda[held_[k]] + weights_[k]);
+}
+
+bool Projection::sweeps() {
+    std::vector<double>& lambda = *multipliers_;
+    double first = 0.0;
+    for (int sweep = 0; sweep < tuning::projection_sweeps; ++sweep) {
+        double most = 0.0;
+        for (std::size_t i = 0; i < lambda.size(); ++i) {
+            const double target = std::max(0.0, lambda[i] - value(i));
+            const double step = target - lambda[i];
+            if (step == 0.0) continue;
+            lambda[i] = target;
+            local_[i].add_to(change_, step);
+            most = std::max(most, std::abs(step));
+        }
+        if (sweep == 0) first = most;
+        if (most <= tuning::projection_sweep_tolerance * first) return true;
+    }
+    return false;
+}
+
+}  // namespace tumble

@@ -1,0 +1,92 @@
+// The least change d of the velocities that makes a set of contacts stop approaching:
+//
+//     minimise |d|^2   subject to   w_i . d + s_i >= 0   for i in the set,   w_i unit rows, s_i what they have now.
+//
+// Its solution is d = sum of lambda_i w_i with lambda_i >= 0 (no contact pulls) and lambda_i > 0 only where the contact
+// is just stopped: the impulses. Solved by the dual active set method of Goldfarb and Idnani 1983, "A numerically stable
+// dual method for solving strictly convex quadratic programs": the most violated row is taken in, a row whose impulse
+// would turn negative is let go, and no row is ever taken in that depends on those held (the four corners of a flat box
+// have rank three). The held rows are kept as W = Q R, orthogonalised twice where it matters, so the result is exact to
+// rounding. Where rows depend on each other d is unique and the multipliers are not: they are then spread evenly.
+//
+// Contacts that hang together by no body have nothing to do with each other: each such part of the set is solved by itself.
+// Parts of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
+#pragma once
+
+#include "sim/impact/velocity_row.h"
+#include "sim/settings/tuning.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// A length that the velocities may not exceed by a projection, and what they are before it.
+struct VelocityBound {
+    const Eigen::VectorXd* velocity = nullptr;   // none: no bound
+    double longest = 0.0;
+};
+
+class Projection {
+public:
+    /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly.
+    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
+
+    struct Demand {
+        std::uint32_t row;
+        double value;       // s_i
+        double tolerance;   // a row is satisfied from -tolerance on
+    };
+
+    /// Finds `multipliers`, one for each demand. False when not all demands can be met together within the bound, if there
+    /// is one (or, beyond reason, were not met in time); the multipliers are then those of the rows that can.
+    bool solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound = {});
+    /// What the last solve has taken, in squared demands of its parts.
+    double work() const { return work_; }
+
+private:
+    using Index = Eigen::Index;
+
+    void find_parts(const std::vector<Demand>& demands);
+    std::uint32_t root(std::uint32_t body);
+    bool solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers);
+    void place_bodies();
+    bool active_set();
+    bool sweeps();
+    bool take_in(std::size_t i);
+    bool split(const VelocityRow& row);
+    void back_substitute();
+    void forward_substitute(std::vector<double>& v) const;
+    void hold(std::size_t i);
+    void let_go(std::size_t k);
+    void spread();
+    void refine();
+    double value(std::size_t i) const { return (*demands_)[i].value + local_[i].dot(change_); }
+    double* column(std::size_t k) { return triangle_.data() + k * (k + 1) / 2; }
+    const double* column(std::size_t k) const { return triangle_.data() + k * (k + 1) / 2; }
+    Eigen::Map<Eigen::VectorXd> basis(std::size_t k) { return {basis_.data() + k * std::size_t(size_), size_}; }
+
+    const std::vector<VelocityRow>& rows_;
+    std::size_t exact_;
+    double work_ = 0.0;
+    std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find of those that demands connect
+    std::vector<std::vector<std::uint32_t>> parts_;   // demands; the first part_count_ of them are in use
+    std::size_t part_count_ = 0;
+    std::vector<Demand> part_demands_;
+    std::vector<double> part_multipliers_;
+    std::vector<std::uint32_t> place_;         // body of the cluster to body of the part
+    const std::vector<Demand>* demands_ = nullptr;
+    std::vector<double>* multipliers_ = nullptr;
+    std::vector<VelocityRow> local_;           // the set's rows, over the bodies they touch
+    Index size_ = 0;
+    VelocityBound bound_;
+    Eigen::VectorXd start_;                    // the bound's velocities of these bodies
+    std::vector<std::size_t> held_, tight_;    // W = Q R of the held; just met without being held
+    std::vector<char> out_;                    // held, or given up
+    std::vector<double> basis_, triangle_;     // Q by columns; R packed by columns
+    Eigen::VectorXd change_, remainder_;       // d; what Q leaves of a row
+    std::vector<double> along_, weights_;      // Q^T w; R^-1 Q^T w
+    std::vector<double> sines_, cosines_;
+};
+
+}  // namespace tumble

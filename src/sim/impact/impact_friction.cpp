@@ -1,0 +1,190 @@
+#include "sim/impact/impact_friction.h"
+
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Minimises k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
+// with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
+// "Computing a trust region step").
+std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius,
+                                        double tolerance) {
+    double f0 = -g0 / k0, f1 = -g1 / k1;
+    double length = std::sqrt(f0 * f0 + f1 * f1);
+    if (length <= radius) return {f0, f1};
+    if (!(radius > 0.0)) return {0.0, 0.0};
+    double nu = 0.0;
+    for (int i = 0; i < tuning::friction_newton && length - radius > tolerance * radius; ++i) {
+        const double slope = f0 * f0 / (k0 + nu) + f1 * f1 / (k1 + nu);
+        nu += length * length / slope * (length - radius) / radius;
+        f0 = -g0 / (k0 + nu);
+        f1 = -g1 / (k1 + nu);
+        length = std::sqrt(f0 * f0 + f1 * f1);
+    }
+    const double back = std::min(1.0, radius / length);
+    return {back * f0, back * f1};
+}
+
+}  // namespace
+
+ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, std::size_t contact) {
+    Contact c = cluster.contact(contact);
+    c.arm_a += c.rub;
+    c.arm_b += c.rub;
+    Block block;
+    block.contact = contact;
+    const Vec3 t = c.normal.unitOrthogonal(), s = c.normal.cross(t);
+    const VelocityRow along_t = cluster.relative_row(c, t), along_s = cluster.relative_row(c, s);
+    const double tt = along_t.squared_norm(), ss = along_s.squared_norm(), ts = along_t.dot(along_s);
+    // Eigenvectors of the two-by-two compliance.
+    const double half = 0.5 * (tt - ss), root = std::sqrt(half * half + ts * ts);
+    double cosine = 1.0, sine = 0.0;
+    if (root > 0.0) {
+        const double x = half >= 0.0 ? half + root : std::abs(ts), y = half >= 0.0 ? ts : std::copysign(root - half, ts);
+        const double norm = std::sqrt(x * x + y * y);
+        cosine = x / norm;
+        sine = y / norm;
+    }
+    block.first = cosine * t + sine * s;
+    block.second = cosine * s - sine * t;
+    block.first_row = cluster.relative_row(c, block.first);
+    block.second_row = cluster.relative_row(c, block.second);
+    block.first_offset = cluster.offset(c, block.first);
+    block.second_offset = cluster.offset(c, block.second);
+    block.first_compliance = block.first_row.squared_norm();
+    block.second_compliance = block.second_row.squared_norm();
+    block.normal_first = cluster.length(contact) * cluster.rows()[contact].dot(block.first_row);
+    block.normal_second = cluster.length(contact) * cluster.rows()[contact].dot(block.second_row);
+    return block;
+}
+
+// Where there is no normal impulse there is no friction: most contacts of a heap have none in an impact.
+void ImpactFriction::add_blocks(const ContactCluster& cluster) {
+    const std::size_t before = blocks_.size();
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        if (has_block_[i] || !(cluster.impulse(i) > 0.0) || cluster.contact(i).friction <= 0.0) continue;
+        has_block_[i] = 1;
+        blocks_.push_back(make_block(cluster, i));
+    }
+    if (blocks_.size() == before) return;
+    std::sort(blocks_.begin(), blocks_.end(), [](const Block& l, const Block& r) { return l.contact < r.contact; });
+}
+
+double ImpactFriction::tolerance() const {
+    if (blocks_.size() > tuning::friction_few) return tuning::friction_tolerance_many;
+    return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
+}
+
+// Finds a lone block's three impulses; among others goes one round towards them. Returns the change of speed made, m/s.
+double ImpactFriction::relax(ContactCluster& cluster, Block& block, Normal normal) const {
+    const std::size_t i = block.contact;
+    const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance, k1 = block.second_compliance;
+    double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
+    double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
+    double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
+    double f0 = block.f0, f1 = block.f1, change = 0.0;
+    const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? tuning::friction_sweeps : 1;
+    for (int round = 0; round < rounds; ++round) {
+        const double push = std::max((block.kept - parting) / (length * length), -cluster.impulse(i) - pushed);
+        pushed += push;
+        slip0 += block.normal_first * push;
+        slip1 += block.normal_second * push;
+        const auto [next0, next1] = least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, mu * (cluster.impulse(i) + pushed), tolerance());
+        const double step0 = next0 - f0, step1 = next1 - f1;
+        f0 = next0;
+        f1 = next1;
+        parting += length * length * push + block.normal_first * step0 + block.normal_second * step1;
+        slip0 += k0 * step0;
+        slip1 += k1 * step1;
+        const double now = std::max({length * length * std::abs(push), k0 * std::abs(step0), k1 * std::abs(step1)});
+        change = std::max(change, now);
+        if (now <= tolerance() * change) break;
+    }
+    if (pushed != 0.0) cluster.push(i, pushed * length);
+    cluster.push_along(block.first_row, f0 - block.f0);
+    cluster.push_along(block.second_row, f1 - block.f1);
+    block.f0 = f0;
+    block.f1 = f1;
+    return change;
+}
+
+// Returns the largest change of speed in a sweep.
+double ImpactFriction::relax_all(ContactCluster& cluster, Normal normal) {
+    double most = 0.0;
+    const int sweeps = blocks_.size() <= tuning::friction_few
+                           ? tuning::friction_sweeps
+                           : std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        double change = 0.0;
+        for (Block& block : blocks_) change = std::max(change, relax(cluster, block, normal));
+        most = std::max(most, change);
+        if (blocks_.size() < 2 || change <= tolerance() * most) break;
+    }
+    return most;
+}
+
+ImpactFriction::State ImpactFriction::state(const ContactCluster& cluster, const Block& block) {
+    return {{cluster.impulse(block.contact), block.f0, block.f1},
+            {cluster.speed(block.contact), block.first_row.dot(cluster.velocity()) + block.first_offset,
+             block.second_row.dot(cluster.velocity()) + block.second_offset}};
+}
+
+void ImpactFriction::look(const ContactCluster& cluster, std::vector<State>& states) const {
+    states.clear();
+    for (const Block& block : blocks_) states.push_back(state(cluster, block));
+}
+
+// Goes a share of the way from the impulses that the cluster has to others.
+void ImpactFriction::set(ContactCluster& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        Block& block = blocks_[k];
+        const auto step = [&](std::size_t i) { return share * (to[k].impulse[i] - from[k].impulse[i]); };
+        cluster.push(block.contact, step(0) * cluster.length(block.contact));
+        cluster.push_along(block.first_row, step(1));
+        cluster.push_along(block.second_row, step(2));
+        block.f0 += step(1);
+        block.f1 += step(2);
+    }
+}
+
+// Impulses that change by d and the speeds at them from u to u + K d do the work d . u + d . K d / 2, K the compliance.
+void ImpactFriction::limit_energy(ContactCluster& cluster) {
+    const auto sum = [&](const std::vector<State>& from, const std::vector<State>& to, auto&& term) {
+        double all = 0.0;
+        for (std::size_t k = 0; k < blocks_.size(); ++k)
+            for (std::size_t i = 0; i < 3; ++i) all += (to[k].impulse[i] - from[k].impulse[i]) * term(from[k].speed[i], to[k].speed[i]);
+        return all;
+    };
+    const auto mean = [](double from, double to) { return 0.5 * (from + to); };
+    look(cluster, kept_);
+    if (sum(start_, kept_, mean) <= 0.0) return;
+    set(cluster, kept_, start_, 1.0);
+    relax_all(cluster, Normal::fixed);
+    look(cluster, least_);
+    // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without cancellation.
+    const double g0 = std::min(0.0, sum(start_, least_, mean)), slope = sum(least_, kept_, [](double from, double) { return from; });
+    const double bend = 0.5 * sum(least_, kept_, [](double from, double to) { return to - from; });
+    const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * bend * g0));
+    const double share = slope > 0.0 ? -2.0 * g0 / (slope + root) : bend > 0.0 ? (root - slope) / (2.0 * bend) : 1.0;
+    set(cluster, least_, kept_, std::clamp(share, 0.0, 1.0));
+}
+
+bool ImpactFriction::apply(ContactCluster& cluster) {
+    add_blocks(cluster);
+    look(cluster, start_);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].kept = start_[k].speed[0];
+    const double most = relax_all(cluster, Normal::adapted);
+    limit_energy(cluster);
+    return most > cluster.rounding();
+}
+
+void ImpactFriction::store(const ContactCluster& cluster, std::vector<Contact>& contacts) const {
+    for (const Block& block : blocks_)
+        contacts[cluster.contact_index(block.contact)].impact_friction = block.f0 * block.first + block.f1 * block.second;
+}
+
+}  // namespace tumble

@@ -1,0 +1,241 @@
+#include "sim/impact/impact_laws.h"
+
+#include "sim/impact/active_set.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+double restitution_now(const ContactCluster& cluster, std::size_t i, double threshold) {
+    return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.contact(i).restitution : 0.0;
+}
+
+Projection::Demand demand(const ContactCluster& cluster, std::size_t i, double least_speed) {
+    const double length = cluster.length(i);
+    return {std::uint32_t(i), (cluster.speed(i) - least_speed) / length, cluster.rounding() / length};
+}
+
+// Stopped at walls that all move with w, |y|^2 grows by 2 w.d - |d|^2 <= |w|^2. Much more is a way out between walls that
+// move against each other and are all but parallel, and none. Without moving walls |y| cannot grow.
+VelocityBound bound(const ContactCluster& cluster) {
+    if (cluster.wall_velocity() == 0.0) return {};
+    const double wall = tuning::impact_wedge * cluster.wall_velocity();
+    return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
+}
+
+// Adds the change of y that multipliers make to d; returns lambda . s.
+double add_change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+                  Eigen::VectorXd& d) {
+    double work_before = 0.0;
+    for (std::size_t i = 0; i < set.size(); ++i) {
+        if (lambda[i] == 0.0) continue;
+        cluster.rows()[set[i].row].add_to(d, lambda[i]);
+        work_before += lambda[i] * cluster.speed(set[i].row) / cluster.length(set[i].row);
+    }
+    return work_before;
+}
+
+// The factor at which a change neither gains nor loses energy: -2 d.y / d.d of a Householder reflection.
+double reflection_factor(double work_before, double square) { return square > 0.0 ? -2.0 * work_before / square : 0.0; }
+
+// The change of y that multipliers make, and their work: the kinetic energy (as seen from the walls, where they move)
+// grows by lambda . s + |d|^2 / 2, with s = w . y + offset before.
+struct Change {
+    Eigen::VectorXd d;
+    double work_before = 0.0, square = 0.0;   // lambda . s, |d|^2
+
+    Change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda)
+        : d(Eigen::VectorXd::Zero(cluster.velocity().size())) {
+        work_before = add_change(cluster, set, lambda, d);
+        square = d.squaredNorm();
+    }
+    double gain() const { return work_before + 0.5 * square; }
+    double reflection() const { return reflection_factor(work_before, square); }
+};
+
+void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+           double factor) {
+    if (!(factor > 0.0)) return;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        if (lambda[i] > 0.0) cluster.push(set[i].row, factor * lambda[i]);
+}
+
+class Propagation {
+public:
+    Propagation(ContactCluster& cluster, double threshold, double slow, double resting)
+        : cluster_(cluster), threshold_(threshold),
+          slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
+          projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
+          change_(Eigen::VectorXd::Zero(cluster.velocity().size())), changed_(cluster.bodies() + 1, 1) {
+        // What is not dynamic has the last place, and never changes.
+        const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
+        for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
+        for (std::size_t i = 0; i < cluster.size(); ++i) rests_.push_back(!cluster.flies(i) && cluster.speed(i) > -resting);
+    }
+
+    int run() {
+        int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
+        bool depth_known = false;
+        double work = 0.0;
+        for (int pass = 0;; ++pass) {
+            if (!gather(pass == 0) && (pass > 0 || !gather(false))) return pass;
+            if (pass == limit && !depth_known && cluster_.wall_velocity() == 0.0) {
+                limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
+                depth_known = true;
+            }
+            const bool spent = pass >= limit || work > tuning::impact_work;
+            const double cost = elastic() ? tuning::impact_elastic_work : 1.0;
+            if (spent || squeezed(pass) || !reflect()) {
+                stop(cluster_);
+                return pass + 1;
+            }
+            work += cost * projection_.work();
+        }
+    }
+
+private:
+    // The approaching contacts, at first without those at rest; false when none of them bounces.
+    bool gather(bool first) {
+        active_.clear();
+        restitution_.clear();
+        bool any = false;
+        for (std::size_t i = 0; i < cluster_.size(); ++i) {
+            // Else it is as it was after the pass before.
+            if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
+            if (!(cluster_.speed(i) < -slow_) || (first && rests_[i])) continue;
+            active_.push_back(demand(cluster_, i, 0.0));
+            restitution_.push_back(restitution_now(cluster_, i, threshold_));
+            any = any || restitution_.back() > 0.0;
+        }
+        return any;
+    }
+
+    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + q). The factor
+    // f = -d.y / d.d is one but for rounding and what sweeps leave over, and makes e = 1 a Householder reflection, which
+    // keeps the energy whatever d is. Where restitutions differ d + q may gain energy: it then goes as far as it does not.
+    bool reflect() {
+        projection_.solve(active_, lambda_, bound(cluster_));
+        const double f = 0.5 * reflection();
+        // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
+        if (!(f > 0.0 && f < 2.0)) return false;
+        for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
+        apply(cluster_, active_, lambda_, std::min(f, reflection()));
+        std::fill(changed_.begin(), changed_.end(), 0);
+        for (const Projection::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
+        changed_.back() = 0;
+        return true;
+    }
+
+    // Change::reflection() from the bodies of the active contacts alone: a pass touches few of a heap.
+    double reflection() {
+        const double work_before = add_change(cluster_, active_, lambda_, change_);
+        double square = 0.0;
+        for (const Projection::Demand& demand : active_)
+            for (const std::uint32_t body : {cluster_.rows()[demand.row].a, cluster_.rows()[demand.row].b}) {
+                if (body == VelocityRow::none) continue;
+                auto of_body = change_.segment<6>(6 * Eigen::Index(body));
+                square += of_body.squaredNorm();
+                of_body.setZero();   // which counts each body once, and leaves all zero for the next time
+            }
+        return reflection_factor(work_before, square);
+    }
+
+    bool elastic() const {
+        return std::all_of(restitution_.begin(), restitution_.end(), [](double e) { return e == 1.0; });
+    }
+
+    // One over the margin by which one direction can lie inside all contacts' half-spaces: |z| for the least z with
+    // w_i . z >= 1. Every reflection moves y along z by at least that margin of its own length, so that all of them
+    // together are no longer than |y| |z|. Zero for jammed sets, whose rows hold each other in balance, and for sets too
+    // large to tell: they get no more passes.
+    double depth() {
+        if (cluster_.size() > tuning::projection_contacts) return 0.0;
+        std::vector<Projection::Demand> all;
+        for (std::size_t i = 0; i < cluster_.size(); ++i) all.push_back({std::uint32_t(i), -1.0, 1e-6});
+        std::vector<double> lambda;
+        if (!Projection(cluster_.rows(), cluster_.bodies()).solve(all, lambda)) return 0.0;
+        return std::sqrt(Change(cluster_, all, lambda).square);
+    }
+
+    // Between walls that close in, each pass would throw the bodies faster.
+    bool squeezed(int pass) {
+        if (cluster_.wall_velocity() == 0.0) return false;
+        if (pass > 0) return cluster_.velocity().norm() > longest_;
+        longest_ = cluster_.velocity().norm() + tuning::impact_wedge * cluster_.wall_velocity();
+        if (cluster_.size() > tuning::projection_contacts) return false;
+        const double z = depth();
+        return z == 0.0 || z > tuning::impact_deepest;
+    }
+
+    ContactCluster& cluster_;
+    double threshold_, slow_, longest_ = 0.0;
+    Projection projection_;
+    std::vector<Projection::Demand> active_;
+    std::vector<double> restitution_, lambda_;
+    Eigen::VectorXd change_;                                        // zero between uses
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
+    std::vector<char> changed_;                                     // by place: whether the last pass may have
+    std::vector<char> rests_;                                       // by contact
+};
+
+}  // namespace
+
+bool bounces(const ContactCluster& cluster, double threshold) {
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (restitution_now(cluster, i, threshold) > 0.0) return true;
+    return false;
+}
+
+int propagate(ContactCluster& cluster, double threshold, double slow, double resting) {
+    return Propagation(cluster, threshold, slow, resting).run();
+}
+
+bool stop(ContactCluster& cluster) {
+    std::vector<Projection::Demand> all;
+    for (std::size_t i = 0; i < cluster.size(); ++i) all.push_back(demand(cluster, i, 0.0));
+    std::vector<double> lambda;
+    const bool met = Projection(cluster.rows(), cluster.bodies()).solve(all, lambda, bound(cluster));
+    apply(cluster, all, lambda, std::min(1.0, Change(cluster, all, lambda).reflection()));
+    return met;
+}
+
+// Newton's law asks for more than there is energy for when restitutions differ, or when a contact that parts is hit by
+// the others. Then y lies on the way from the solution y0 of e = 0 to Newton's, where the energy is what it was: both
+// stop every approach, so all between them do.
+int resolve_together(ContactCluster& cluster, double threshold) {
+    if (!bounces(cluster, threshold)) return 0;
+    std::vector<Projection::Demand> stopping, bouncing;
+    bool elastic = true;
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const double e = restitution_now(cluster, i, threshold);
+        stopping.push_back(demand(cluster, i, 0.0));
+        bouncing.push_back(demand(cluster, i, e > 0.0 ? -e * cluster.speed(i) : 0.0));
+        elastic = elastic && (!cluster.approaching(i) || e == 1.0);
+    }
+    Projection projection(cluster.rows(), cluster.bodies());
+    std::vector<double> lambda, least;
+    const bool met = projection.solve(bouncing, lambda, bound(cluster));
+    const Change newton(cluster, bouncing, lambda);
+    if (!met || newton.gain() > 0.0) {
+        projection.solve(stopping, least, bound(cluster));
+        const Change stopped(cluster, stopping, least);
+        // gain(s) = g0 + s slope + s^2 bend / 2, from g0 <= 0 at s = 0.
+        const double bend = (newton.d - stopped.d).squaredNorm();
+        const double slope = newton.work_before - stopped.work_before + stopped.d.dot(newton.d - stopped.d);
+        const double root = std::sqrt(std::max(0.0, slope * slope - 2.0 * stopped.gain() * bend));
+        // The positive root, without cancellation.
+        const double s = slope > 0.0 ? -2.0 * stopped.gain() / (slope + root) : bend > 0.0 ? (root - slope) / bend : 1.0;
+        const double share = met ? std::clamp(s, 0.0, 1.0) : 0.0;
+        elastic = elastic && met;
+        for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = share * lambda[i] + (1.0 - share) * least[i];
+    }
+    const double reflection = Change(cluster, bouncing, lambda).reflection();
+    // With e = 1 all along, the energy is kept to the last digits, not only not gained.
+    apply(cluster, bouncing, lambda, elastic ? reflection : std::min(1.0, reflection));
+    return 1;
+}
+
+}  // namespace tumble

@@ -1,0 +1,83 @@
+// The touching contacts of an island as one impact sees them: bodies in velocities weighted by mass (velocity_row.h), each
+// contact a unit row with v_rel = length (w . y + offset). The offset is the share of fixed and kinematic bodies, which
+// have a velocity but no place in y. An impulse j moves y by j length along w.
+#pragma once
+
+#include "sim/contact/model/contact.h"
+#include "sim/impact/velocity_row.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+/// What an impact can reach: dynamic bodies that hang together, and their contacts; both ascending.
+struct Island {
+    std::vector<std::uint32_t> bodies, contacts;
+};
+
+/// The square root of a dynamic body's inverse mass matrix: M^-1/2, and C with C C^T = I^-1.
+struct MassRoot {
+    double translation;   // kg^-1/2
+    Mat3 turn;            // kg^-1/2 / m; by Cholesky in the body's frame, where needles and plates lose no digits
+
+    explicit MassRoot(const Body& body);
+    /// n . (v + omega x r) as a form of y, for an arm r.
+    Vec6 row(const Vec3& arm, const Vec3& direction) const;
+    /// y of the body's velocities.
+    Vec6 weighted(const Body& body) const;
+};
+
+class ContactCluster {
+public:
+    /// Takes in the island's touching contacts. Both lists are kept by reference; nothing is changed before store().
+    ContactCluster(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
+
+    std::size_t size() const { return rows_.size(); }
+    std::size_t bodies() const { return roots_.size(); }
+    const std::vector<VelocityRow>& rows() const { return rows_; }
+    const Contact& contact(std::size_t i) const { return contacts_[index_[i]]; }
+    bool flies(std::size_t i) const { return bodies_[contact(i).a].flying || bodies_[contact(i).b].flying; }
+    std::uint32_t contact_index(std::size_t i) const { return index_[i]; }
+
+    /// v_rel, m/s.
+    double speed(std::size_t i) const { return length_[i] * (rows_[i].dot(velocity_) + offset_[i]); }
+    double length(std::size_t i) const { return length_[i]; }   // kg^-1/2
+    /// Approaches slower than this are rounding, m/s. Follows from the velocities at the start.
+    double rounding() const { return rounding_; }
+    bool approaching(std::size_t i) const { return speed(i) < -rounding_; }
+    /// |y| of all the cluster's bodies if they went along with the fastest moving wall; 0 where none moves.
+    double wall_velocity() const { return wall_velocity_; }
+    const Eigen::VectorXd& velocity() const { return velocity_; }
+
+    /// n . (velocity of B's point - velocity of A's point) along any direction as a form of y, and its offset, m/s.
+    VelocityRow relative_row(const Contact& c, const Vec3& direction) const;
+    double offset(const Contact& c, const Vec3& direction) const;
+
+    /// Adds `amount` along the unit row of contact i: an impulse of amount / length.
+    void push(std::size_t i, double amount) {
+        rows_[i].add_to(velocity_, amount);
+        impulse_[i] += amount / length_[i];
+    }
+    /// Adds `amount` N s along a form from relative_row().
+    void push_along(const VelocityRow& row, double amount) { row.add_to(velocity_, amount); }
+    double impulse(std::size_t i) const { return impulse_[i]; }   // N s, of all pushes
+
+    /// Writes the velocities of the bodies that have changed, and each touching contact's impulse and v_rel.
+    void store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const;
+
+private:
+    std::uint32_t place(std::uint32_t body) const;
+
+    const std::vector<std::uint32_t>& body_index_;   // place to body, ascending
+    const std::vector<Contact>& contacts_;
+    const std::vector<Body>& bodies_;
+    std::vector<MassRoot> roots_;
+    Eigen::VectorXd velocity_, start_;               // y now and at the start
+    std::vector<std::uint32_t> index_;               // row to contact
+    std::vector<VelocityRow> rows_;
+    std::vector<double> length_, offset_, impulse_;
+    double rounding_ = 0.0, wall_velocity_ = 0.0;
+};
+
+}  // namespace tumble

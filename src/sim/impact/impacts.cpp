@@ -1,0 +1,103 @@
+#include "sim/impact/impacts.h"
+
+#include "sim/impact/impact_friction.h"
+#include "sim/impact/active_set.h"
+#include "sim/settings/tuning.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+// Most steps of most islands hold no impact: that is told apart from the contacts as they are.
+bool may_collide(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
+                 const ImpactSettings& settings) {
+    for (const std::uint32_t k : island.contacts) {
+        const Contact& c = contacts[k];
+        if (!c.touching()) continue;
+        const double u = relative_velocity(c, bodies[c.a], bodies[c.b]);
+        if (settings.complete ? u < 0.0 : u < -settings.threshold && c.restitution > 0.0) return true;
+    }
+    return false;
+}
+
+bool approaching(const ContactCluster& cluster) {
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (cluster.approaching(i)) return true;
+    return false;
+}
+
+int resolve_normally(ContactCluster& cluster, const ImpactSettings& settings) {
+    const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold, settings.slow, settings.resting)
+                                                        : resolve_together(cluster, settings.threshold);
+    if (!settings.complete || !approaching(cluster)) return passes;
+    stop(cluster);
+    return passes + 1;
+}
+
+// Friction may turn a body so that it approaches again: then there is more of the impact, with friction's disc grown by
+// it. A bounded number of rounds, the later ones without restitution; the last word is that nothing approaches.
+void add_friction(ContactCluster& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
+    for (int round = 0; round < tuning::friction_rounds; ++round) {
+        if (!friction.apply(cluster) || !approaching(cluster)) return;
+        if (round < tuning::friction_bounces) resolve_normally(cluster, settings);
+        else stop(cluster);
+    }
+}
+
+}  // namespace
+
+int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
+                    const ImpactSettings& settings) {
+    if (!may_collide(island, contacts, bodies, settings)) return 0;
+    ContactCluster cluster(island, contacts, bodies);
+    const int passes = resolve_normally(cluster, settings);
+    if (passes == 0) return 0;
+    if (settings.friction) {
+        ImpactFriction friction(cluster, settings.complete ? ImpactFriction::Precision::last_digits : ImpactFriction::Precision::step);
+        // At a step, what friction makes approach again is left to the solver of resting contact.
+        if (settings.complete) add_friction(cluster, settings, friction);
+        else friction.apply(cluster);
+        friction.store(cluster, contacts);
+    }
+    cluster.store(contacts, bodies);
+    return passes;
+}
+
+void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies, double threshold) {
+    Island bounced;
+    for (const std::uint32_t k : island.contacts) {
+        const Contact& c = contacts[k];
+        // A blow that goes through a contact at rest may leave it parting by rounding: that is no bounce.
+        if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * threshold && c.restitution > 0.0)) continue;
+        if (bodies[c.a].flew || bodies[c.b].flew) continue;
+        bounced.contacts.push_back(k);
+        for (const std::uint32_t i : {c.a, c.b})
+            if (bodies[i].dynamic()) bounced.bodies.push_back(i);
+    }
+    if (bounced.contacts.empty()) return;
+    std::sort(bounced.bodies.begin(), bounced.bodies.end());
+    bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());
+    const ContactCluster cluster(bounced, contacts, bodies);
+    std::vector<Projection::Demand> demands;
+    std::vector<VelocityRow> rows = cluster.rows();
+    std::vector<double> sign(cluster.size(), 1.0);
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const double length = cluster.length(i), faster = cluster.speed(i) - cluster.contact(i).bounce_velocity;
+        if (faster > cluster.rounding()) {   // from a ceiling
+            sign[i] = -1.0;
+            rows[i].on_a = -rows[i].on_a;
+            rows[i].on_b = -rows[i].on_b;
+        }
+        demands.push_back({std::uint32_t(i), sign[i] * faster / length, cluster.rounding() / length});
+    }
+    std::vector<double> lambda;
+    Projection(rows, cluster.bodies()).solve(demands, lambda);
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        const Contact& c = cluster.contact(i);
+        if (lambda[i] > 0.0) add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
+    }
+    for (const std::uint32_t i : bounced.bodies) bodies[i].derive_velocities();
+}
+
+}  // namespace tumble

@@ -1,0 +1,54 @@
+#include "sim/snapshot/measurement.h"
+
+#include "sim/geometry/compound.h"
+#include "sim/geometry/contact_tolerance.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+
+Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity, const Vec3& origin) {
+    Measurement m;
+    for (const Body& body : bodies) {
+        if (!body.dynamic()) continue;
+        m.kinetic += body.kinetic_energy();
+        const Vec3 place = origin + body.position;
+        m.potential -= body.mass * gravity.dot(place);
+        m.momentum += body.momentum;
+        m.angular_momentum += place.cross(body.momentum) + body.angular_momentum;
+    }
+    return m;
+}
+
+void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m) {
+    for (const Manifold& manifold : manifolds) {
+        const double touch = touch_distance(bodies[manifold.a].radius, bodies[manifold.b].radius);
+        for (int i = 0; i < manifold.count; ++i) {
+            const double separation = manifold.points[std::size_t(i)].separation;
+            m.contacts += separation <= touch;
+            m.max_penetration = std::max(m.max_penetration, -separation);
+        }
+    }
+}
+
+BodyReport describe(const Body& body) {
+    BodyReport r;
+    r.mass = body.dynamic() ? body.mass : std::numeric_limits<double>::infinity();
+    if (body.dynamic()) r.principal_inertia = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia_body).eigenvalues();
+    r.center_of_mass = body.center_of_mass;
+    if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider))
+        r.hull_vertices = (*hull)->vertices.size();
+    if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.collider))
+        r.triangles = (*surface)->triangles.size();
+    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&body.collider)) {
+        for (const Compound::Part& part : (*compound)->parts)
+            if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&part.collider))
+                r.hull_vertices += (*hull)->vertices.size();
+    }
+    return r;
+}
+
+}  // namespace tumble

@@ -1,0 +1,21 @@
+// Energy, momenta and contacts of the world as it stands: the rows of the energy table and of `tumble info`.
+#pragma once
+
+#include "sim/dynamics/body.h"
+#include "sim/geometry/manifold.h"
+#include "sim/world.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// Energies and momenta over the dynamic bodies: kinetic 1/2 P.v + 1/2 L.omega, potential -sum m g.x, L about the world's origin;
+/// `origin` (m, world) is where the coordinates of the bodies begin.
+Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity, const Vec3& origin);
+
+/// Adds the touching points and the deepest overlap.
+void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m);
+
+BodyReport describe(const Body& body);
+
+}  // namespace tumble
