@@ -1,6 +1,6 @@
 #include "render/clip.h"
 
-#include "render/drawn_poses.h"
+#include "render/scene/pose_filter.h"
 #include "sim/world.h"
 
 namespace tumble::bench {

@@ -5,7 +5,7 @@
 #include "output/png_writer.h"
 #include "render/clip.h"
 #include "render/picture_error.h"
-#include "render/render_times.h"
+#include "render/passes/pass_timer.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 

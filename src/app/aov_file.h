@@ -7,7 +7,7 @@
 #pragma once
 
 #include "output/npz_archive.h"
-#include "render/aov/aov_maker.h"
+#include "render/aov/aov_renderer.h"
 
 #include <cstddef>
 #include <span>

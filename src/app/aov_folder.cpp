@@ -2,7 +2,7 @@
 
 #include "app/frame_folder.h"
 #include "output/table_writer.h"
-#include "render/aov/surface_part.h"
+#include "render/aov/shape_instance.h"
 
 #include <fmt/format.h>
 

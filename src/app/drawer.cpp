@@ -3,7 +3,7 @@
 #include "app/frame_order.h"
 #include "core/error.h"
 #include "core/start_thread.h"
-#include "render/compilation_turns.h"
+#include "render/gl/shader_compile_schedule.h"
 
 #include <sys/mman.h>
 

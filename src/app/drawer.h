@@ -10,7 +10,7 @@
 #include "app/draw_worker.h"
 #include "app/exposure.h"
 #include "app/stage_time.h"
-#include "render/drawn_poses.h"
+#include "render/scene/pose_filter.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 

@@ -1,7 +1,7 @@
 // Motion blur: a frame as the mean, in linear light, of pictures at several moments while the shutter is open.
 #pragma once
 
-#include "render/aov/aov_maker.h"
+#include "render/aov/aov_renderer.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "output/video_format.h"
-#include "render/aov/aov_maker.h"
+#include "render/aov/aov_renderer.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 

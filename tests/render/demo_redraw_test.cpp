@@ -1,5 +1,5 @@
 // The demo scenes, drawn partly and wholly: the same bytes.
-#include "render/drawn_poses.h"
+#include "render/scene/pose_filter.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "sim/world.h"

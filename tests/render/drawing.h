@@ -4,7 +4,7 @@
 #include "../support/folder.h"
 
 #include "core/image.h"
-#include "render/camera_view.h"
+#include "render/camera/camera.h"
 #include "render/renderer.h"
 
 #include <filesystem>

@@ -2,9 +2,9 @@
 #include "drawing.h"
 #include "example_scenes.h"
 
-#include "render/edge_blender.h"
-#include "render/screen_hull.h"
-#include "render/surface_ids.h"
+#include "render/antialiasing/analytic_aa.h"
+#include "render/camera/convex_hull_2d.h"
+#include "render/antialiasing/surface_ids.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include "example_scenes.h"
 #include "random.h"
 
-#include "render/mesh_detail.h"
-#include "render/occlusion_atlas.h"
-#include "render/occlusion_places.h"
-#include "render/surface_distance.h"
+#include "render/mesh/mesh_lod.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/ambient_occlusion/atlas_layout.h"
+#include "render/mesh/triangle_distance.h"
 
 #include <gtest/gtest.h>
 

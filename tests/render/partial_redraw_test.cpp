@@ -3,8 +3,8 @@
 #include "example_scenes.h"
 #include "random.h"
 
-#include "render/drawn_poses.h"
-#include "render/tile_marks.h"
+#include "render/scene/pose_filter.h"
+#include "render/damage/dirty_tiles.h"
 
 #include <gtest/gtest.h>
 

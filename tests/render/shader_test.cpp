@@ -3,7 +3,7 @@
 #include "example_scenes.h"
 
 #include "core/error.h"
-#include "render/shader_source.h"
+#include "render/gl/shader_source.h"
 
 #include <gtest/gtest.h>
 

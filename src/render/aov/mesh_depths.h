@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/vector.h"
-#include "render/aov/surface_map.h"
+#include "render/aov/visibility_buffer.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/vector.h"
-#include "render/camera_view.h"
+#include "render/camera/camera.h"
 
 namespace tumble {
 

@@ -2,7 +2,7 @@
 // may move as well. The frames in between, and what may hide the point then, do not matter.
 #pragma once
 
-#include "render/aov/surface_map.h"
+#include "render/aov/visibility_buffer.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // The outward normal of what a pixel shows; of an open mesh seen from inside, that towards the eye.
 #pragma once
 
-#include "render/aov/surface_map.h"
+#include "render/aov/visibility_buffer.h"
 
 namespace tumble {
 

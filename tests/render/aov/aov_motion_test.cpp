@@ -1,7 +1,7 @@
 // Motion against points that are carried along and projected by hand; and which frames are told to be the same.
 #include "world_rays.h"
 
-#include "render/camera_path.h"
+#include "render/camera/camera_animation.h"
 
 #include <gtest/gtest.h>
 

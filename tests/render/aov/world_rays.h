@@ -4,7 +4,7 @@
 
 #include "example_scenes.h"
 
-#include "render/aov/aov_maker.h"
+#include "render/aov/aov_renderer.h"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,148 @@
+#include "render/ambient_occlusion/body_occlusion.h"
+
+#include "render/lightmap/occlusion_lightmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr int coarse_ball_tile = 4;   // texels across
+
+// A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
+void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
+    result.resize(std::size_t(to) * std::size_t(to));
+    const float step = to > 1 ? float(from - 1) / float(to - 1) : 0.0f;
+    const auto at = [&](int i, int j) { return values[std::size_t(j * from + i)]; };
+    for (int j = 0, k = 0; j < to; ++j)
+        for (int i = 0; i < to; ++i, ++k) {
+            const float s = float(i) * step, t = float(j) * step;
+            const int a = std::min(int(s), from - 2), b = std::min(int(t), from - 2);
+            const float u = s - float(a), v = t - float(b);
+            result[std::size_t(k)] = (at(a, b) * (1.0f - u) + at(a + 1, b) * u) * (1.0f - v) +
+                                     (at(a, b + 1) * (1.0f - u) + at(a + 1, b + 1) * u) * v;
+        }
+}
+
+}  // namespace
+
+void BodyDarkening::darken_points(const Surroundings& around, double reach) {
+    for (const std::size_t i : around.near) darken(points_, around.occluders[i], float(reach));
+    for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
+}
+
+// As face_.darken() does, but only the texels that it can reach are looked at: of a ground they are few.
+void BodyDarkening::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
+    const Eigen::Vector3f from = occluder.center - corner;
+    const float far = occluder.bound_radius + std::min(reach, occluder.reach);
+    const auto range = [&](const Eigen::Vector3f& step, int& first, int& count) {
+        const float length = step.norm(), at = from.dot(step) / length;   // m
+        first = int(std::floor(std::clamp((at - far) / length, 0.0f, float(size))));
+        count = int(std::ceil(std::clamp((at + far) / length, -1.0f, float(size - 1)))) - first + 1;
+    };
+    int i0, j0, columns, rows;
+    range(across, i0, columns);
+    range(along, j0, rows);
+    if (columns <= 0 || rows <= 0) return;
+    part_.set(corner + across * float(i0) + along * float(j0), across, along, normal, columns, rows);
+    part_.darken(occluder, reach);
+    const float* share = part_.open().data();
+    for (int j = j0; j < j0 + rows; ++j)
+        for (int i = i0; i < i0 + columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
+}
+
+std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                                     const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
+    const int size = place.size;
+    // What stands on a ground darkens it as far as a plane, however thin it is.
+    const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
+    std::uint8_t faces = 0;
+    for (int face = 0; face < 6; ++face) {
+        if ((wanted >> face & 1) == 0) continue;
+        const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * body.axes.col(axis);
+        const Vec3 middle = body.center + normal * look.half_size[axis];
+        const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
+        const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
+        const Eigen::Vector3f corner = (middle - u - v).cast<float>();
+        const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(), along = (2.0 * v / (size - 1)).cast<float>();
+        face_.set(corner, across, along, outward, size, size);
+        if (detail > 0.0f) {
+            for (const std::size_t i : around.near) {
+                if (look.ground) darken_part(around.occluders[i], corner, across, along, outward, size, reach);
+                else face_.darken(around.occluders[i], reach);
+            }
+            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, own);
+        }
+        if (detail < 1.0f) {
+            float open = 1.0f;
+            for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
+            for (const PlaneInView& plane : around.planes)
+                open *= share_left(at, outward, plane.normal, plane.height, own);
+            for (float& value : face_.open()) value = open + (value - open) * detail;
+        }
+        if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);
+    }
+    return faces;
+}
+
+bool BodyDarkening::make_ball(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                              const Surroundings& around, float detail, const Store& store) {
+    const Eigen::Matrix3f axes = body.axes.cast<float>();
+    const Eigen::Vector3f center = body.center.cast<float>();
+    const auto make = [&](int size) {
+        points_.clear();
+        for (int j = 0; j < size; ++j)
+            for (int i = 0; i < size; ++i) {
+                const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
+                const Eigen::Vector3f normal = axes * octahedral(s, t);
+                points_.add(center + normal * float(look.half_size.x()), normal);
+            }
+        darken_points(around, look.reach);
+    };
+    if (detail < 1.0f) {
+        make(coarse_ball_tile);
+        stretch(points_.open, coarse_ball_tile, place.size, stretched_);
+    }
+    if (detail > 0.0f) make(place.size);
+    else points_.open = stretched_;
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < stretched_.size(); ++i)
+            points_.open[i] = stretched_[i] + (points_.open[i] - stretched_[i]) * detail;
+    return store(place.x, place.y, place.size, place.size, points_.open.data());
+}
+
+// A run of texels, row after row over the atlas' whole width.
+bool BodyDarkening::make_mesh(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+                              const Surroundings& around, float detail, const Store& store) {
+    const MeshLook& mesh = looks_->meshes[look.mesh];
+    const auto make = [&](const auto& probes) {
+        points_.clear();
+        for (const MeshProbe& probe : probes)
+            points_.add((body.origin + body.axes * probe.position).cast<float>(), (body.axes * probe.normal).cast<float>());
+        darken_points(around, look.reach);
+    };
+    if (detail < 1.0f) {
+        make(mesh.coarse_probes);
+        coarse_ = points_.open;
+    }
+    if (detail > 0.0f) make(mesh.probes);
+    else points_.open.assign(mesh.probes.size(), 1.0f);
+    if (detail < 1.0f)
+        for (std::size_t i = 0; i < points_.open.size(); ++i) {
+            const float open = coarse_[mesh.coarse_of_probe[i]];
+            points_.open[i] = open + (points_.open[i] - open) * detail;
+        }
+    constexpr int width = OcclusionAtlas::width;
+    const int count = int(points_.open.size()), whole = count / width;
+    bool changed = whole > 0 && store(place.x, place.y, width, whole, points_.open.data());
+    if (count > whole * width &&
+        store(place.x, place.y + whole, count - whole * width, 1, &points_.open[std::size_t(whole * width)]))
+        changed = true;
+    return changed;
+}
+
+}  // namespace tumble

@@ -1,0 +1,116 @@
+#include "render/ambient_occlusion/occluder_boxes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr int cells_along_longest = 12;
+constexpr std::size_t most_boxes = 16;  // each costs every pixel near the body a distance
+
+using Cell = std::array<int, 3>;
+
+// The lattice of cells, and which of them are inside.
+class Lattice {
+public:
+    explicit Lattice(const TriangleMesh& mesh) : bounds_(mesh.bounds()) {
+        const Vec3 extent = bounds_.extent();
+        const double wanted = extent.maxCoeff() / cells_along_longest;
+        for (int k = 0; k < 3; ++k) counts_[std::size_t(k)] = std::max(1, int(std::ceil(extent[k] / wanted - 1e-9)));
+        size_ = extent.cwiseQuotient(Vec3(counts_[0], counts_[1], counts_[2]));
+        inside_.assign(std::size_t(counts_[0]) * std::size_t(counts_[1]) * std::size_t(counts_[2]), false);
+        for (int y = 0; y < counts_[1]; ++y)
+            for (int z = 0; z < counts_[2]; ++z) fill_row(mesh, y, z);
+    }
+
+    const Cell& counts() const { return counts_; }
+    bool inside(const Cell& c) const { return inside_[index(c)]; }
+    void clear(const Cell& c) { inside_[index(c)] = false; }
+
+    OccluderBox box(const Cell& low, const Cell& high) const {  // high: one past the last cell
+        const Vec3 a(low[0], low[1], low[2]), b(high[0], high[1], high[2]);
+        return {bounds_.min + (0.5 * (a + b)).cwiseProduct(size_), (0.5 * (b - a)).cwiseProduct(size_)};
+    }
+
+private:
+    std::size_t index(const Cell& c) const {
+        return (std::size_t(c[2]) * std::size_t(counts_[1]) + std::size_t(c[1])) * std::size_t(counts_[0]) +
+               std::size_t(c[0]);
+    }
+
+    // Where the line along x through the cells' centres enters and leaves the mesh: inside after an odd number.
+    void fill_row(const TriangleMesh& mesh, int y, int z) {
+        // Slightly off the centres, by a fraction that no lattice of vertices shares: the line meets no edge.
+        const double line_y = bounds_.min.y() + (y + 0.5000317) * size_.y();
+        const double line_z = bounds_.min.z() + (z + 0.5000731) * size_.z();
+        std::vector<double> crossings;
+        for (const auto& triangle : mesh.triangles) {
+            const Vec3 &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]],
+                       &c = mesh.vertices[triangle[2]];
+            const auto side = [&](const Vec3& p, const Vec3& q) {
+                return (q.y() - p.y()) * (line_z - p.z()) - (q.z() - p.z()) * (line_y - p.y());
+            };
+            const double u = side(b, c), v = side(c, a), w = side(a, b);
+            if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) continue;
+            const double sum = u + v + w;
+            if (sum != 0.0) crossings.push_back((u * a.x() + v * b.x() + w * c.x()) / sum);
+        }
+        std::sort(crossings.begin(), crossings.end());
+        for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+            for (int x = 0; x < counts_[0]; ++x) {
+                const double center = bounds_.min.x() + (x + 0.5) * size_.x();
+                if (crossings[i] < center && center < crossings[i + 1]) inside_[index({x, y, z})] = true;
+            }
+    }
+
+    Bounds bounds_;
+    Cell counts_{};
+    Vec3 size_;
+    std::vector<bool> inside_;
+};
+
+// Grows from a full cell as far as all cells stay full: along x, then y, then z.
+OccluderBox take_box(Lattice& lattice, const Cell& first) {
+    Cell high = {first[0] + 1, first[1] + 1, first[2] + 1};
+    const auto full = [&](const Cell& from, const Cell& to) {
+        for (int z = from[2]; z < to[2]; ++z)
+            for (int y = from[1]; y < to[1]; ++y)
+                for (int x = from[0]; x < to[0]; ++x)
+                    if (!lattice.inside({x, y, z})) return false;
+        return true;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        while (high[axis] < lattice.counts()[axis]) {
+            Cell from = first, to = high;
+            from[axis] = high[axis];
+            to[axis] = high[axis] + 1;
+            if (!full(from, to)) break;
+            ++high[axis];
+        }
+    for (int z = first[2]; z < high[2]; ++z)
+        for (int y = first[1]; y < high[1]; ++y)
+            for (int x = first[0]; x < high[0]; ++x) lattice.clear({x, y, z});
+    return lattice.box(first, high);
+}
+
+}  // namespace
+
+std::vector<OccluderBox> make_mesh_occluders(const TriangleMesh& mesh) {
+    std::vector<OccluderBox> boxes;
+    if (mesh.triangles.empty() || !closedness(mesh).closed() || !(mesh.bounds().extent().minCoeff() > 0.0))
+        return boxes;
+    Lattice lattice(mesh);
+    for (int z = 0; z < lattice.counts()[2]; ++z)
+        for (int y = 0; y < lattice.counts()[1]; ++y)
+            for (int x = 0; x < lattice.counts()[0]; ++x)
+                if (lattice.inside({x, y, z})) boxes.push_back(take_box(lattice, {x, y, z}));
+    std::stable_sort(boxes.begin(), boxes.end(), [](const OccluderBox& a, const OccluderBox& b) {
+        return a.half_size.prod() > b.half_size.prod();
+    });
+    if (boxes.size() > most_boxes) boxes.resize(most_boxes);
+    return boxes;
+}
+
+}  // namespace tumble

@@ -1,0 +1,309 @@
+#include "render/ambient_occlusion/occlusion_atlas.h"
+
+#include "render/ambient_occlusion/body_occlusion.h"
+#include "render/ambient_occlusion/lightmap_occlusion.h"
+#include "render/ambient_occlusion/atlas_layout.h"
+#include "render/ambient_occlusion/plane_occlusion.h"
+#include "render/scene/plane_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tumble {
+namespace {
+
+// Pixels across the picture of a body's longest edge, or of the ball around a mesh: below the first its darkening is
+// coarse, above the second fine.
+struct Sizes {
+    double few, all;
+};
+constexpr Sizes box_sizes{4.0, 8.0}, ball_sizes{6.0, 12.0}, mesh_sizes{24.0, 48.0};
+
+// Where more than this part of the bodies moved, all are looked at again: searching who is near one of them gains nothing.
+constexpr double most_moved = 0.25;
+
+int level(float open) { return int(255.0f * open + 0.5f); }
+
+// Texels to a side of the parts in which changes of a ground's face are told.
+constexpr int ground_part = 8;
+
+}  // namespace
+
+double darkening_detail(double pixels, double few, double all) {
+    const double t = std::clamp((pixels - few) / (all - few), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+struct OcclusionMaker::State {
+    struct Pose {
+        Vec3 origin;
+        Quat orientation;
+    };
+    // What a body's texels were made from, beside the bodies around it.
+    struct Made {
+        std::uint8_t faces = 0;   // up to date; 1 for what has no faces
+        float detail = 0.0f;
+    };
+
+    State(const SceneLooks& l, const Vec3& r) : looks(l), reference(r), made(l.bodies.size()) {
+        lay_out_places(looks, atlas);
+        body_rows = atlas.height;
+        atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
+        fine.resize(looks.fine_surfaces.empty() ? 0 : looks.bodies.size());
+    }
+
+    void follow(const Snapshot& snapshot);
+    void find_planes(const Snapshot& snapshot, const CameraView& view);
+    void forget_touched(const Visibility& visibility, const OccluderFinder& movers);
+    void update_windows(const Snapshot& snapshot);
+    void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
+    void update_fine(std::size_t body, const OccluderFinder& movers);
+    bool store(int x, int y, int width, int height, int stride, const float* open);
+    void store_ground(std::size_t body, int x, int y, int size, const float* open);
+    Vec3 center_of(std::size_t body) const {   // of the ball around it
+        return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
+    }
+
+    const SceneLooks& looks;
+    const Vec3 reference;
+    OcclusionAtlas atlas;
+    int body_rows = 1;                       // of the atlas; the windows come below
+    OcclusionChanges changes;
+    std::vector<Pose> poses;                 // of the last update
+    std::vector<Occluder> occluders, moved;  // of all bodies; those that moved, as they were and as they are
+    std::vector<std::uint32_t> first;        // occluder of each body, and the end
+    OccluderFinder finder{{}};
+    bool anew = true;                        // everything is to be worked out
+    bool moved_much = false;
+    std::vector<Made> made;
+    std::vector<PlaneInView> planes, near_planes;
+    PlaneDarkening plane_darkening;
+    BodyDarkening body_darkening{looks};
+    std::vector<std::size_t> found;          // what may darken the body at hand
+    std::vector<std::optional<FineDarkening>> fine;   // of fine surfaces, when first seen
+};
+
+// Takes in the new poses: the occluders, and which of them moved.
+void OcclusionMaker::State::follow(const Snapshot& snapshot) {
+    const std::size_t bodies = looks.bodies.size();
+    moved.clear();
+    moved_much = false;
+    if (poses.empty()) {
+        for (std::size_t i = 0; i < bodies; ++i) {
+            const BodyState& state = snapshot.bodies[i];
+            poses.push_back({state.origin, state.orientation});
+            first.push_back(std::uint32_t(occluders.size()));
+            add_occluders(looks, i, state, reference, occluders);
+        }
+        first.push_back(std::uint32_t(occluders.size()));
+        finder = OccluderFinder(occluders);
+        return;
+    }
+    const auto has_moved = [&](std::size_t i) {
+        const BodyState& state = snapshot.bodies[i];
+        return poses[i].origin != state.origin || poses[i].orientation.coeffs() != state.orientation.coeffs();
+    };
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < bodies; ++i) count += has_moved(i) ? 1 : 0;
+    if (count == 0) return;
+    moved_much = double(count) > most_moved * double(bodies);
+    std::vector<Occluder> now;
+    for (std::size_t i = 0; i < bodies; ++i) {
+        if (!has_moved(i)) continue;
+        const BodyState& state = snapshot.bodies[i];
+        poses[i] = {state.origin, state.orientation};
+        made[i].faces = 0;
+        now.clear();
+        add_occluders(looks, i, state, reference, now);
+        const auto place = occluders.begin() + first[i];
+        if (!moved_much) {
+            moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
+            moved.insert(moved.end(), now.begin(), now.end());
+        }
+        std::copy(now.begin(), now.end(), place);
+    }
+    finder = OccluderFinder(occluders);
+}
+
+void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraView& view) {
+    std::vector<PlaneInView> now;
+    for (const std::size_t i : looks.planes) {
+        const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
+        if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
+            now.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
+    }
+    if (now != planes) anew = true;
+    planes = std::move(now);
+}
+
+// Those that something has moved near to or away from.
+void OcclusionMaker::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
+    if (anew || moved_much) {
+        for (Made& body : made) body.faces = 0;
+        return;
+    }
+    if (moved.empty()) return;
+    for (std::size_t i = 0; i < made.size(); ++i)   // what is out of sight waits until it is seen
+        if (made[i].faces != 0 &&
+            (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 && movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
+            made[i].faces = 0;
+}
+
+void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
+    AtlasShelves shelves(body_rows, OcclusionAtlas::most_rows);
+    std::vector<OcclusionWindow> windows;
+    for (const PlaneInView& plane : planes) {
+        const auto known = std::find_if(atlas.windows.begin(), atlas.windows.end(),
+                                        [&](const OcclusionWindow& w) { return w.body == plane.body; });
+        OcclusionWindow window;
+        const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
+            const int needed = y + height;
+            if (needed > atlas.height) {
+                atlas.height = needed;
+                atlas.texels.resize(std::size_t(needed) * OcclusionAtlas::width, 255);
+            }
+            store(x, y, width, height, stride, open);
+        };
+        if (plane_darkening.update(plane, looks, snapshot, reference, occluders, moved, anew || moved_much,
+                                   known == atlas.windows.end() ? nullptr : &*known, shelves, window, keep))
+            windows.push_back(window);
+    }
+    changes.windows_moved = windows != atlas.windows;
+    atlas.windows = std::move(windows);
+}
+
+// `stride`: of the shares' rows.
+bool OcclusionMaker::State::store(int x, int y, int width, int height, int stride, const float* open) {
+    bool any = false;
+    for (int row = y; row < y + height; ++row, open += stride) {
+        std::uint8_t* to = &atlas.texels[std::size_t(row) * OcclusionAtlas::width + std::size_t(x)];
+        int changed = 0;
+        for (int i = 0; i < width; ++i) {
+            const int value = level(open[i]);
+            changed |= to[i] ^ value;
+            to[i] = std::uint8_t(value);
+        }
+        if (changed == 0) continue;
+        any = true;
+        changes.first_row = std::min(changes.first_row, row);
+        changes.end_row = std::max(changes.end_row, row + 1);
+    }
+    return any;
+}
+
+// A face of a box, part by part.
+void OcclusionMaker::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
+    const int face = (x - atlas.places[body].x) / size;
+    const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
+    for (int j = 0; j < size; j += ground_part)
+        for (int i = 0; i < size; i += ground_part) {
+            int i0 = size, i1 = -1, j0 = size, j1 = -1;   // of those that change
+            for (int b = j; b < std::min(j + ground_part, size); ++b)
+                for (int a = i; a < std::min(i + ground_part, size); ++a)
+                    if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] != level(open[b * size + a])) {
+                        i0 = std::min(i0, a);
+                        i1 = std::max(i1, a);
+                        j0 = std::min(j0, b);
+                        j1 = std::max(j1, b);
+                    }
+            if (i0 > i1) continue;
+            store(x + i0, y + j0, i1 - i0 + 1, j1 - j0 + 1, size, open + j0 * size + i0);
+            // between texels: what lies nearer than one to a changed one, and a tenth for rounding
+            changes.parts.push_back({body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
+        }
+}
+
+void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, const CameraView& view) {
+    const BodyLook& look = looks.bodies[body];
+    const Sizes& sizes = look.kind == DrawKind::box ? box_sizes : look.kind == DrawKind::ball ? ball_sizes : mesh_sizes;
+    const Vec3 middle = center_of(body);
+    const double size = 2.0 * (look.kind == DrawKind::mesh ? look.bound_radius : look.half_size.maxCoeff());
+    const double pixels = size / (std::max((middle + reference - view.eye()).norm(), 1e-30) * view.pixel_size());
+    const float detail = looks.bodies.size() < crowd ? 1.0f : float(darkening_detail(pixels, sizes.few, sizes.all));
+    Made& known = made[body];
+    if (known.detail != detail) known = {0, detail};
+    const std::uint8_t wanted = look.kind == DrawKind::box ? visible : std::uint8_t(1);
+    const auto missing = std::uint8_t(wanted & ~known.faces);
+    if (missing == 0) return;
+    known.faces |= missing;
+
+    const Eigen::Vector3f center = middle.cast<float>();
+    finder.find(center, float(look.bound_radius), found);
+    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // not by itself
+    near_planes.clear();
+    for (const PlaneInView& plane : planes)
+        if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes.push_back(plane);
+    const BodyPlace place{poses[body].origin - reference, middle, poses[body].orientation.toRotationMatrix()};
+    const Surroundings around{occluders, found, near_planes};
+    const auto keep = [&](int x, int y, int width, int height, const float* open) {
+        return store(x, y, width, height, width, open);
+    };
+    const auto keep_ground = [&](int x, int y, int width, int, const float* open) {
+        store_ground(body, x, y, width, open);
+        return false;   // it is in the changes already
+    };
+    std::uint8_t faces = 0;
+    bool changed = false;
+    switch (look.kind) {
+        case DrawKind::box:
+            faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
+                                            look.ground ? BodyDarkening::Store(keep_ground) : BodyDarkening::Store(keep));
+            changed = faces != 0;
+            break;
+        case DrawKind::ball:
+            changed = body_darkening.make_ball(look, atlas.places[body], place, around, detail, keep);
+            break;
+        default:
+            changed = body_darkening.make_mesh(look, atlas.places[body], place, around, detail, keep);
+    }
+    if (changed) changes.bodies.push_back({body, faces});
+}
+
+// Only what moved, or all where much did, has been said so by forget_touched().
+void OcclusionMaker::State::update_fine(std::size_t body, const OccluderFinder& movers) {
+    const BodyLook& look = looks.bodies[body];
+    Made& known = made[body];
+    if (known.faces != 0 && moved.empty()) return;
+    std::optional<FineDarkening>& darkening = fine[body];
+    const bool all = known.faces == 0;
+    if (!darkening || all) {
+        const FineBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)], poses[body].origin - reference,
+                             poses[body].orientation.toRotationMatrix(), look.reach};
+        if (!darkening) darkening.emplace();
+        darkening->place(place);
+    }
+    known.faces = 1;
+    const OcclusionPlace& at = atlas.places[body];
+    darkening->update(occluders, finder, all ? nullptr : &movers, planes, [&](const FineSurface::Block& block, const float* open) {
+        if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
+            changes.patches.push_back({body, block.bounds});
+    });
+}
+
+OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)
+    : state_(std::make_unique<State>(looks, reference)) {}
+OcclusionMaker::~OcclusionMaker() = default;
+
+const OcclusionAtlas& OcclusionMaker::atlas() const { return state_->atlas; }
+
+const OcclusionChanges& OcclusionMaker::update(const Snapshot& snapshot, const CameraView& view,
+                                               const Visibility& visibility) {
+    State& s = *state_;
+    s.changes = {};
+    s.changes.first_row = OcclusionAtlas::most_rows;
+    s.follow(snapshot);
+    s.find_planes(snapshot, view);
+    const OccluderFinder movers(s.moved);
+    s.forget_touched(visibility, movers);
+    s.update_windows(snapshot);
+    for (std::size_t i = 0; i < s.made.size(); ++i) {
+        if (!visibility.bodies[i] || s.atlas.places[i].size == 0) continue;
+        if (s.looks.bodies[i].fine_surface >= 0) s.update_fine(i, movers);
+        else s.update_body(i, visibility.faces[i], view);
+    }
+    s.anew = false;
+    return s.changes;
+}
+
+}  // namespace tumble

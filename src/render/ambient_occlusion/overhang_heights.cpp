@@ -1,0 +1,108 @@
+#include "render/ambient_occlusion/overhang_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::infinity();
+
+// The texels from low to high that are in 0 .. count - 1.
+std::pair<int, int> texels(double low, double high, int count) {
+    return {int(std::clamp(std::ceil(low), 0.0, double(count))), int(std::clamp(std::floor(high), -1.0, double(count - 1)))};
+}
+
+}  // namespace
+
+Vec3 PlaneRoof::on_frame(const Vec3& point) const {
+    const Vec3 from = point - frame_.corner;
+    return {frame_.u.dot(from) / frame_.cell, frame_.v.dot(from) / frame_.cell, frame_.normal.dot(from)};
+}
+
+// What the plane cuts off is below it.
+void PlaneRoof::lower(int i, int j, double height) {
+    if (!(height >= 0.0)) return;
+    if (height_.empty()) height_.assign(std::size_t(frame_.width) * std::size_t(frame_.height), none);
+    float& known = height_[std::size_t(j) * std::size_t(frame_.width) + std::size_t(i)];
+    known = std::min(known, float(height));
+}
+
+void PlaneRoof::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 p = on_frame(a), pq = on_frame(b) - p, pr = on_frame(c) - p;
+    const double area = pq.x() * pr.y() - pq.y() * pr.x();
+    if (area == 0.0) return;   // upright
+    const auto [i0, i1] = texels(p.x() + std::min({0.0, pq.x(), pr.x()}), p.x() + std::max({0.0, pq.x(), pr.x()}), frame_.width);
+    const auto [j0, j1] = texels(p.y() + std::min({0.0, pq.y(), pr.y()}), p.y() + std::max({0.0, pq.y(), pr.y()}), frame_.height);
+    constexpr double edge = 1e-9;   // of the triangle: what lies on an edge belongs to both
+    for (int j = j0; j <= j1; ++j)
+        for (int i = i0; i <= i1; ++i) {
+            const double x = i - p.x(), y = j - p.y();
+            const double s = (x * pr.y() - y * pr.x()) / area, t = (pq.x() * y - pq.y() * x) / area;
+            if (s >= -edge && t >= -edge && s + t <= 1.0 + edge) lower(i, j, p.z() + s * pq.z() + t * pr.z());
+        }
+}
+
+void PlaneRoof::add_ball(const Vec3& center, double radius) {
+    const Vec3 c = on_frame(center);
+    const double reach = radius / frame_.cell;
+    const auto [i0, i1] = texels(c.x() - reach, c.x() + reach, frame_.width);
+    const auto [j0, j1] = texels(c.y() - reach, c.y() + reach, frame_.height);
+    for (int j = j0; j <= j1; ++j)
+        for (int i = i0; i <= i1; ++i) {
+            const double x = (i - c.x()) * frame_.cell, y = (j - c.y()) * frame_.cell;
+            const double half_chord = std::sqrt(std::max(radius * radius - x * x - y * y, 0.0));
+            lower(i, j, c.z() - half_chord);
+            lower(i, j, c.z() + half_chord);
+        }
+}
+
+void PlaneRoof::update(const PlaneFrame& frame, const SceneLooks& looks, const Snapshot& snapshot) {
+    if (frame == frame_) return;
+    frame_ = frame;
+    height_.clear();
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (!look.fixed) continue;
+        const BodyState& state = snapshot.bodies[i];
+        const auto in_world = [&](const Vec3& point) { return Vec3(state.origin + state.orientation * point); };
+        if (look.kind == DrawKind::ball) add_ball(state.origin, look.half_size.x());
+        if (look.kind == DrawKind::mesh) {
+            const TriangleMesh& mesh = looks.meshes[look.mesh].asset->surface;
+            for (const auto& t : mesh.triangles)
+                add_triangle(in_world(mesh.vertices[t[0]]), in_world(mesh.vertices[t[1]]), in_world(mesh.vertices[t[2]]));
+        }
+        if (look.kind != DrawKind::box) continue;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0}) {
+                Vec3 middle = Vec3::Zero(), across = Vec3::Zero(), along = Vec3::Zero();
+                middle[axis] = side * look.half_size[axis];
+                across[(axis + 1) % 3] = look.half_size[(axis + 1) % 3];
+                along[(axis + 2) % 3] = look.half_size[(axis + 2) % 3];
+                const Vec3 corners[4] = {in_world(middle - across - along), in_world(middle + across - along),
+                                         in_world(middle + across + along), in_world(middle - across + along)};
+                add_triangle(corners[0], corners[1], corners[2]);
+                add_triangle(corners[0], corners[2], corners[3]);
+            }
+    }
+}
+
+float PlaneRoof::open_share(double a, double b, double radius, double height) const {
+    if (height_.empty()) return 1.0f;
+    const double reach = std::max(radius / frame_.cell, 1.0);
+    const auto [i0, i1] = texels(a - reach, a + reach, frame_.width);
+    const auto [j0, j1] = texels(b - reach, b + reach, frame_.height);
+    double open = 0.0, all = 0.0;
+    for (int j = j0; j <= j1; ++j)
+        for (int i = i0; i <= i1; ++i) {
+            // Less towards the rim, so that nothing jumps as the disc moves over the texels.
+            const double weight = 1.0 - ((i - a) * (i - a) + (j - b) * (j - b)) / (reach * reach);
+            if (!(weight > 0.0)) continue;
+            all += weight;
+            if (double(height_[std::size_t(j) * std::size_t(frame_.width) + std::size_t(i)]) >= height) open += weight;
+        }
+    return all > 0.0 ? float(open / all) : 1.0f;
+}
+
+}  // namespace tumble

@@ -1,0 +1,33 @@
+// Room for rectangles in the occlusion atlas, row by row.
+#pragma once
+
+#include "render/ambient_occlusion/occlusion_atlas.h"
+
+namespace tumble {
+
+/// A rectangle goes to the right of the last one where it fits under the same roof, else on a new shelf.
+class AtlasShelves {
+public:
+    AtlasShelves(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}
+
+    /// False where there is no room.
+    bool take(int width, int height, int& x, int& y) {
+        if (width > OcclusionAtlas::width) return false;
+        if (x_ + width > OcclusionAtlas::width || height > height_) {
+            if (row_ + height_ + height > most_rows_) return false;
+            row_ += height_;
+            x_ = 0;
+            height_ = height;
+        }
+        x = x_;
+        y = row_;
+        x_ += width;
+        return true;
+    }
+    int end() const { return row_ + height_; }
+
+private:
+    int row_, most_rows_, x_ = 0, height_ = 0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,161 @@
+#include "render/antialiasing/analytic_aa.h"
+
+#include "render/antialiasing/surface_ids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tumble {
+namespace {
+
+// The integral of clamp(x, 0, 1), without branches, which no processor could foresee.
+double ramp_area(double x) {
+    const double c = std::min(std::max(x, 0.0), 1.0);
+    return 0.5 * c * c + std::max(x - 1.0, 0.0);
+}
+
+// Below this a strip is too narrow for its slope to matter.
+constexpr double least_half = 1e-6;
+
+// share_before(), given 1 / (2 half), or 0 where that is too narrow. A call for each pixel of an edge would be a tenth of all.
+[[gnu::always_inline]] inline double share_of(double t, double half, double inverse) {
+    if (inverse == 0.0) return std::clamp(t, 0.0, 1.0);
+    return (ramp_area(t + half) - ramp_area(t - half)) * inverse;
+}
+
+double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
+
+// A surface that shows so far beyond its own edge, or something else so far within it, hides that edge (a ring's near side
+// the far rim): more than a ball's mesh (.15) and the polygon for its outline (.03) are off.
+constexpr double hidden = 0.2;   // pixels
+
+// The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
+int below(double x) { return int(x + 2.0) - 2; }
+
+// An edge in a picture seen along its main direction: m counts along, n across. For edges whose `whole_box` is as said.
+template <bool whole_box>
+class Walk {
+public:
+    Walk(const Image& drawn, const TileMarks& marks, Image& frame) : drawn_(drawn), marks_(marks), frame_(frame) {}
+
+    void blend(ScreenEdge e) {
+        const double dx = e.x1 - e.x0, dy = e.y1 - e.y0;
+        across_ = std::abs(dy) > std::abs(dx);
+        inner_ = e.inner;
+        outer_ = e.outer;
+        face_ = e.face;
+        double m0 = across_ ? e.y0 : e.x0, n0 = across_ ? e.x0 : e.y0;
+        double m1 = across_ ? e.y1 : e.x1, n1 = across_ ? e.x1 : e.y1;
+        side_ = across_ ? -1 : 1;   // of n, where the inner surface is
+        if (m1 < m0) {
+            std::swap(m0, m1);
+            std::swap(n0, n1);
+            side_ = -side_;
+        }
+        if (!(m1 > m0)) return;
+        const std::ptrdiff_t row = std::ptrdiff_t(4) * drawn_.width;
+        count_m_ = across_ ? drawn_.height : drawn_.width;
+        count_n_ = across_ ? drawn_.width : drawn_.height;
+        step_m_ = across_ ? row : 4;
+        step_n_ = across_ ? 4 : row;
+        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope), inverse = inverse_width(steepness);
+        if (!(std::max(m0, 0.0) < count_m_)) return;
+        const int first = below(std::max(m0, 0.0)), last = below(std::min(m1, count_m_ - 0.5));
+        for (int m = first; m <= last; ++m) {
+            const double from = std::max(double(m), m0), to = std::min(m + 1.0, m1), length = to - from;
+            if (length <= 0.0) continue;
+            const double line = n0 + (0.5 * (from + to) - m0) * slope, half = steepness * length;
+            if (!(line + half >= 0.0 && line - half < count_n_)) continue;
+            const Crossing here{line, half, length == 1.0 ? inverse : inverse_width(half), length,
+                                n0 + (m + 0.5 - m0) * slope};
+            const int end = std::min(below(line + half), count_n_ - 1);
+            for (int n = std::max(below(std::max(line - half, 0.0)), 0); n <= end; ++n) pixel(m, n, here);
+        }
+    }
+
+private:
+    // Where the edge crosses a row of pixels that lie across it.
+    struct Crossing {
+        double line, half;      // its height there, and how far it rises and falls around that
+        double inverse;         // inverse_width() of that
+        double length;          // how much of the pixels' width it passes
+        double middle;          // the height of its line, drawn on, in the middle of that width
+    };
+
+    // A share of the pixel's colour comes from the neighbour over the edge, or the one behind it where the edge runs
+    // aslant. An edge that something hides meets other surfaces.
+    void pixel(int m, int n, const Crossing& here) {
+        const auto inside = [this](std::uint8_t id) { return whole_box ? of_same_box(id, inner_, face_) : id == inner_; };
+        const std::ptrdiff_t at = m * step_m_ + n * step_n_;
+        const std::uint8_t* const drawn = drawn_.pixels.data() + at;
+        bool is_inner = inside(drawn[3]);
+        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - here.line) * side_ > 0.0;   // the number does not tell
+        if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
+        const int step = is_inner ? -side_ : side_;
+        const std::uint8_t* from = drawn;
+        if (outer_ == 0 && (n + 0.5 - here.middle) * step > hidden) return;
+        for (int other = n + step;; other += step) {
+            if (other == n + 3 * step || other < 0 || other >= count_n_) return;
+            from += step * step_n_;
+            if (is_inner && outer_ == 0 && inside(from[3]) && (other + 0.5 - here.middle) * step > hidden) return;
+            if (is_inner ? (outer_ == 0 ? !inside(from[3]) : from[3] == outer_) : inside(from[3])) break;
+        }
+        if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
+        const int x = across_ ? n : m, y = across_ ? m : n;
+        if (!marks_.at(int(unsigned(x) / TileMarks::tile), int(unsigned(y) / TileMarks::tile))) return;
+        const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip, where n is greater
+        // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
+        const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
+        const int weight = int(256.0 * share + 0.5);
+        std::uint8_t* const to = frame_.pixels.data() + at;
+        for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
+    }
+
+    // The colour of the edge's own face, where it shows in a pixel beside these two: a narrow one does not everywhere.
+    const std::uint8_t* of_face_beside(int m, int n, int step, const std::uint8_t* otherwise) const {
+        for (const int beside : {m - 1, m + 1, m - 2, m + 2})
+            for (const int at : {n, n + step}) {
+                if (beside < 0 || beside >= count_m_ || at < 0 || at >= count_n_) continue;
+                const std::uint8_t* const pixel = drawn_.pixels.data() + beside * step_m_ + at * step_n_;
+                if (pixel[3] == inner_) return pixel;
+            }
+        return otherwise;
+    }
+
+    const Image& drawn_;
+    const TileMarks& marks_;
+    Image& frame_;
+    bool across_ = false;   // the edge is steep: m is y
+    int side_ = 1, count_m_ = 0, count_n_ = 0;
+    std::ptrdiff_t step_m_ = 0, step_n_ = 0;   // bytes
+    std::uint8_t inner_ = 0, outer_ = 0, face_ = 0;
+};
+
+}  // namespace
+
+double share_before(double t, double half) { return share_of(t, half, inverse_width(half)); }
+
+void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
+    for (const Rectangle& r : rectangles) {
+        const std::size_t bytes = 4 * std::size_t(r.width);   // not read again for each pixel: they might be written over it
+        for (int y = r.y; y < r.y + r.height; ++y) {
+            const std::uint8_t* from = drawn.at(r.x, y);
+            std::uint8_t* to = frame.at(r.x, y);
+            for (std::size_t at = 0; at < bytes; at += 4) {
+                std::uint32_t pixel;
+                std::memcpy(&pixel, from + at, 4);
+                pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all that we run on
+                std::memcpy(to + at, &pixel, 4);
+            }
+        }
+    }
+}
+
+void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const TileMarks& marks, Image& frame) {
+    Walk<false> one_face(drawn, marks, frame);
+    Walk<true> whole_box(drawn, marks, frame);
+    for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);
+}
+
+}  // namespace tumble

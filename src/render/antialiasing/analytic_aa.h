@@ -1,0 +1,26 @@
+// Smooth edges for one sample a pixel. Where an edge is, is known (screen_edges.h), and so is the share of each pixel
+// that lies beyond it; that share of the colour is taken from the neighbour over the edge. After Persson 2011, Geometric
+// Post-process Anti-Aliasing, with exact areas, and with the surfaces' numbers in alpha telling which edges are in sight.
+// Costs a hundredth of four samples, and straight edges have all shades instead of five.
+#pragma once
+
+#include "core/image.h"
+#include "core/rectangle.h"
+#include "render/antialiasing/screen_edges.h"
+#include "render/damage/dirty_tiles.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// Copies the drawn picture's rectangles to the frame, with alpha 255.
+void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame);
+
+/// Blends the edges within the marked tiles of the frame, which must hold the drawn picture there.
+void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const TileMarks& marks, Image& frame);
+
+/// The mean over x in [-half, half] of clamp(t - x, 0, 1): the share of a strip one pixel high and 2 half of the slope
+/// wide that lies before a line.
+double share_before(double t, double half);
+
+}  // namespace tumble

@@ -1,0 +1,149 @@
+#include "render/antialiasing/thin_geometry_aa.h"
+
+#include "render/antialiasing/analytic_aa.h"
+#include "render/antialiasing/surface_ids.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// A rod drawn a pixel wide and aslant shows in two pixels of a column at most: so far is something else to be found.
+constexpr int search = 3;
+
+// Pixels to both sides along the rod that its colour is the mean of: its sides take turns at pixels' middles.
+constexpr int along = 2;
+
+struct Mean {
+    std::array<double, 3> sum{};   // as shown, 0 to 255
+    int count = 0;
+    void add(const std::uint8_t* pixel) {
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
+        ++count;
+    }
+};
+
+/// Which pixels show a rod. As wide as the picture.
+using RodPixels = std::vector<char>;
+
+// A rod in a picture seen along its main direction: m counts along, n across.
+class RodWalk {
+public:
+    RodWalk(const Image& drawn, const ScreenRod& rod) : drawn_(drawn), first_face_(rod.first_face) {
+        steep_ = std::abs(rod.y1 - rod.y0) > std::abs(rod.x1 - rod.x0);
+        m0_ = steep_ ? rod.y0 : rod.x0, n0_ = steep_ ? rod.x0 : rod.y0;
+        m1_ = steep_ ? rod.y1 : rod.x1, n1_ = steep_ ? rod.x1 : rod.y1;
+        half0_ = rod.half0, half1_ = rod.half1;
+        if (m1_ < m0_) {
+            std::swap(m0_, m1_);
+            std::swap(n0_, n1_);
+            std::swap(half0_, half1_);
+        }
+        count_m_ = steep_ ? drawn.height : drawn.width;
+        count_n_ = steep_ ? drawn.width : drawn.height;
+        length_ = std::max(m1_ - m0_, 1e-6);
+        slope_ = (n1_ - n0_) / length_;
+        widening_ = std::sqrt(1.0 + slope_ * slope_);   // of what lies square to it, along n
+    }
+
+    /// Those that show this one.
+    void mark(RodPixels& rods) const {
+        for_each([&](int m, int n, double, double) {
+            if (of_rod(m, n)) rods[index(m, n)] = 1;
+        });
+    }
+
+    /// Puts there what shows beside the rods.
+    void clear(const RodPixels& rods, const TileMarks& marks, Image& frame) const {
+        for_each([&](int m, int n, double, double) {
+            if (!of_rod(m, n) || !marked(m, n, marks)) return;
+            Mean beside;
+            for (const int side : {-1, 1})
+                for (int step = 1; step <= search; ++step) {
+                    const int across = n + side * step;
+                    if (!in_picture(m, across) || rods[index(m, across)] != 0) continue;
+                    beside.add(at(m, across));
+                    break;
+                }
+            std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
+            for (std::size_t c = 0; c < 3 && beside.count > 0; ++c) to[c] = std::uint8_t(std::lround(beside.sum[c] / beside.count));
+        });
+    }
+
+    /// Covers each pixel as far as the rod does, where nothing but other rods hides it.
+    void cover(const RodPixels& rods, const TileMarks& marks, Image& frame) const {
+        for_each([&](int m, int n, double middle, double half) {
+            const double share = std::min(covered(m, n, middle, half), 1.0);
+            if (share <= 0.0 || !marked(m, n, marks)) return;
+            if (rods[index(m, n)] == 0 && !of_rod(m, n - 1) && !of_rod(m, n + 1) && !of_rod(m - 1, n) && !of_rod(m + 1, n)) return;
+            Mean own;
+            for (int other = m - along; other <= m + along; ++other)
+                for (int across = n - 1; across <= n + 1; ++across)
+                    if (of_rod(other, across)) own.add(at(other, across));
+            std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
+            for (std::size_t c = 0; c < 3 && own.count > 0; ++c)
+                to[c] = std::uint8_t(std::lround(to[c] + (own.sum[c] / own.count - to[c]) * share));
+        });
+    }
+
+private:
+    /// All pixels that it covers or shows in, with the middle and half the width of where it crosses their column.
+    template <class See>
+    void for_each(See see) const {
+        const int first = int(std::clamp(std::floor(m0_) - 1.0, 0.0, double(count_m_)));
+        const int last = int(std::clamp(std::floor(m1_) + 1.0, -1.0, count_m_ - 1.0));
+        for (int m = first; m <= last; ++m) {
+            const double t = std::clamp((m + 0.5 - m0_) / length_, 0.0, 1.0);
+            const double middle = n0_ + (n1_ - n0_) * t, half = (half0_ + (half1_ - half0_) * t) * widening_;
+            const double reach = std::max(half, 1.5 * thinnest_rod_pixels * widening_) + 0.5;
+            const int low = int(std::clamp(std::floor(middle - reach), 0.0, double(count_n_)));
+            const int high = int(std::clamp(std::floor(middle + reach), -1.0, count_n_ - 1.0));
+            for (int n = low; n <= high; ++n) see(m, n, middle, half);
+        }
+    }
+
+    std::size_t index(int m, int n) const {
+        return steep_ ? std::size_t(m) * std::size_t(drawn_.width) + std::size_t(n)
+                      : std::size_t(n) * std::size_t(drawn_.width) + std::size_t(m);
+    }
+    const std::uint8_t* at(int m, int n) const { return &drawn_.pixels[4 * index(m, n)]; }
+    bool in_picture(int m, int n) const { return m >= 0 && n >= 0 && m < count_m_ && n < count_n_; }
+    bool of_rod(int m, int n) const { return in_picture(m, n) && of_same_box(at(m, n)[3], first_face_, 0); }
+    bool marked(int m, int n, const TileMarks& marks) const {
+        return marks.at((steep_ ? n : m) / TileMarks::tile, (steep_ ? m : n) / TileMarks::tile);
+    }
+
+    /// The share of the pixel that the rod covers: what lies before its far side and not before its near one.
+    double covered(int m, int n, double middle, double half) const {
+        const double from = std::max(double(m), m0_), to = std::min(m + 1.0, m1_);
+        if (!(to > from)) return 0.0;
+        const double line = middle + slope_ * (std::clamp(0.5 * (from + to), m0_, m1_) - std::clamp(m + 0.5, m0_, m1_));
+        const double rise = 0.5 * std::abs(slope_) * (to - from);
+        return (to - from) * (share_before(n + 1.0 - (line - half), rise) - share_before(n + 1.0 - (line + half), rise));
+    }
+
+    const Image& drawn_;
+    std::uint8_t first_face_;
+    bool steep_;
+    double m0_, n0_, m1_, n1_, half0_, half1_, length_, slope_, widening_;
+    int count_m_, count_n_;
+};
+
+}  // namespace
+
+bool is_rod(const Vec3& half_pixels) {
+    const double least = half_pixels.minCoeff(), most = half_pixels.maxCoeff();
+    return half_pixels.sum() - least - most < widest_rod_pixels && most > shortest_rod_pixels;
+}
+
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const TileMarks& marks, Image& frame) {
+    if (rods.empty()) return;
+    RodPixels pixels(drawn.pixels.size() / 4, 0);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).mark(pixels);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).clear(pixels, marks, frame);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).cover(pixels, marks, frame);
+}
+
+}  // namespace tumble

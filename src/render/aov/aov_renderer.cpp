@@ -1,0 +1,158 @@
+#include "render/aov/aov_renderer.h"
+
+#include "core/check.h"
+#include "render/aov/surface_motion.h"
+#include "render/aov/surface_normal.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tumble {
+namespace {
+
+/// Calls back with the index, column and row of every pixel.
+template <class Visit>
+void for_each_pixel(const SurfaceMap& map, const Visit& visit) {
+    std::size_t pixel = 0;
+    for (int row = 0; row < map.height; ++row)
+        for (int column = 0; column < map.width; ++column, ++pixel) visit(pixel, column, row);
+}
+
+void fill_depth(const SurfaceMap& map, std::vector<float>& values) { values.assign(map.depth.begin(), map.depth.end()); }
+
+/// What a surface has one value of, everywhere the same.
+template <class Value>
+void fill_by_surface(const SurfaceMap& map, const std::vector<Value>& of_surface, const Value& of_nothing,
+                     std::vector<Value>& values) {
+    values.resize(map.surface.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = map.surface[i] == SurfaceMap::nothing ? of_nothing : of_surface[map.surface[i]];
+}
+
+std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vector<SurfacePart>& parts) {
+    std::vector<std::int32_t> ids;
+    for (const SurfacePart& part : parts) ids.push_back(std::int32_t(body_id(part.body)));
+    for (std::size_t i = 0; i < scene.cords.size(); ++i) ids.push_back(std::int32_t(cord_id(scene, i)));
+    return ids;
+}
+
+void fill_albedo(const SurfaceMap& map, const SceneDescription& scene, const std::vector<SurfacePart>& parts,
+                 std::vector<std::uint8_t>& values) {
+    std::vector<Color> colors;
+    for (const SurfacePart& part : parts) colors.push_back(part.color);
+    for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
+    values.resize(3 * map.surface.size());
+    std::uint8_t* to = values.data();
+    for (const std::uint32_t surface : map.surface) {
+        const Color color = surface == SurfaceMap::nothing ? Color{} : colors[surface];
+        *to++ = color.r;
+        *to++ = color.g;
+        *to++ = color.b;
+    }
+}
+
+void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, const ScenePlaces& places,
+                 const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
+    std::vector<Mat3> turns;               // of each part, to the world
+    std::vector<const float*> everywhere;  // of planes: their one normal
+    std::vector<std::array<float, 3>> planes(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        turns.push_back((snapshot.bodies[parts[i].body].orientation * parts[i].rotation).toRotationMatrix());
+        const auto* plane = std::get_if<PlaneShape>(&parts[i].shape);
+        everywhere.push_back(plane != nullptr ? planes[i].data() : nullptr);
+        if (plane != nullptr) Eigen::Map<Eigen::Vector3f>(planes[i].data()) = (turns[i] * plane->normal).cast<float>();
+    }
+    const std::array<float, 3> zero{};
+    values.resize(3 * map.surface.size());
+    float* to = values.data();
+    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
+        const std::uint32_t surface = map.surface[pixel];
+        const float* known = surface == SurfaceMap::nothing ? zero.data()
+                             : surface < parts.size()       ? everywhere[surface]
+                                                            : nullptr;
+        if (known != nullptr) {
+            for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = known[k];
+            return;
+        }
+        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
+        const double depth = map.depth[pixel];
+        const Vec3 normal =
+            surface < parts.size()
+                ? Vec3(turns[surface] *
+                       part_normal(parts[surface], places.parts[surface], map.triangle[pixel], ray, depth))
+                : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
+        for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = float(normal[Eigen::Index(k)]);
+    });
+}
+
+void fill_motion(const SurfaceMap& map, const SurfaceMotion& motion, const PinholeCamera& camera,
+                 std::vector<float>& values) {
+    values.resize(2 * map.surface.size());
+    float* to = values.data();
+    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
+        const std::uint32_t surface = map.surface[pixel];
+        if (surface == SurfaceMap::nothing ? motion.background_rests() : motion.rests(surface)) {
+            to[2 * pixel] = to[2 * pixel + 1] = 0.0f;
+            return;
+        }
+        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
+        const Eigen::Vector2d way = surface == SurfaceMap::nothing
+                                        ? motion.of_nothing(ray, column, row)
+                                        : motion.of_surface(surface, map.depth[pixel] * ray, column, row);
+        to[2 * pixel] = float(way.x());
+        to[2 * pixel + 1] = float(way.y());
+    });
+}
+
+bool same_poses(const Snapshot& a, const Snapshot& b) {
+    return std::ranges::equal(a.bodies, b.bodies, [](const BodyState& x, const BodyState& y) {
+        return x.origin == y.origin && x.orientation.coeffs() == y.orientation.coeffs();
+    });
+}
+
+}  // namespace
+
+AovMaker::AovMaker(const SceneDescription& scene, const AovSet& aovs)
+    : scene_(scene),
+      aovs_(aovs),
+      path_(scene.camera),
+      frame_{PinholeCamera(CameraView(scene.camera, scene.output.width, scene.output.height)), {}, {}, {}, {}, {}},
+      parts_(surface_parts(scene)),
+      finder_(parts_, scene.cords) {}
+
+PinholeCamera AovMaker::camera_at(const Snapshot& snapshot) const {
+    return PinholeCamera(CameraView(path_.at(snapshot), scene_.output.width, scene_.output.height));
+}
+
+const AovFrame& AovMaker::make(const AovPoses& poses) {
+    TUMBLE_CHECK_EQ(poses.now.bodies.size(), scene_.bodies.size());
+    const PinholeCamera camera = camera_at(poses.now);
+    const ScenePlaces places = make_places(parts_, scene_.cords, poses.now, camera);
+    const SurfaceMap& map = finder_.find(places, camera);
+
+    AovFrame& frame = frame_;
+    frame.camera = camera;
+    if (aovs_.has(Aov::depth)) fill_depth(map, frame.depth);
+    if (aovs_.has(Aov::normal)) fill_normal(map, parts_, places, poses.now, camera, frame.normal);
+    if (aovs_.has(Aov::segmentation)) fill_by_surface(map, ids_of(scene_, parts_), std::int32_t(0), frame.segmentation);
+    if (aovs_.has(Aov::albedo)) fill_albedo(map, scene_, parts_, frame.albedo);
+    if (aovs_.has(Aov::motion)) {
+        TUMBLE_CHECK_EQ(poses.next.has_value(), true);
+        const PinholeCamera next_camera = camera_at(*poses.next);
+        const ScenePlaces next = make_places(parts_, scene_.cords, *poses.next, next_camera);
+        fill_motion(map, SurfaceMotion(places, camera, next, next_camera), camera, frame.motion);
+    }
+    return frame;
+}
+
+bool AovChanges::follow(const AovPoses& poses) {
+    const auto same = [&](const Snapshot& a, const Snapshot& b) {
+        return same_poses(a, b) && same_place(path_.at(a), path_.at(b));
+    };
+    const bool unmoved = before_ && same(before_->now, poses.now) &&
+                         (!poses.next || same(*before_->next, *poses.next));
+    if (!unmoved) before_ = poses;
+    return !unmoved;
+}
+
+}  // namespace tumble

@@ -1,0 +1,60 @@
+#include "render/aov/shape_instance.h"
+
+#include "core/check.h"
+
+namespace tumble {
+namespace {
+
+/// Only a mesh can be open: its inside is then seen too, as where it is drawn (mesh_library.cpp).
+bool is_closed(const Shape& shape) {
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    if (mesh == nullptr) return true;
+    const Closedness form = closedness(mesh->asset->surface);
+    return form.closed() && form.signed_volume > 0.0;
+}
+
+}  // namespace
+
+std::vector<SurfacePart> surface_parts(const SceneDescription& scene) {
+    std::vector<SurfacePart> parts;
+    const auto add = [&](SurfacePart part) {
+        if (const auto* mesh = std::get_if<MeshShape>(&part.shape); mesh != nullptr && !mesh->asset) return;
+        // Copies share their mesh, and stand next to each other.
+        const auto* mesh = std::get_if<MeshShape>(&part.shape);
+        const auto* before = parts.empty() ? nullptr : std::get_if<MeshShape>(&parts.back().shape);
+        const bool known = mesh != nullptr && before != nullptr && mesh->asset == before->asset;
+        part.closed = known ? parts.back().closed : is_closed(part.shape);
+        parts.push_back(std::move(part));
+    };
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        if (!body.surface.visible) continue;
+        const auto* compound = std::get_if<CompoundShape>(&body.shape);
+        if (compound == nullptr) {
+            add({i, body.shape, Vec3::Zero(), Quat::Identity(), body.surface.color, true});
+            continue;
+        }
+        for (const CompoundPart& part : *compound->parts)
+            add({i, part.shape, part.position, part.rotation, part.color.value_or(body.surface.color), true});
+    }
+    return parts;
+}
+
+std::uint32_t body_id(std::size_t body) { return std::uint32_t(1 + body); }
+
+std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord) {
+    return body_id(scene.bodies.size() + cord);
+}
+
+PartPlace place_of(const SurfacePart& part, const Snapshot& snapshot, const PinholeCamera& camera) {
+    const BodyState& body = snapshot.bodies.at(part.body);
+    const Mat3 turn = camera.axes.transpose() * body.orientation.toRotationMatrix();
+    return {turn * part.rotation.toRotationMatrix(), camera.from_world(body.origin) + turn * part.position};
+}
+
+CordPlace place_of(const CordDescription& cord, const Snapshot& snapshot, const PinholeCamera& camera) {
+    const BodyState& body = snapshot.bodies.at(cord.body);
+    return {camera.from_world(cord.anchor), camera.from_world(body.origin + body.orientation * cord.point)};
+}
+
+}  // namespace tumble

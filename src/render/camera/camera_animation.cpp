@@ -1,0 +1,92 @@
+#include "render/camera/camera_animation.h"
+
+#include "core/deterministic_math.h"
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Rodrigues' formula.
+Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
+    const SinCos turn = sincos(degrees * pi / 180.0);
+    const Vec3 along = axis * axis.dot(v);
+    return along + turn.cos * (v - along) + turn.sin * axis.cross(v);
+}
+
+}  // namespace
+
+std::optional<CameraPath::Tracks> CameraPath::tracks_of(const CameraDescription& camera) {
+    if (camera.keyframes.empty()) return std::nullopt;
+    const auto track = [&](const auto& value_of) {
+        std::vector<double> times;
+        std::vector<Eigen::VectorXd> values;
+        for (const CameraKeyframe& key : camera.keyframes) {
+            times.push_back(key.time);
+            values.push_back(value_of(key));
+        }
+        return NumberTrack(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
+    };
+    return Tracks{track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.eye; }),
+                  track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.target; }),
+                  track([](const CameraKeyframe& key) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, key.vertical_fov); })};
+}
+
+CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
+
+Vec3 CameraPath::up_at(double time) const {
+    constexpr double parallel = 1e-9;   // rad: as for CameraView
+    constexpr double back = 1e-4;       // of the time since the last key: near enough, and far above rounding
+    const Vec3& up = camera_.up;
+    const auto view_at = [&](double t) -> Vec3 { return tracks_->target.at(t) - tracks_->eye.at(t); };
+    const Vec3 view = view_at(time);
+    if (view.cross(up).norm() > parallel * view.norm() * up.norm()) return up;
+    // No key is there (the scene's reader sees to that), so there is one before.
+    double key = camera_.keyframes.front().time;
+    for (const CameraKeyframe& k : camera_.keyframes)
+        if (k.time < time) key = k.time;
+    const Vec3 across = view_at(time - back * (time - key)).cross(up);   // to the right in the picture just before
+    const Vec3 in_passing = across.cross(view);
+    return in_passing.norm() > 0.0 ? in_passing : up;
+}
+
+Vec3 CameraPath::carried(const Snapshot& snapshot) const {
+    if (!camera_.follow) return Vec3::Zero();
+    const BodyState& body = snapshot.bodies.at(*camera_.follow);
+    // The scene does not know where the centre of mass is; but the body is rigid, so it is where it was, body frame.
+    const Vec3 center = body.orientation.conjugate() * (body.center_of_mass - body.origin);
+    return body.center_of_mass - (camera_.follow_start + camera_.follow_start_rotation * center);
+}
+
+CameraDescription CameraPath::at(const Snapshot& snapshot) const {
+    CameraDescription now;
+    now.eye = camera_.eye;
+    now.target = camera_.target;
+    now.up = camera_.up;
+    now.vertical_fov = camera_.vertical_fov;
+    if (tracks_) {
+        now.eye = tracks_->eye.at(snapshot.time);
+        now.target = tracks_->target.at(snapshot.time);
+        now.vertical_fov = tracks_->vertical_fov.at(snapshot.time)[0];
+        now.up = up_at(snapshot.time);
+    }
+    // Whole turns go first, in degrees, where they are exact.
+    const double angle = std::remainder(camera_.orbit * snapshot.time, 360.0);
+    if (angle != 0.0) {
+        const Vec3 axis = camera_.up.normalized();
+        now.eye = now.target + turned(now.eye - now.target, axis, angle);
+        if (now.up != camera_.up) now.up = turned(now.up, axis, angle);
+    }
+    if (camera_.follow) {
+        const Vec3 way = carried(snapshot);
+        now.eye += way;
+        now.target += way;
+    }
+    return now;
+}
+
+bool same_place(const CameraDescription& a, const CameraDescription& b) {
+    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.vertical_fov == b.vertical_fov;
+}
+
+}  // namespace tumble

@@ -1,0 +1,213 @@
+#include "render/culling/occlusion_culling.h"
+
+#include "render/scene/drawable_bounds.h"
+#include "render/culling/software_depth_buffer.h"
+#include "render/camera/convex_hull_2d.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace tumble {
+namespace {
+
+using Point = ScreenPoint;
+
+// Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
+constexpr double margin = 1.0;  // pixels
+
+struct Projected {
+    std::array<Point, 8> points;                                               // as many as were given
+    double nearest = std::numeric_limits<double>::infinity(), furthest = 0.0;  // along the axis, m
+    double x0 = nearest, y0 = nearest, x1 = -nearest, y1 = -nearest;           // pixels
+};
+
+// False when a corner is beside or behind the eye.
+bool project(std::span<const Vec3> corners, const CameraView& view, Projected& result) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const double depth = corners[i].dot(view.forward());
+        if (!(depth > 1e-2 * corners[i].norm())) return false;
+        const Point p = view.pixel(corners[i]);
+        result.points[i] = p;
+        result.nearest = std::min(result.nearest, depth);
+        result.furthest = std::max(result.furthest, depth);
+        result.x0 = std::min(result.x0, p.x());
+        result.x1 = std::max(result.x1, p.x());
+        result.y0 = std::min(result.y0, p.y());
+        result.y1 = std::max(result.y1, p.y());
+    }
+    return true;
+}
+
+int first_cell(double pixel) { return int(std::floor(std::max(pixel, 0.0) / ScreenCover::cell)); }
+int last_cell(double pixel, int count) {
+    return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell));
+}
+
+// Those turned to the eye and not hidden.
+std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCover& cover) {
+    std::uint8_t faces = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t side = 0; side < 2; ++side) {
+            std::array<Vec3, 4> points;
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < 8; ++i)
+                if ((i >> axis & 1) == side) points[count++] = corners[i];
+            const std::size_t other = std::size_t(1) << axis;  // the corner across the box from corner 0 along the axis
+            const Vec3 outward = (corners[other] - corners[0]) * (side == 1 ? 1.0 : -1.0);
+            if (outward.dot(points[0]) < 0.0 && !cover.hides(points)) faces |= std::uint8_t(1u << (2 * axis + side));
+        }
+    return faces;
+}
+
+}  // namespace
+
+ScreenCover::ScreenCover(const CameraView& view)
+    : view_(&view),
+      columns_((view.width() + cell - 1) / cell),
+      rows_((view.height() + cell - 1) / cell),
+      depths_(std::size_t(columns_) * std::size_t(rows_), std::numeric_limits<double>::infinity()) {}
+
+void ScreenCover::add(const Corners& corners) {
+    Projected box;
+    if (!project(corners, *view_, box)) return;
+    FewPoints points;
+    for (const Point& p : box.points) points.push_back(p);
+    const FewPoints hull = convex_hull(points);
+    if (hull.size() < 3) return;
+    // On each line between rows of cells, the hull without its rim is an interval; a cell is covered within both of its.
+    const auto interval = [&](double y, double& left, double& right) {
+        left = -std::numeric_limits<double>::infinity();
+        right = -left;
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+            const Point &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+            // turn(a, b, (x, y)) >= margin |edge|, solved for x
+            const double rest = edge.x() * (y - a.y()) + edge.y() * a.x() - margin * edge.norm();
+            if (edge.y() > 0.0) right = std::min(right, rest / edge.y());
+            if (edge.y() < 0.0) left = std::max(left, rest / edge.y());
+            if (edge.y() == 0.0 && rest < 0.0) left = std::numeric_limits<double>::infinity();
+        }
+    };
+    const int first = first_cell(box.y0);
+    double above_left, above_right, left, right;
+    interval(first * cell, above_left, above_right);
+    for (int row = first; row <= last_cell(box.y1, rows_); ++row, above_left = left, above_right = right) {
+        interval((row + 1) * cell, left, right);
+        const double from = std::max({above_left, left, 0.0}), to = std::min(above_right, right);
+        const double end = std::min(std::floor(to / cell), double(columns_));
+        for (int column = int(std::ceil(std::min(from, 1e9) / cell)); column < end; ++column) {
+            double& depth = depths_[std::size_t(row * columns_ + column)];
+            depth = std::min(depth, box.furthest);
+        }
+    }
+}
+
+bool ScreenCover::hides(std::span<const Vec3> corners) const {
+    Projected body;
+    if (!project(corners, *view_, body)) return false;
+    for (int row = first_cell(body.y0 - margin); row <= last_cell(body.y1 + margin, rows_); ++row)
+        for (int column = first_cell(body.x0 - margin); column <= last_cell(body.x1 + margin, columns_); ++column)
+            if (!(depth(column, row) < body.nearest)) return false;
+    return true;
+}
+
+namespace {
+
+// What is smaller than this is looked at pixel by pixel in a crowd.
+constexpr double small = 48.0;   // pixels across
+
+struct Candidate {
+    std::uint32_t body;
+    float distance;   // m; of the ball around it
+};
+
+std::vector<Candidate> find_candidates(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+        if (view.sees(ball.center, ball.radius)) candidates.push_back({std::uint32_t(i), float(ball.center.norm())});
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
+    });
+    return candidates;
+}
+
+// Puts the faces of a small box into the cover. Which of them may be seen?
+std::uint8_t add_faces(const ScreenCover::Corners& corners, const Projected& box, const CameraView& view, PixelCover& cover) {
+    std::uint8_t faces = 0;
+    std::array<double, 8> inverse_depths;
+    for (std::size_t i = 0; i < 8; ++i) inverse_depths[i] = 1.0 / corners[i].dot(view.forward());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t bit = std::size_t(1) << axis, a = std::size_t(1) << (axis + 1) % 3, b = std::size_t(1) << (axis + 2) % 3;
+        const Vec3 along = corners[bit] - corners[0];
+        for (std::size_t side = 0; side < 2; ++side) {
+            const std::size_t first = side == 1 ? bit : 0;
+            if (!(along.dot(corners[first]) * (side == 1 ? 1.0 : -1.0) < 0.0)) continue;
+            std::array<PixelCover::Corner, 4> face;
+            std::size_t k = 0;
+            for (const std::size_t i : {first, first | a, first | a | b, first | b}) face[k++] = {box.points[i], inverse_depths[i]};
+            if (cover.add(face)) faces |= std::uint8_t(1u << (2 * axis + side));
+        }
+    }
+    return faces;
+}
+
+}  // namespace
+
+Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample) {
+    Mat3 view_axes;
+    view_axes << view.right(), view.up(), view.forward();
+    Visibility result{ScreenCover(view), std::vector<bool>(looks.bodies.size(), false),
+                      std::vector<std::uint8_t>(looks.bodies.size(), 0)};
+    const std::vector<Candidate> candidates = find_candidates(looks, snapshot, view);
+    const bool by_pixel = one_sample && candidates.size() >= crowd;
+    const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
+    const auto corners_of = [&](const Candidate& c) {
+        const BodyLook& look = looks.bodies[c.body];
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[c.body], view);
+        return is_box(c) ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
+                         : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
+    };
+    const auto is_small = [&](const Candidate& c) {
+        const double distance = double(c.distance) - looks.bodies[c.body].bound_radius;
+        return by_pixel && distance > 0.0 && 2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
+    };
+    for (const Candidate& candidate : candidates) {  // nearest first: what is hidden itself need not cover anything
+        if (!is_box(candidate) || is_small(candidate)) continue;
+        const ScreenCover::Corners corners = corners_of(candidate);
+        if (!result.cover.hides(corners)) result.cover.add(corners);
+    }
+    std::optional<PixelCover> pixels;
+    if (by_pixel) pixels.emplace(view, result.cover);
+    for (const Candidate& candidate : candidates) {
+        const ScreenCover::Corners corners = corners_of(candidate);
+        Projected seen;
+        const bool small_one = is_small(candidate) && project(corners, view, seen);
+        if (is_box(candidate)) {
+            std::uint8_t& faces = result.faces[candidate.body];
+            if (!small_one) faces = visible_faces(corners, result.cover);
+            else if (!pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest)) faces = add_faces(corners, seen, view, *pixels);
+            result.bodies[candidate.body] = faces != 0;
+        } else if (small_one) {
+            result.bodies[candidate.body] = !pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest);
+        } else {
+            result.bodies[candidate.body] = !result.cover.hides(corners);
+        }
+    }
+    return result;
+}
+
+Visibility everything_visible(const SceneLooks& looks, const CameraView& view) {
+    Visibility all{ScreenCover(view), {}, {}};
+    for (const BodyLook& look : looks.bodies) {
+        all.bodies.push_back(look.kind != DrawKind::hidden && look.kind != DrawKind::plane);
+        all.faces.push_back(look.kind == DrawKind::box ? 0x3f : 0);
+    }
+    return all;
+}
+
+}  // namespace tumble

@@ -1,0 +1,157 @@
+#include "render/damage/dirty_tiles.h"
+
+#include "core/check.h"
+#include "render/camera/convex_hull_2d.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+// One pixel for where rasterisation may round to, one for the neighbours that a smooth edge looks at, and one to spare.
+constexpr double margin = 3.0;   // pixels
+
+enum class Place { before, beside, behind };   // of points, as the eye sees them
+
+Place place_of(std::span<const Vec3> points, const CameraView& view) {
+    bool before = false, behind = false;
+    for (const Vec3& p : points) {
+        const double depth = p.dot(view.forward());
+        if (depth > 1e-3 * p.norm()) {
+            before = true;
+        } else if (depth < 0.0) {
+            behind = true;
+        } else {
+            return Place::beside;
+        }
+    }
+    if (before && behind) return Place::beside;
+    return before ? Place::before : Place::behind;
+}
+
+int tile_of(double pixel, int size, int count) {
+    return int(std::clamp(std::floor(pixel / size), -1.0, double(count)));
+}
+
+}  // namespace
+
+TileMarks::TileMarks(const CameraView& view, int size)
+    : view_(&view),
+      grid_{(view.width() + size - 1) / size, (view.height() + size - 1) / size, size, view.width(), view.height()},
+      marks_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
+
+void TileMarks::mark_all() {
+    std::fill(marks_.begin(), marks_.end(), char(1));
+    count_ = grid_.columns * grid_.rows;
+}
+
+void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
+    const Place place = place_of(points, *view_);
+    if (place == Place::behind || all()) return;
+    if (place == Place::beside) return mark_all();
+    TUMBLE_CHECK_LE(points.size(), FewPoints::most);
+    FewPoints corners;
+    double rim = margin;   // pixels
+    double leftmost = std::numeric_limits<double>::infinity(), rightmost = -leftmost;
+    double top = leftmost, bottom = -leftmost;
+    for (const Vec3& p : points) {
+        corners.push_back(view_->pixel(p));
+        if (around > 0.0) {   // what is nearer to the eye by as much moves the farthest on the screen
+            const double depth = p.dot(view_->forward()), nearest = depth - around;
+            if (nearest < 0.1 * depth) return mark_all();
+            rim = std::max(rim, margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
+        }
+        leftmost = std::min(leftmost, corners.back().x());
+        rightmost = std::max(rightmost, corners.back().x());
+        top = std::min(top, corners.back().y());
+        bottom = std::max(bottom, corners.back().y());
+    }
+    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
+    // What is small needs no finer look: the tiles around it.
+    if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
+        corners = {};
+        for (const auto& [x, y] : {std::pair(leftmost, top), {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}})
+            corners.push_back({x, y});
+    } else {
+        corners = convex_hull(corners);
+    }
+    for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
+        // The hull's reach to both sides within this row of tiles.
+        const double low = row * grid_.cell - rim, high = (row + 1) * grid_.cell + rim;
+        double left = std::numeric_limits<double>::infinity(), right = -left;
+        const auto reach = [&](double x) {
+            left = std::min(left, x);
+            right = std::max(right, x);
+        };
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const ScreenPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
+            if (a.y() >= low && a.y() <= high) reach(a.x());
+            for (const double y : {low, high})
+                if ((a.y() < y) != (b.y() < y)) reach(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
+        }
+        for (int column = std::max(0, tile_of(left - rim, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(right + rim, grid_.cell, grid_.columns)); ++column) {
+            char& mark = marks_[std::size_t(row * grid_.columns + column)];
+            count_ += mark == 0 ? 1 : 0;
+            mark = 1;
+        }
+    }
+}
+
+bool TileMarks::all_marked(double x0, double y0, double x1, double y1) const {
+    for (int row = std::max(0, tile_of(y0, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(y1, grid_.cell, grid_.rows)); ++row)
+        for (int column = std::max(0, tile_of(x0, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(x1, grid_.cell, grid_.columns)); ++column)
+            if (!at(column, row)) return false;
+    return true;
+}
+
+bool TileMarks::touched_by(std::span<const Vec3> points) const {
+    if (none()) return false;
+    const Place place = place_of(points, *view_);
+    if (place == Place::behind) return false;
+    if (place == Place::beside || all()) return true;
+    double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
+    for (const Vec3& p : points) {
+        const ScreenPoint at = view_->pixel(p);
+        x0 = std::min(x0, at.x());
+        x1 = std::max(x1, at.x());
+        y0 = std::min(y0, at.y());
+        y1 = std::max(y1, at.y());
+    }
+    for (int row = std::max(0, tile_of(y0 - margin, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(y1 + margin, grid_.cell, grid_.rows)); ++row)
+        for (int column = std::max(0, tile_of(x0 - margin, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(x1 + margin, grid_.cell, grid_.columns)); ++column)
+            if (at(column, row)) return true;
+    return false;
+}
+
+std::vector<Rectangle> TileMarks::rectangles() const {
+    if (all()) return {{0, 0, grid_.width, grid_.height}};
+    return cell_rectangles(grid_, [&](int column, int row) { return at(column, row); });
+}
+
+std::vector<Rectangle> TileMarks::rectangles_outside(const TileMarks& others) const {
+    return cell_rectangles(grid_, [&](int column, int row) { return at(column, row) && !others.at(column, row); });
+}
+
+Rectangle TileMarks::bounds() const {
+    int x0 = grid_.columns, y0 = grid_.rows, x1 = 0, y1 = 0;
+    for (int row = 0; row < grid_.rows; ++row)
+        for (int column = 0; column < grid_.columns; ++column) {
+            if (!at(column, row)) continue;
+            x0 = std::min(x0, column);
+            x1 = std::max(x1, column + 1);
+            y0 = std::min(y0, row);
+            y1 = std::max(y1, row + 1);
+        }
+    if (x0 >= x1) return {0, 0, 0, 0};
+    return {x0 * grid_.cell, y0 * grid_.cell, (x1 - x0) * grid_.cell, (y1 - y0) * grid_.cell};
+}
+
+}  // namespace tumble

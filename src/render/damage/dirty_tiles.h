@@ -1,0 +1,50 @@
+// Tiles of the picture that something may touch: those that have to be drawn anew, those with shadows on the ground.
+#pragma once
+
+#include "core/rectangle.h"
+#include "core/vector.h"
+#include "render/camera/camera.h"
+#include "render/damage/tile_merge.h"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class TileMarks {
+public:
+    static constexpr int tile = 16;   // pixels: smaller ones follow outlines better, but make many small rectangles
+
+    explicit TileMarks(const CameraView& view, int size = tile);
+
+    void mark_all();
+
+    /// Marks what the convex hull of the points (relative to the eye), and all within `around` (m) of it, may touch on the
+    /// screen, and some pixels more for rasterisation and smooth edges. Points beside the eye may land anywhere: then
+    /// everything is marked.
+    void mark_hull(std::span<const Vec3> points, double around = 0.0);
+
+    bool none() const { return count_ == 0; }
+    bool all() const { return count_ == grid_.columns * grid_.rows; }
+    bool at(int column, int row) const { return marks_[std::size_t(row * grid_.columns + column)] != 0; }
+
+    /// May the convex hull of the points touch a marked tile? (its bounding rectangle is looked at)
+    bool touched_by(std::span<const Vec3> points) const;
+
+    const CellGrid& grid() const { return grid_; }
+    std::vector<Rectangle> rectangles() const;
+    std::vector<Rectangle> rectangles_outside(const TileMarks& others) const;   // of tiles that are not marked there
+
+    /// The rectangle around all that is marked.
+    Rectangle bounds() const;
+
+private:
+    bool all_marked(double x0, double y0, double x1, double y1) const;   // in this part of the screen, pixels
+
+    const CameraView* view_;
+    CellGrid grid_;
+    std::vector<char> marks_;
+    int count_ = 0;   // of marked tiles
+};
+
+}  // namespace tumble

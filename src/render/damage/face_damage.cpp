@@ -1,0 +1,130 @@
+#include "render/damage/face_damage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// Some texels to spare, of those to either side that the filter looks at.
+constexpr double spare_texels = 0.5;
+
+// Texels of the near map's rim where a pixel may look into the far one: 5 (shadow.glsl), and the offset along the normal.
+constexpr double rim_texels = 8.0;
+
+Vec3 row_of(const glm::vec4& row) { return {double(row.x), double(row.y), double(row.z)}; }
+
+}  // namespace
+
+std::array<Vec3, 4> face_part(const DrawnItem& box, int face, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const Vec3 middle = box.center + (face % 2 == 0 ? -1.0 : 1.0) * box.half_axes.col(axis);
+    std::array<Vec3, 4> points;
+    for (std::size_t i = 0; i < 4; ++i)
+        points[i] = middle + box.half_axes.col(a) * ((i & 1) != 0 ? high.x() : low.x()) +
+                    box.half_axes.col(b) * ((i & 2) != 0 ? high.y() : low.y());
+    return points;
+}
+
+// The points' rectangle along the face's axes is looked at; a little more of the face for what rounds.
+bool FaceMarks::Face::meets(std::span<const Vec3> points, double around) const {
+    const auto apart = [&](const Vec3& axis, double half) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Vec3& p : points) {
+            const double at = axis.dot(p - middle);
+            low = std::min(low, at);
+            high = std::max(high, at);
+        }
+        return low - around > 1.01 * half || high + around < -1.01 * half;
+    };
+    return !apart(u, half_u) && !apart(v, half_v);
+}
+
+std::array<Vec3, 4> FaceMarks::Face::corners() const {
+    std::array<Vec3, 4> points;
+    for (std::size_t i = 0; i < 4; ++i)
+        points[i] = middle + u * ((i & 1) != 0 ? half_u : -half_u) + v * ((i & 2) != 0 ? half_v : -half_v);
+    return points;
+}
+
+FaceMarks::FaceMarks(const DrawnItem& box, std::uint8_t faces, const ShadowLight& light, const CameraView& view)
+    : light_(light), view_(&view),
+      two_maps_(light.fit.may_look_far(box.center, box.radius)) {
+    for (int face = 0; face < 6; ++face) {
+        if ((faces >> face & 1) == 0) continue;
+        const int axis = face / 2;
+        const Vec3 to_side = (face % 2 == 0 ? -1.0 : 1.0) * box.half_axes.col(axis);
+        const Vec3 u = box.half_axes.col((axis + 1) % 3), v = box.half_axes.col((axis + 2) % 3);
+        Face f;
+        f.middle = box.center + to_side;
+        f.half_u = u.norm();
+        f.half_v = v.norm();
+        f.u = u / f.half_u;
+        f.v = v / f.half_v;
+        f.normal = to_side.normalized();
+        f.approach = -f.normal.dot(light.direction);
+        if (f.approach < -1e-6) continue;   // turned away from the sun
+        Mat3 to_map;
+        to_map << row_of(light.fit.x).transpose(), row_of(light.fit.y).transpose(), f.normal.transpose();
+        f.from_map = to_map.inverse();
+        faces_.push_back(f);
+    }
+}
+
+bool FaceMarks::suits(const DrawnItem& box, const ShadowFit& shadows) {
+    return shadows.near_holds(box.center, box.radius) || shadows.spans_maps(box.center, box.radius);
+}
+
+void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
+    const ShadowFit& fit = light_.fit;
+    const double most_margin = fit.filter.reach * (two_maps_ ? fit.far_texel : fit.near_texel);
+    if (!view_->sees_swept(caster.center, caster.radius + most_margin, light_.direction)) return;
+    for (const Face& face : faces_) {
+        if (face.normal.dot(caster.center - face.middle) < -caster.radius) continue;
+        if (face.approach < least_approach) {
+            marks.mark_hull(face.corners());
+            continue;
+        }
+        const auto foot_of = [&](const Vec3& p) -> Vec3 {
+            return p + light_.direction * (face.normal.dot(p - face.middle) / face.approach);
+        };
+        const std::array<Vec3, 1> foot = {foot_of(caster.center)};
+        if (!face.meets(foot, (caster.radius + most_margin) / face.approach)) continue;   // most, where there are many
+        std::array<Vec3, 8> feet = caster.corners();
+        for (Vec3& corner : feet) corner = foot_of(corner);
+        const double margin = light_.filter_reach(face.approach) * fit.near_texel / face.approach;
+        if (face.meets(feet, margin)) marks.mark_hull(feet, margin);
+        if (two_maps_) mark_in_far_map(face, caster, marks);
+    }
+}
+
+// The far map's texels are up to 64 times as wide, but it is looked into only beyond the near one. Across the light, in
+// near maps: a point looks at the place of itself moved along the normal, and at some texels around that.
+void FaceMarks::mark_in_far_map(const Face& face, const DrawnItem& caster, TileMarks& marks) const {
+    const ShadowFit& fit = light_.fit;
+    const double inner = 0.5 - rim_texels / fit.texels, reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
+    const auto range = [&](const glm::vec4& row) {
+        const Vec3 axis = row_of(row);
+        const double at = axis.dot(caster.center) + double(row.w) -
+                          axis.dot(face.normal) * (fit.filter.offset * fit.far_texel);
+        const double half = (caster.half_axes.transpose() * axis).cwiseAbs().sum() + reach;
+        return std::pair(at - half, at + half);
+    };
+    const auto [x0, x1] = range(fit.x);
+    const auto [y0, y1] = range(fit.y);
+    const auto mark = [&](double left, double right, double low, double high) {
+        if (!(left < right && low < high)) return;
+        std::array<Vec3, 4> points;
+        for (std::size_t i = 0; i < 4; ++i)
+            points[i] = face.from_map * Vec3(((i & 1) != 0 ? right : left) - double(fit.x.w),
+                                             ((i & 2) != 0 ? high : low) - double(fit.y.w), face.normal.dot(face.middle));
+        if (face.meets(points, 0.0)) marks.mark_hull(points);
+    };
+    mark(x0, std::min(x1, 0.5 - inner), y0, y1);
+    mark(std::max(x0, 0.5 + inner), x1, y0, y1);
+    mark(x0, x1, y0, std::min(y1, 0.5 - inner));
+    mark(x0, x1, std::max(y0, 0.5 + inner), y1);
+}
+
+}  // namespace tumble

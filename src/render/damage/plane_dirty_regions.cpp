@@ -1,0 +1,84 @@
+#include "render/damage/plane_dirty_regions.h"
+
+#include "render/scene/plane_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tumble {
+namespace {
+
+// One over the depth is linear on the screen, so a cell's nearest point of the plane is at a corner.
+bool covered(int column, int row, const PlanePatch& plane, const CameraView& view, const ScreenCover& cover) {
+    if (!std::isfinite(cover.depth(column, row))) return false;
+    double most_fall = 0.0;  // height / depth at the nearest corner
+    for (const int x : {column, column + 1})
+        for (const int y : {row, row + 1})
+            most_fall =
+                std::max(most_fall, -plane.normal.dot(view.ray(x * ScreenCover::cell, y * ScreenCover::cell)));
+    return cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6);
+}
+
+constexpr int block = 4, longest_run = 32;   // texels
+
+// The runs of blocks of the plane's window in the atlas that are not open.
+void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const SceneLooks& looks, const Snapshot& snapshot,
+                    const CameraView& view, TileMarks& touched) {
+    const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
+                                     [&](const OcclusionWindow& w) { return w.body == plane.body; });
+    if (window == atlas.windows.end()) return;
+    const BodyState& state = snapshot.bodies[plane.body];
+    const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
+    const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v, eye = view.eye() - state.origin;
+    const auto place = [&](int i, int j) -> Vec3 {
+        return u * ((window->low_a + i) * window->cell - u.dot(eye)) + v * ((window->low_b + j) * window->cell - v.dot(eye)) -
+               plane.normal * plane.height;
+    };
+    const auto mark = [&](int left, int right, int top, int bottom) {   // a texel's share reaches to the next ones
+        const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom), place(left - 1, bottom)};
+        if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm())) touched.mark_hull(corners);
+    };
+    const auto dark = [&](int i, int j) {
+        constexpr std::array<std::uint8_t, block> open{255, 255, 255, 255};
+        const std::size_t columns = std::size_t(std::min(block, window->width - i));
+        for (int row = j; row < std::min(j + block, window->height); ++row)
+            if (std::memcmp(&atlas.texels[std::size_t(window->y + row) * OcclusionAtlas::width + std::size_t(window->x + i)],
+                            open.data(), columns) != 0)
+                return true;
+        return false;
+    };
+    for (int j = 0; j < window->height; j += block)
+        for (int i = 0, first = 0; i < window->width; i += block) {
+            const bool is_dark = dark(i, j), ends = i + block >= window->width || i + block - first >= longest_run;
+            const int end = is_dark ? std::min(i + block, window->width) : i;
+            if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + block, window->height));
+            if (!is_dark || ends) first = i + block;
+        }
+}
+
+}  // namespace
+
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
+                                          const std::vector<DrawnItem>& items, const CameraView& view,
+                                          const ShadowFit& shadows, const ScreenCover& cover, const OcclusionAtlas& atlas,
+                                          const Snapshot& snapshot, const TileMarks& marks) {
+    constexpr int per_tile = TileMarks::tile / ScreenCover::cell;
+    static_assert(per_tile * ScreenCover::cell == TileMarks::tile);
+    TileMarks touched(view, ScreenCover::cell);
+    const ShadowLight light(scene.light, shadows);
+    const Rectangle marked = marks.bounds();
+    for (std::size_t i = 0; i < items.size() && !touched.all(); ++i)
+        if (items[i].exists() && may_touch(plane, items[i], 0.0, 0.0, light, view, marked))
+            mark_on_plane(plane, items[i], 0.0, 0.0, light, view, touched);
+    mark_darkening(plane, atlas, looks, snapshot, view, touched);
+    // Nothing of the plane is drawn outside of the marked tiles, nor behind boxes: each rectangle costs ten microseconds, as
+    // much as twenty such cells.
+    const auto closed = [&](int column, int row) {
+        return !marks.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
+    };
+    return cell_rectangles(
+        touched.grid(), [&](int column, int row) { return touched.at(column, row) && !closed(column, row); }, closed);
+}
+
+}  // namespace tumble

@@ -1,0 +1,58 @@
+#include "render/damage/volume_damage.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace tumble {
+
+VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const SceneLooks& looks, const BodyState& state,
+                         const ShadowLight& light, const CameraView& view)
+    : light_(light), view_(&view), axes_(state.orientation.toRotationMatrix()),
+      two_maps_(light.fit.may_look_far(item.center, item.radius)) {
+    if (look.fine_surface < 0) {
+        boxes_.push_back({item.center, item.half_axes.colwise().norm()});
+        return;
+    }
+    const Vec3 origin = view.relative(state.origin);
+    for (const FineSurface::Group& group : looks.fine_surfaces[std::size_t(look.fine_surface)].groups) {
+        const Vec3 center = origin + axes_ * group.bounds.center();
+        if (view.sees(center, 0.5 * group.bounds.extent().norm())) boxes_.push_back({center, 0.5 * group.bounds.extent()});
+    }
+}
+
+// A shadow reaches by the filter and the offset along the normal beyond its outline. Near the near map's rim, or beyond, these
+// may be those of the far one.
+void VolumeMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
+    const double near = light_.fit.filter.reach * light_.fit.near_texel, far = light_.fit.filter.reach * light_.fit.far_texel;
+    const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
+    if (!view_->sees_swept(caster.center, caster.radius + margin, light_.direction)) return;
+    for (const Box& box : boxes_) mark_in(box, caster, margin, marks);
+}
+
+// From where to where on its way along the light a box around the caster meets the box (the slabs of Kay and Kajiya 1986).
+void VolumeMarks::mark_in(const Box& box, const DrawnItem& caster, double margin, TileMarks& marks) const {
+    double enter = -margin, leave = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = axes_.col(k);
+        const double at = axis.dot(caster.center - box.center), speed = axis.dot(light_.direction);
+        const double room = box.half_size[k] + (caster.half_axes.transpose() * axis).cwiseAbs().sum() + margin;
+        if (std::abs(speed) < 1e-12) {
+            if (std::abs(at) > room) return;
+            continue;
+        }
+        const double a = (-room - at) / speed, b = (room - at) / speed;
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    if (!(enter <= leave)) return;
+    std::array<Vec3, 16> points;
+    const std::array<Vec3, 8> corners = caster.corners();
+    for (std::size_t i = 0; i < 8; ++i) {
+        points[i] = corners[i] + light_.direction * enter;
+        points[i + 8] = corners[i] + light_.direction * leave;
+    }
+    marks.mark_hull(points, margin);
+}
+
+}  // namespace tumble

@@ -1,0 +1,126 @@
+#include "render/gl/framebuffer.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr int strip_rows = 64;   // of nearest depths: what is copied from stays in the processor's cache
+
+int integer(const GlFunctions& gl, GLenum name) {
+    GLint value = 0;
+    gl.GetIntegerv(name, &value);
+    return value;
+}
+
+int supported_samples(const GlFunctions& gl, int wanted) {
+    const int most = std::max(1, integer(gl, GL_MAX_SAMPLES));
+    return wanted <= 1 ? 1 : std::min(wanted, most);
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int samples)
+    : gl_(&gl),
+      width_(width),
+      height_(height),
+      samples_(supported_samples(gl, samples)),
+      background_(make_target(height, samples_, true, true)),
+      drawn_(make_target(height, samples_, true, true)),
+      closed_(make_target(std::min(strip_rows, height), samples_, false, true)) {
+    if (samples_ > 1) resolved_.emplace(make_target(height, 1, true, false));
+    begin_all(closed_, 0.0);
+    begin_all(drawn_, 0.0);
+}
+
+Framebuffer::Target Framebuffer::make_target(int height, int samples, bool with_color, bool with_depth) const {
+    const int most = integer(*gl_, GL_MAX_RENDERBUFFER_SIZE);
+    if (width_ > most || height_ > most)
+        throw RunError(fmt::format("the OpenGL driver draws pictures of at most {0} x {0} pixels, not {1} x {2}", most,
+                                   width_, height_));
+    Target target{GlObject(*gl_, GlKind::framebuffer), GlObject(*gl_, GlKind::renderbuffer),
+                  GlObject(*gl_, GlKind::renderbuffer)};
+    const GLsizei stored = samples > 1 ? samples : 0;
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
+    if (with_color) {
+        gl_->BindRenderbuffer(GL_RENDERBUFFER, target.color.name());
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_RGBA8, width_, height);
+        gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target.color.name());
+    } else {
+        gl_->DrawBuffer(GL_NONE);
+        gl_->ReadBuffer(GL_NONE);
+    }
+    if (with_depth) {
+        gl_->BindRenderbuffer(GL_RENDERBUFFER, target.depth.name());
+        gl_->RenderbufferStorageMultisample(GL_RENDERBUFFER, stored, GL_DEPTH_COMPONENT32F, width_, height);
+        gl_->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target.depth.name());
+    }
+    const GLenum status = gl_->CheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE || gl_->GetError() == GL_OUT_OF_MEMORY)
+        throw RunError(fmt::format("the OpenGL driver refuses a framebuffer of {} x {} pixels with {} samples (0x{:x})",
+                                   width_, height_, samples, status));
+    return target;
+}
+
+void Framebuffer::bind(const Target& target) const {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer.name());
+    gl_->Viewport(0, 0, width_, height_);
+    gl_->Disable(GL_FRAMEBUFFER_SRGB);
+}
+
+void Framebuffer::copy(const Target& from, const Target& to, const std::vector<Rectangle>& rectangles,
+                       GLbitfield what) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer.name());
+    for (const Rectangle& r : rectangles)
+        gl_->BlitFramebuffer(r.x, r.y, r.x + r.width, r.y + r.height, r.x, r.y, r.x + r.width, r.y + r.height, what,
+                             GL_NEAREST);
+}
+
+void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, closed_.framebuffer.name());
+    gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_.framebuffer.name());
+    for (const Rectangle& r : rectangles)
+        for (int y = r.y; y < r.y + r.height; y += strip_rows) {
+            const int rows = std::min(strip_rows, r.y + r.height - y);
+            gl_->BlitFramebuffer(r.x, 0, r.x + r.width, rows, r.x, y, r.x + r.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+        }
+}
+
+void Framebuffer::begin_all(const Target& target, double depth) const {
+    bind(target);
+    gl_->ClearDepth(depth);
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
+}
+
+void Framebuffer::begin_background() { begin_all(background_, 1.0); }
+
+void Framebuffer::begin_whole() {
+    begin_all(drawn_, 1.0);
+    whole_open_ = true;
+}
+
+void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing) {
+    close(whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : closing);
+    copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    bind(drawn_);
+    whole_open_ = false;
+}
+
+void Framebuffer::resolve(const std::vector<Rectangle>& rectangles) const {
+    if (resolved_) copy(drawn_, *resolved_, rectangles, GL_COLOR_BUFFER_BIT);
+}
+
+void Framebuffer::read(const std::vector<Rectangle>& rectangles, Image& image) const {
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, resolved_ ? resolved_->framebuffer.name() : drawn_.framebuffer.name());
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl_->PixelStorei(GL_PACK_ROW_LENGTH, width_);
+    for (const Rectangle& r : rectangles)
+        gl_->ReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, image.at(r.x, r.y));
+}
+
+}  // namespace tumble

@@ -1,0 +1,35 @@
+// All meshes of a scene on the graphics side, by the numbers of draw_list.h.
+#pragma once
+
+#include "render/mesh/mesh_buffer.h"
+
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+class MeshLibrary {
+public:
+    MeshLibrary(const GlFunctions& gl, const SceneLooks& looks);
+
+    /// Sends the frame's instances, which the batches drawn next refer to, and meshes that they are the first to need.
+    void upload(const DrawList& list, MeshDetails& details);
+
+    /// Draws a batch; back faces of closed meshes are left out.
+    void draw(const Batch& batch) const;
+
+    /// The same into the picture. Of open meshes back faces lie a little farther away than they are: where the surface is seen
+    /// edge-on, in folds finer than a pixel, depths round to either side, and specks of the underside would show.
+    void draw_in_view(const Batch& batch) const;
+
+private:
+    void make(std::size_t mesh, MeshDetails& details);
+    void make_primitive(std::size_t mesh);
+
+    const GlFunctions* gl_;
+    const SceneLooks* looks_;
+    std::vector<std::optional<MeshBuffer>> meshes_;
+    GlObject instances_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,80 @@
+#include "render/mesh/mesh_buffer.h"
+
+#include <cstddef>
+
+namespace tumble {
+namespace {
+
+// Attribute locations as in shaders/instance.glsl.
+constexpr GLuint first_instance_attribute = 2;
+struct Attribute {
+    GLint components;
+    std::size_t offset;
+};
+constexpr Attribute instance_attributes[] = {{4, offsetof(Instance, position)}, {4, offsetof(Instance, orientation)},
+                                             {4, offsetof(Instance, scale)},    {4, offsetof(Instance, color)},
+                                             {4, offsetof(Instance, look)},     {4, offsetof(Instance, tile)}};
+constexpr GLuint probe_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
+constexpr GLuint texel_attribute = probe_attribute + 1;
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+template <class T>
+void fill(const GlFunctions& gl, GLenum target, const GlObject& buffer, std::span<const T> values) {
+    gl.BindBuffer(target, buffer.name());
+    gl.BufferData(target, GLsizeiptr(values.size_bytes()), values.data(), GL_STATIC_DRAW);
+}
+
+}  // namespace
+
+MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
+    : gl_(&gl),
+      array_(gl, GlKind::vertex_array),
+      vertices_(gl, GlKind::buffer),
+      indices_(gl, GlKind::buffer),
+      probes_(gl, GlKind::buffer),
+      texels_(gl, GlKind::buffer),
+      index_count_(GLsizei(data.indices.size())),
+      closed_(data.closed) {
+    using Vertex = MeshAsset::Vertex;
+    gl.BindVertexArray(array_.name());
+    fill(gl, GL_ELEMENT_ARRAY_BUFFER, indices_, data.indices);
+    fill(gl, GL_ARRAY_BUFFER, vertices_, data.vertices);
+    gl.EnableVertexAttribArray(0);
+    gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, position)));
+    gl.EnableVertexAttribArray(1);
+    gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, normal)));
+    if (!data.probe_of_vertex.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, probes_, data.probe_of_vertex);
+        gl.EnableVertexAttribArray(probe_attribute);
+        gl.VertexAttribIPointer(probe_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
+    }
+    if (!data.texels.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, texels_, data.texels);
+        gl.EnableVertexAttribArray(texel_attribute);
+        gl.VertexAttribPointer(texel_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(std::array<float, 2>), nullptr);
+    }
+    for (GLuint i = 0; i < std::size(instance_attributes); ++i) {
+        gl.EnableVertexAttribArray(first_instance_attribute + i);
+        gl.VertexAttribDivisor(first_instance_attribute + i, 1);
+    }
+    gl.BindVertexArray(0);
+}
+
+void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) const {
+    gl_->BindVertexArray(array_.name());
+    // Once: Mesa compiles a vertex shader a second time for an array whose pointers keep changing.
+    if (instances != instances_) {
+        gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
+        GLuint location = first_instance_attribute;
+        for (const Attribute& attribute : instance_attributes)
+            gl_->VertexAttribPointer(location++, attribute.components, GL_FLOAT, GL_FALSE, sizeof(Instance),
+                                     offset(attribute.offset));
+        instances_ = instances;
+    }
+    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, GLsizei(count),
+                                           GLuint(first));
+    gl_->BindVertexArray(0);
+}
+
+}  // namespace tumble

@@ -1,0 +1,95 @@
+#include "render/passes/body_pass.h"
+
+#include "render/shadow/shadow_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tumble {
+std::vector<std::string> shadow_defines(const ShadowFilter& filter) {
+    std::vector<std::string> all = {fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels)};
+    if (filter.by_pixel)
+        for (const std::string& define : {std::string("PIXEL_SHADOWS"), fmt::format("LEAST_STEP {:.2f}", least_pixel_step),
+                                          fmt::format("MOST_STEP {:.2f}", most_pixel_step)})
+            all.push_back(define);
+    return all;
+}
+
+void connect(const ShaderProgram& program) {
+    program.set_block("Frame", frame_block);
+    program.set_sampler("shadow_map", GLint(shadow_unit));
+    program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
+}
+
+SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                                 bool has_cords, bool shadows, const ShadowFilter& filter)
+    : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
+            for (const bool lit : {true, false})
+                program({look.kind, look.pattern != Pattern::plain, lit, false, look.kind == DrawKind::mesh && look.fine_surface >= 0});
+    if (has_cords) program({DrawKind::mesh, false, true, false, false});
+}
+
+SurfacePrograms::Variant SurfacePrograms::variant_of(const Batch& batch) {
+    const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
+                          : batch.mesh < cylinder_mesh ? DrawKind::ball
+                                                       : DrawKind::mesh;
+    return {kind, batch.patterned, batch.lit, batch.wide, batch.charted};
+}
+
+std::size_t SurfacePrograms::index_of(const Variant& variant) {
+    const std::size_t which = variant.kind == DrawKind::box    ? (variant.lit ? 0 : 1)
+                              : variant.kind == DrawKind::ball ? 2
+                              : variant.charted                ? 4
+                                                               : 3;
+    return 4 * which + (variant.patterned ? 2 : 0) + (variant.wide ? 1 : 0);
+}
+
+const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
+    auto& made = programs_[index_of(variant)];
+    if (made) return *made;
+    ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
+    if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
+    if (variant.kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
+    for (const std::string& define : shadow_defines(filter_)) files.defines.push_back(define);
+    if (variant.kind != DrawKind::box || variant.lit) {
+        files.defines.emplace_back("SUNLIT");
+        if (shadows_) files.defines.emplace_back("SHADOWED");
+    }
+    if (variant.kind == DrawKind::box && variant.lit && metal_boxes_) files.defines.emplace_back("FILTERED");
+    if (variant.patterned) files.defines.emplace_back("PATTERNED");
+    if (variant.wide) files.defines.emplace_back("WIDE");
+    if (variant.charted) files.defines.emplace_back("CHARTED");
+    made.emplace(*gl_, shaders_, files);
+    connect(*made);
+    return *made;
+}
+
+void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) {
+    for (const Batch& batch : batches) {
+        program(variant_of(batch)).use();
+        meshes.draw_in_view(batch);
+    }
+}
+
+std::vector<std::function<void()>> SurfacePrograms::compilations(const MeshLibrary& meshes,
+                                                                 const std::vector<Batch>& batches) {
+    std::vector<std::function<void()>> all;
+    for (std::size_t i = 0; i < programs_.size(); ++i)
+        all.emplace_back([this, &meshes, &batches, i] {
+            const auto first =
+                std::find_if(batches.begin(), batches.end(), [&](const Batch& b) { return index_of(variant_of(b)) == i; });
+            if (first == batches.end()) return;
+            program(variant_of(*first)).use();
+            Batch one = *first;
+            one.count = 1;
+            meshes.draw(one);
+        });
+    return all;
+}
+
+}  // namespace tumble

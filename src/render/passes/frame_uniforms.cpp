@@ -1,0 +1,76 @@
+#include "render/passes/frame_uniforms.h"
+
+#include "render/gl/glm_conversion.h"
+#include "render/antialiasing/thin_geometry_aa.h"
+#include "render/shadow/shadow_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
+constexpr double nearest_part = 1e-4;
+
+}  // namespace
+
+// The ball around a ground often holds the eye; but what is in view of the box around it is no nearer than its nearest
+// point, and along the axis less by a corner's cosine.
+double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
+                   const CameraView& view) {
+    const double depth = ball.center.dot(view.forward()) - ball.radius;
+    if (!look.ground) return depth;
+    const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
+    const Vec3 eye = state.orientation.conjugate() * -ball.center;
+    const double gap = (eye.cwiseAbs() - half_size).cwiseMax(0.0).norm();
+    double longest = 1.0;   // of rays that are 1 along the axis
+    for (const double x : {0.0, double(view.width())})
+        for (const double y : {0.0, double(view.height())}) longest = std::max(longest, view.ray(x, y).norm());
+    return std::max(depth, gap / longest);
+}
+
+double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+    double nearest = view.target_distance();
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        if (looks.bodies[i].kind == DrawKind::hidden || looks.bodies[i].kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
+        if (view.sees(ball.center, ball.radius))
+            nearest = std::min(nearest, least_depth(looks.bodies[i], looks, snapshot.bodies[i], ball, view));
+    }
+    nearest = std::max(nearest, nearest_part * view.target_distance());
+    return std::exp2(std::floor(std::log2(0.5 * nearest)));
+}
+
+bool sun_is_up(const SceneDescription& scene) {
+    constexpr double steepest_ground = 0.5;   // cosine of 60 degrees: what is steeper is a wall, as for the default camera
+    for (const BodyDescription& body : scene.bodies) {
+        const auto* plane = std::get_if<PlaneShape>(&body.shape);
+        if (plane == nullptr || body.type != BodyType::fixed) continue;
+        const Vec3 normal = body.rotation * plane->normal.normalized();
+        if (normal.y() > steepest_ground && normal.dot(scene.light.direction) >= 0.0) return false;
+    }
+    return true;
+}
+
+FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
+                                  const ShadowFit& shadows, int atlas_height, bool widen_rods) {
+    FrameUniforms u{};
+    u.clip_from_relative = view.clip_from_relative(near_distance);
+    u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
+    u.ray_dx = to_glm(view.ray(1.0, 0.0) - view.ray(0.0, 0.0), 0.0);
+    u.ray_dy = to_glm(view.ray(0.0, 1.0) - view.ray(0.0, 0.0), 0.0);
+    u.to_light = sun_up ? to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0) : glm::vec4(0.0f);   // no cosine, no light
+    u.shadow_x = shadows.x;
+    u.shadow_y = shadows.y;
+    u.shadow_z = shadows.z;
+    u.shadow_far = shadows.far;
+    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
+                                float(shadows.filter.offset));
+    u.haze = glm::vec4(float(1.0 / (view.haze_distance() * view.haze_distance())), float(view.pixel_size()), 0.0f, 0.0f);
+    if (widen_rods) u.haze.z = float(widest_rod_pixels * view.pixel_size()), u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
+    u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
+    return u;
+}
+
+}  // namespace tumble

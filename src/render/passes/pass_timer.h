@@ -1,0 +1,34 @@
+// What the stages of drawing cost, for measurements: CPU time, with glFinish between the stages, because llvmpipe would
+// otherwise do most of the work at the end. That costs a little itself.
+#pragma once
+
+#include "render/gl/gl_functions.h"
+
+#include <array>
+#include <cstddef>
+
+namespace tumble {
+
+enum class RenderStage { preparation, upload, shadow, background, bodies, planes, sky, edges, read };
+inline constexpr std::size_t render_stages = 9;
+inline constexpr std::array<const char*, render_stages> render_stage_names = {
+    "preparation", "upload", "shadow", "background", "bodies", "planes", "sky", "edges", "read"};
+
+/// CPU seconds of the process, summed over all frames.
+struct RenderTimes {
+    std::array<double, render_stages> seconds{};
+};
+
+/// Writes down the time since the last stage ended. Does nothing, and does not wait, without a place to write to.
+class StageClock {
+public:
+    StageClock(const GlFunctions& gl, RenderTimes* times);
+    void ends(RenderStage stage);
+
+private:
+    const GlFunctions* gl_;
+    RenderTimes* times_;
+    double last_ = 0.0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,62 @@
+// Draws the infinite planes, and the sky where nothing else is.
+#pragma once
+
+#include "render/gl/gl_object.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/damage/plane_dirty_regions.h"
+#include "render/gl/shader_program.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+class PlanePainter {
+public:
+    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+                 bool shadows, const ShadowFilter& filter);
+
+    /// The sky, where no plane is. Before anything else: at the horizon a plane's depth rounds to the sky's.
+    void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
+
+    /// All planes without bodies' shadows and darkening, where nothing as near has been drawn. It does not matter whether
+    /// bodies and touched areas come before or after.
+    void draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const;
+
+    /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
+    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
+                      const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                      const CameraView& view, bool far_shadows);
+
+    /// For each shader a draw that has it compiled. The caller sees to it that nothing of it lands in the picture.
+    std::vector<std::function<void()>> compilations() const;
+
+private:
+    struct Programs {
+        ShaderProgram open, touched;
+        std::optional<ShaderProgram> touched_far;   // once the far shadow map is in use
+    };
+    ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
+    std::vector<std::string> touched() const;
+    void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
+                      const SceneLooks& looks) const;
+    void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                    const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
+    void upload_polygon(const std::vector<glm::vec3>& corners) const;
+    void draw_polygon(const std::vector<glm::vec3>& corners) const;
+
+    const GlFunctions* gl_;
+    std::filesystem::path shaders_;
+    bool shadows_;
+    ShadowFilter filter_;
+    std::array<std::optional<Programs>, 3> planes_;  // by pattern: those that the scene uses
+    int other_planes_;
+    ShaderProgram sky_;
+    GlObject array_, corners_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,61 @@
+#include "render/scene/drawable_bounds.h"
+
+namespace tumble {
+namespace {
+
+DrawnItem body_item(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const CameraView& view) {
+    DrawnItem item;
+    if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) return item;
+    const BoundingBall ball = bounding_ball(look, state, view);
+    item.center = ball.center;
+    item.radius = ball.radius;
+    const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
+    item.half_axes = state.orientation.toRotationMatrix() * half_size.asDiagonal();
+    return item;
+}
+
+DrawnItem cord_item(const CordDescription& cord, const BodyState& state, const CameraView& view) {
+    const Vec3 from = view.relative(cord.anchor);
+    const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
+    DrawnItem item;
+    item.center = 0.5 * (from + to);
+    item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
+    const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), to - from);
+    item.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, item.radius, cord.radius).asDiagonal();
+    return item;
+}
+
+}  // namespace
+
+std::array<Vec3, 8> DrawnItem::corners() const {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = center;
+        for (int k = 0; k < 3; ++k)
+            if ((i >> k & 1) != 0) corners[i] += half_axes.col(k);
+            else corners[i] -= half_axes.col(k);
+    }
+    return corners;
+}
+
+std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size) {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3 sides((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
+        corners[i] = center + axes * half_size.cwiseProduct(sides);
+    }
+    return corners;
+}
+
+std::vector<DrawnItem> make_drawn_items(const SceneDescription& scene, const SceneLooks& looks,
+                                        const Snapshot& snapshot, const CameraView& view) {
+    std::vector<DrawnItem> items;
+    items.reserve(looks.bodies.size() + scene.cords.size());
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i)
+        items.push_back(body_item(looks.bodies[i], looks, snapshot.bodies[i], view));
+    for (const CordDescription& cord : scene.cords)
+        items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
+    return items;
+}
+
+}  // namespace tumble

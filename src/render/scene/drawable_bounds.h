@@ -1,0 +1,28 @@
+// What is drawn, as corners in space: one item a body (planes and hidden ones are empty), then one a cord.
+#pragma once
+
+#include "render/scene/render_scene.h"
+#include "render/camera/camera.h"
+#include "sim/snapshot/snapshot.h"
+
+#include <array>
+#include <vector>
+
+namespace tumble {
+
+struct DrawnItem {
+    Mat3 half_axes;                // of a box around it: from its middle to the middles of its high sides
+    Vec3 center;                   // of that box and of a ball around it, relative to the eye
+    double radius = -1.0;          // m; negative: nothing is drawn
+    /// Of the box, relative to the eye: corner i is on the high side of axis k when bit k of i is set.
+    std::array<Vec3, 8> corners() const;
+    bool exists() const { return radius >= 0.0; }
+};
+
+std::vector<DrawnItem> make_drawn_items(const SceneDescription& scene, const SceneLooks& looks,
+                                        const Snapshot& snapshot, const CameraView& view);
+
+/// The corners of a box.
+std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size);
+
+}  // namespace tumble

@@ -1,0 +1,98 @@
+#include "render/scene/large_receivers.h"
+
+#include "render/scene/plane_patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// A ground is this many times as wide as the space that all smaller bodies take up. A shadow map around it would be
+// twice as coarse as one around them.
+constexpr double ground_of_rest = 1.5;
+
+// That space is at least so wide, in half edges of the largest of them: shadows are not wanted finer (see shadow_fit.cpp).
+constexpr double least_rest = 15.0;
+
+// More large bodies than these are no grounds, but the scene itself.
+constexpr std::size_t most_grounds = 32;
+
+struct Extent {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    void add(const Vec3& center, double radius) {
+        low = low.cwiseMin(center - Vec3::Constant(radius));
+        high = high.cwiseMax(center + Vec3::Constant(radius));
+    }
+    double size() const { return (high - low).maxCoeff(); }
+};
+
+bool is_solid(const BodyLook& look) { return look.kind != DrawKind::hidden && look.kind != DrawKind::plane; }
+
+}  // namespace
+
+void find_grounds(const SceneDescription& scene, SceneLooks& looks) {
+    std::vector<std::size_t> by_size;
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i)
+        if (is_solid(looks.bodies[i])) by_size.push_back(i);
+    std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) {
+        return looks.bodies[a].bound_radius < looks.bodies[b].bound_radius;
+    });
+    std::vector<std::size_t> grounds;
+    Extent rest;
+    double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no ground
+    for (const std::size_t i : by_size) {
+        const BodyLook& look = looks.bodies[i];
+        if (2.0 * look.bound_radius > ground_of_rest * std::max(rest.size(), least_rest * largest_reach)) {
+            grounds.push_back(i);
+            continue;
+        }
+        const BodyDescription& body = scene.bodies[i];
+        rest.add(body.position + body.rotation * look.bound_center, look.bound_radius);
+        for (const Keyframe& key : body.keyframes) rest.add(key.position + key.rotation * look.bound_center, look.bound_radius);
+        largest_reach = std::isfinite(largest_reach) ? std::max(largest_reach, look.reach) : look.reach;
+    }
+    if (grounds.size() <= most_grounds)
+        for (const std::size_t i : grounds) looks.bodies[i].ground = true;
+}
+
+Landing::Landing(const SceneDescription& scene, const SceneLooks& looks) {
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        const BodyDescription& body = scene.bodies[i];
+        if (look.kind == DrawKind::plane) {
+            BodyState state;
+            state.origin = body.position;
+            state.orientation = body.rotation;
+            planes_.push_back(plane_in_world(look, state));
+        } else if (look.ground) {
+            const bool mesh = look.kind == DrawKind::mesh;
+            blocks_.push_back({body.position + body.rotation * look.bound_center,
+                               mesh ? looks.meshes[look.mesh].half_extent : look.half_size, body.rotation, mesh});
+        }
+    }
+}
+
+double Landing::fall(const Vec3& point, const Vec3& down) const {
+    double fall = std::numeric_limits<double>::infinity();
+    for (const PlaneShape& plane : planes_) {
+        const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
+        if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
+    }
+    for (const Block& block : blocks_) {   // between its sides' planes, axis by axis
+        const Vec3 from = block.rotation.conjugate() * (point - block.center), way = block.rotation.conjugate() * down;
+        double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
+        for (int k = 0; k < 3; ++k) {
+            const double side = way[k] < 0.0 ? -block.half_size[k] : block.half_size[k];   // where it leaves
+            const double speed = std::abs(way[k]) < 1e-12 ? std::copysign(1e-12, way[k]) : way[k];
+            enter = std::max(enter, (-side - from[k]) / speed);
+            leave = std::min(leave, (side - from[k]) / speed);
+        }
+        const double lands = block.hollow ? leave : enter;
+        if (enter <= leave && lands > 0.0) fall = std::min(fall, lands);
+    }
+    return std::isfinite(fall) ? fall : 0.0;
+}
+
+}  // namespace tumble

@@ -1,0 +1,113 @@
+#include "render/scene/plane_patch.h"
+
+#include "render/gl/glm_conversion.h"
+#include "render/scene/plane_axes.h"
+
+#include <cmath>
+#include <optional>
+
+namespace tumble {
+namespace {
+
+// The axes' coordinates are kept small by dropping whole periods of the pattern (2 cells for a checker).
+constexpr double period = 2.0;  // cells
+
+using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
+
+Polygon whole_screen() { return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}; }
+
+// How steeply the ray through a point of clip space goes down to a plane: linear in the point.
+double fall_at(const Vec3& normal, const Eigen::Vector2d& at, const CameraView& view) {
+    return -normal.dot(view.ray(0.5 * (at.x() + 1.0) * view.width(), 0.5 * (at.y() + 1.0) * view.height()));
+}
+
+// The part of a convex polygon where a linear function is positive (Sutherland and Hodgman 1974).
+template <class Function>
+Polygon clipped(const Polygon& polygon, Function function) {
+    Polygon result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double at_a = function(a), at_b = function(b);
+        if (at_a > 0.0) result.push_back(a);
+        if ((at_a > 0.0) != (at_b > 0.0)) result.push_back(a + (b - a) * (at_a / (at_a - at_b)));
+    }
+    return result;
+}
+
+glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell) {
+    const double cells = direction.dot(eye_from_origin) / cell;
+    return to_glm(direction / cell, cells - period * std::floor(cells / period));
+}
+
+}  // namespace
+
+PlaneShape plane_in_world(const BodyLook& look, const BodyState& state) {
+    const Vec3 normal = state.orientation * look.plane.normal;
+    return {normal, look.plane.offset + normal.dot(state.origin)};
+}
+
+double pattern_cell(double viewing_distance) {
+    const double wanted = viewing_distance / 15.0;
+    double power = 1.0;
+    while (power > wanted) power /= 10.0;
+    while (power * 10.0 <= wanted) power *= 10.0;
+    const double digits = wanted / power;  // 1 .. 10; the borders are the geometric means of 1, 2, 5, 10
+    return power * (digits < std::sqrt(2.0)    ? 1.0
+                    : digits < std::sqrt(10.0) ? 2.0
+                    : digits < std::sqrt(50.0) ? 5.0
+                                               : 10.0);
+}
+
+namespace {
+
+std::optional<PlanePatch> make_plane_patch(const BodyLook& look, const BodyState& state, std::size_t body,
+                                           const CameraView& view, double near_distance, double cell) {
+    const PlaneShape plane = plane_in_world(look, state);
+    PlanePatch patch;
+    patch.normal = plane.normal;
+    patch.height = plane.normal.dot(view.eye()) - plane.offset;
+    patch.body = body;
+    if (!(patch.height > 0.0)) return std::nullopt;
+
+    // fall = -n . ray is positive where the plane is seen; z = 1 - 2 near / depth, and 1 / depth = fall / height.
+    const auto fall = [&](const Eigen::Vector2d& at) { return fall_at(patch.normal, at, view); };
+    for (const Eigen::Vector2d& corner : clipped(whole_screen(), fall))
+        patch.corners.emplace_back(float(corner.x()), float(corner.y()),
+                                   float(1.0 - 2.0 * near_distance * std::max(fall(corner), 0.0) / patch.height));
+    if (patch.corners.size() < 3) return std::nullopt;
+
+    // The pattern's axes: the body's own, so that it turns and moves with the body.
+    const PlaneAxes axes = plane_axes(look.plane.normal);
+    const Vec3 from_origin = view.eye() - state.origin;
+    patch.u = axis(state.orientation * axes.u, from_origin, cell);
+    patch.v = axis(state.orientation * axes.v, from_origin, cell);
+    return patch;
+}
+
+}  // namespace
+
+std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                           double near_distance) {
+    const double cell = pattern_cell(view.viewing_distance());
+    std::vector<PlanePatch> patches;
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        if (looks.bodies[i].kind != DrawKind::plane) continue;
+        if (auto patch = make_plane_patch(looks.bodies[i], snapshot.bodies[i], i, view, near_distance, cell))
+            patches.push_back(std::move(*patch));
+    }
+    return patches;
+}
+
+std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view) {
+    Polygon polygon = whole_screen();
+    for (const PlanePatch& plane : planes) {
+        const double overlap = 2.0 * view.pixel_size();  // the change of fall over two pixels, at most
+        polygon =
+            clipped(polygon, [&](const Eigen::Vector2d& at) { return overlap - fall_at(plane.normal, at, view); });
+    }
+    std::vector<glm::vec3> corners;
+    for (const Eigen::Vector2d& corner : polygon) corners.emplace_back(float(corner.x()), float(corner.y()), 1.0f);
+    return corners;
+}
+
+}  // namespace tumble

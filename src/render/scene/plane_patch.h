@@ -1,0 +1,39 @@
+// An infinite plane as the screen sees it. In pixels, n . ray(x, y) is linear in x and y, and the plane is seen where
+// it is negative (from its open side): the screen's rectangle cut by one line, the horizon. One over the depth is
+// linear there too, so a flat polygon in clip space carries the exact depth out to infinity.
+#pragma once
+
+#include "render/scene/render_scene.h"
+#include "render/camera/camera.h"
+#include "sim/snapshot/snapshot.h"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace tumble {
+
+struct PlanePatch {
+    std::vector<glm::vec3> corners;  // clip space (w = 1), a convex polygon
+    Vec3 normal;                     // unit, world axes
+    double height;                   // of the eye above the plane, m, > 0
+    glm::vec4 u, v;                  // axes in the plane over the cell size; w: the eye's coordinates, in cells
+    std::size_t body;
+};
+
+/// Those in view from their open side: one looks through walls from behind.
+std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                                           double near_distance);
+
+/// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip
+/// space.
+std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view);
+
+/// A round length (1, 2 or 5 times a power of ten) near to a fifteenth of the viewing distance: 1 m at 15 m.
+double pattern_cell(double viewing_distance);
+
+/// The plane in the world: unit normal and offset (points p with normal . p = offset).
+PlaneShape plane_in_world(const BodyLook& look, const BodyState& state);
+
+}  // namespace tumble

@@ -1,0 +1,94 @@
+#include "render/scene/pose_filter.h"
+
+#include "core/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+double radius_of(const Shape& shape);
+
+double radius_of(const PlaneShape&) { return std::numeric_limits<double>::infinity(); }
+double radius_of(const BoxShape& box) { return 0.5 * box.size.norm(); }
+double radius_of(const SphereShape& ball) { return ball.radius; }
+double radius_of(const MeshShape& mesh) {
+    double squared = 0.0;
+    if (mesh.asset)
+        for (const MeshAsset::Vertex& v : mesh.asset->vertices)
+            squared = std::max(squared, Vec3(v.position[0], v.position[1], v.position[2]).squaredNorm());
+    return std::sqrt(squared);
+}
+double radius_of(const CompoundShape& compound) {
+    double radius = 0.0;
+    for (const CompoundPart& part : *compound.parts)
+        radius = std::max(radius, part.position.norm() + radius_of(part.shape));
+    return radius;
+}
+
+double radius_of(const Shape& shape) {
+    return std::visit([](const auto& one) { return radius_of(one); }, shape);
+}
+
+}  // namespace
+
+DrawnPoses::DrawnPoses(const SceneDescription& scene)
+    : path_(scene.camera),
+      camera_(scene.camera),
+      followed_(scene.camera.follow),
+      view_(scene.camera, scene.output.width, scene.output.height) {
+    for (const BodyDescription& body : scene.bodies)
+        radii_.push_back(body.surface.visible ? radius_of(body.shape) : 0.0);
+    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);   // it moves all that is drawn
+    for (const CordDescription& cord : scene.cords)
+        radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
+}
+
+bool DrawnPoses::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
+    const double radius = radii_[body];
+    if (radius == 0.0) return true;   // not drawn at all
+    const double way = (state.origin - drawn.origin).norm();
+    const double turn = std::min((state.orientation.coeffs() - drawn.orientation.coeffs()).norm(),
+                                 (state.orientation.coeffs() + drawn.orientation.coeffs()).norm());
+    if (way == 0.0 && turn == 0.0) return true;
+    const double nearest = view_.relative(drawn.origin).norm() - radius;   // m, from the eye; of a plane: -infinity
+    return way + 2.0 * radius * turn <= drawn_tolerance * view_.pixel_size() * nearest;
+}
+
+bool DrawnPoses::settle(std::size_t body, BodyState& state) {
+    Pose& drawn = drawn_[body];
+    if (may_stay(body, drawn, state)) {
+        state.origin = drawn.origin;
+        state.orientation = drawn.orientation;
+        state.center_of_mass = drawn.center_of_mass;
+        return false;
+    }
+    drawn = {state.origin, state.orientation, state.center_of_mass};
+    return true;
+}
+
+bool DrawnPoses::follow(Snapshot& snapshot) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
+    bool moved = std::exchange(first_, false);
+    if (moved)
+        for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
+    if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;
+    CameraDescription camera = path_.at(snapshot);
+    if (!same_place(camera, camera_)) {
+        camera_ = std::move(camera);
+        view_ = view_.from(camera_);
+        for (std::size_t i = 0; i < drawn_.size(); ++i)
+            if (i != followed_) {
+                const BodyState& state = snapshot.bodies[i];
+                drawn_[i] = {state.origin, state.orientation, state.center_of_mass};
+            }
+        return true;
+    }
+    for (std::size_t i = 0; i < drawn_.size(); ++i)
+        if (settle(i, snapshot.bodies[i])) moved = true;
+    return moved;
+}
+
+}  // namespace tumble

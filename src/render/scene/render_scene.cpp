@@ -1,0 +1,181 @@
+#include "render/scene/render_scene.h"
+
+#include "render/scene/distance_outliers.h"
+#include "render/ambient_occlusion/lightmap_selection.h"
+#include "render/scene/large_receivers.h"
+#include "render/ambient_occlusion/occluder_boxes.h"
+#include "render/ambient_occlusion/vertex_samples.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// How far a body darkens its surroundings, in parts of its middle half edge; a plate or stick no further than twice its
+// thin side.
+constexpr double reach_of_half_edge = 1.0;
+constexpr double reach_of_thin_side = 2.0;
+
+// Width of a box's rounded edge, in parts of its shortest edge: 3 cm on a crate of 1 m.
+constexpr double bevel_of_edge = 0.03;
+
+// A body's pattern has four cells across its thinnest side.
+constexpr double pattern_cell_of_radius = 0.5;
+
+double reach_of(const Vec3& half_size) {
+    std::array<double, 3> h = {half_size.x(), half_size.y(), half_size.z()};
+    std::sort(h.begin(), h.end());
+    return std::min(reach_of_half_edge * h[1], reach_of_thin_side * h[0]);
+}
+
+MeshLook make_mesh_look(const MeshAsset& asset) {
+    MeshLook look;
+    look.asset = &asset;
+    const Closedness form = closedness(asset.surface);
+    look.closed = form.closed() && form.signed_volume > 0.0;
+    Bounds bounds;
+    for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    look.bound_center = bounds.center();
+    look.half_extent = 0.5 * bounds.extent();
+    look.occluders = make_mesh_occluders(asset.surface);
+    set_mesh_probes(look);
+    return look;
+}
+
+void set_shape(BodyLook& look, const PlaneShape& plane, SceneLooks&) {
+    look.kind = DrawKind::plane;
+    look.plane = plane;
+}
+
+void set_shape(BodyLook& look, const BoxShape& box, SceneLooks&) {
+    look.kind = DrawKind::box;
+    look.half_size = 0.5 * box.size;
+    look.bound_radius = look.half_size.norm();
+    look.reach = reach_of(look.half_size);
+    look.bevel = bevel_of_edge * box.size.minCoeff();
+    look.pattern_cell = pattern_cell_of_radius * look.half_size.minCoeff();
+}
+
+void set_shape(BodyLook& look, const SphereShape& sphere, SceneLooks&) {
+    look.kind = DrawKind::ball;
+    look.half_size = Vec3::Constant(sphere.radius);
+    look.pattern_cell = pattern_cell_of_radius * sphere.radius;
+    look.bound_radius = sphere.radius;
+    look.reach = reach_of(look.half_size);
+}
+
+void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
+    const MeshAsset* asset = mesh.asset.get();
+    if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
+    look.kind = DrawKind::mesh;
+    const auto known = std::find_if(looks.meshes.begin(), looks.meshes.end(),
+                                    [&](const MeshLook& other) { return other.asset == asset; });
+    look.mesh = std::size_t(known - looks.meshes.begin());
+    if (known == looks.meshes.end()) looks.meshes.push_back(make_mesh_look(*asset));
+    const MeshLook& shared = looks.meshes[look.mesh];
+    look.bound_center = shared.bound_center;
+    look.bound_radius = shared.half_extent.norm();
+    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);  // a flat sheet has no thickness
+    look.pattern_cell = pattern_cell_of_radius * look.reach;
+}
+
+void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
+
+// Which bodies some eye of the camera has near, as they start.
+std::vector<char> bodies_near(const SceneDescription& scene, const SceneLooks& looks) {
+    std::vector<Vec3> eyes;
+    for (const CameraKeyframe& key : scene.camera.keyframes) eyes.push_back(key.eye);
+    if (eyes.empty()) eyes.push_back(scene.camera.eye);
+    std::vector<char> near(looks.bodies.size(), 0);
+    std::vector<double> distances, sorted;
+    for (const Vec3& eye : eyes) {
+        distances.assign(looks.bodies.size(), std::numeric_limits<double>::infinity());
+        sorted.clear();
+        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+            if (!(looks.bodies[i].reach > 0.0) || looks.bodies[i].ground) continue;
+            distances[i] = (scene.bodies[i].position - eye).norm();
+            sorted.push_back(distances[i]);
+        }
+        if (sorted.empty()) break;
+        const double limit = far_limit(sorted);
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (distances[i] <= limit) near[i] = 1;
+    }
+    return near;
+}
+
+// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers
+// and what is lost.
+double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
+    constexpr double stragglers = 0.02, margin = 1.1;
+    double extent = 0.0;
+    const std::vector<char> near = bodies_near(scene, looks);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> at;
+        for (std::size_t i = 0; i < looks.bodies.size(); ++i)
+            if (near[i] != 0) at.push_back(scene.bodies[i].position[axis]);
+        if (at.empty()) break;
+        const auto skipped = std::ptrdiff_t(stragglers * double(at.size()));
+        std::nth_element(at.begin(), at.begin() + skipped, at.end());
+        const double low = at[std::size_t(skipped)];
+        std::nth_element(at.begin(), at.end() - 1 - skipped, at.end());
+        extent = std::max(extent, *(at.end() - 1 - skipped) - low);
+    }
+    double cell = std::exp2(std::floor(std::log2(looks.typical_reach / OcclusionAtlas::texels_per_reach)));
+    while (margin * extent > cell * (OcclusionAtlas::largest_window - 64)) cell *= 2.0;
+    return cell;
+}
+
+}  // namespace
+
+SceneLooks make_scene_looks(const SceneDescription& scene) {
+    SceneLooks looks;
+    for (const BodyDescription& body : scene.bodies) {
+        BodyLook look;
+        look.fixed = body.type == BodyType::fixed;
+        if (body.surface.visible) {
+            std::visit([&](const auto& shape) { set_shape(look, shape, looks); }, body.shape);
+            const std::array<double, 3> linear = to_linear(body.surface.color);
+            look.color = {float(linear[0]), float(linear[1]), float(linear[2])};
+            look.roughness = float(body.surface.roughness);
+            look.metallic = float(body.surface.metallic);
+            look.pattern = body.surface.pattern;
+        }
+        if (look.kind == DrawKind::plane) looks.planes.push_back(looks.bodies.size());
+        looks.bodies.push_back(look);
+    }
+    find_grounds(scene, looks);
+    std::vector<double> reaches;
+    for (const BodyLook& look : looks.bodies)
+        if (look.reach > 0.0 && !look.ground) reaches.push_back(look.reach);
+    if (!reaches.empty()) {
+        const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
+        std::nth_element(reaches.begin(), middle, reaches.end());
+        looks.typical_reach = *middle;
+    }
+    for (const BodyLook& look : looks.bodies)
+        if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
+    looks.window_cell = window_cell_for(scene, looks);
+    choose_fine_surfaces(scene, looks);
+    return looks;
+}
+
+BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view) {
+    return {view.relative(state.origin) + state.orientation * look.bound_center, look.bound_radius};
+}
+
+float pattern_number(Pattern pattern) {
+    switch (pattern) {
+        case Pattern::grid:
+            return 1.0f;
+        case Pattern::checker:
+            return 2.0f;
+        default:
+            return 0.0f;
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,132 @@
+#include "render/shadow/caster_culling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+constexpr int cell = 4;                  // texels: boxes of a large heap are some thirty across
+constexpr double margin = 0.5;           // texels; rasterisation rounds to 1/256, of a far texel at most a quarter
+constexpr double depth_margin = 5e-4;    // of the depths' range; interpolation on steep faces is off by less
+constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Vec3 to_map(const ShadowFit& fit, const Vec3& v) {
+    const auto dot = [&](const glm::vec4& row) { return row.x * v.x() + row.y * v.y() + row.z * v.z(); };
+    return {fit.texels * dot(fit.x), fit.texels * dot(fit.y), dot(fit.z)};
+}
+
+}  // namespace
+
+ShadowCover::ShadowCover(const ShadowFit& fit)
+    : fit_(&fit), count_((fit.texels + cell - 1) / cell), depths_(std::size_t(count_) * std::size_t(count_), infinity) {}
+
+Vec3 ShadowCover::place(const Vec3& point) const {
+    return to_map(*fit_, point) + Vec3(fit_->texels * double(fit_->x.w), fit_->texels * double(fit_->y.w), double(fit_->z.w));
+}
+
+ShadowCover::Outline ShadowCover::outline(const DrawnItem& item) const {
+    std::array<Vec3, 3> axes;
+    for (int k = 0; k < 3; ++k) axes[std::size_t(k)] = to_map(*fit_, item.half_axes.col(k));
+    const Vec3 center = place(item.center);
+    const Vec3 reach = axes[0].cwiseAbs() + axes[1].cwiseAbs() + axes[2].cwiseAbs();
+    Outline o{center.x(), center.y(), reach.y(), center.z() - reach.z(), center.z() + reach.z(), {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = axes[(k + 1) % 3], &b = axes[(k + 2) % 3];
+        const double length = std::hypot(axes[k].x(), axes[k].y());
+        o.strips[k] = {0.0, 0.0, infinity};   // of an edge towards the sun
+        if (length > 0.0) {
+            const double u = -axes[k].y() / length, v = axes[k].x() / length;
+            o.strips[k] = {u, v, std::abs(u * a.x() + v * a.y()) + std::abs(u * b.x() + v * b.y())};
+        }
+        const Vec3 normal = a.cross(b);
+        o.fronts[k] = {-infinity, 0.0, 0.0};  // of a face seen edge-on
+        if (normal.z() != 0.0)
+            o.fronts[k] = {center.z() - std::abs(normal.dot(axes[k]) / normal.z()), -normal.x() / normal.z(), -normal.y() / normal.z()};
+    }
+    return o;
+}
+
+template <class See>
+bool ShadowCover::for_each_row(const Outline& o, bool wholly, See see) {
+    const int first_row = int(std::floor((o.v - o.reach_v - margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + margin) / cell));
+    for (int row = first_row; row <= last_row; ++row) {
+        const double y = (row + 0.5) * cell - o.v;
+        double low = -infinity, high = infinity;   // of the cells' middles, texels from the hexagon's
+        for (const Outline::Strip& s : o.strips) {
+            const double rim = 0.5 * cell * (std::abs(s.u) + std::abs(s.v)) + margin;
+            const double half = wholly ? s.half - rim : s.half + rim;
+            const double shift = s.v * y;
+            if (s.u == 0.0) {
+                if (!(std::abs(shift) < half)) high = -infinity;
+                continue;
+            }
+            const double middle = -shift / s.u, width = half / std::abs(s.u);
+            low = std::max(low, middle - width);
+            high = std::min(high, middle + width);
+        }
+        if (!(low < high)) continue;
+        if (!see(row, int(std::ceil((o.u + low) / cell - 0.5)), int(std::floor((o.u + high) / cell - 0.5)))) return false;
+    }
+    return true;
+}
+
+void ShadowCover::add(const DrawnItem& box) {
+    const Outline o = outline(box);
+    for_each_row(o, true, [&](int row, int first, int last) {
+        if (row < 0 || row >= count_) return true;
+        for (int column = std::max(first, 0); column <= std::min(last, count_ - 1); ++column) {
+            const double x = (column + 0.5) * cell - o.u, y = (row + 0.5) * cell - o.v;
+            double deepest = o.nearest;
+            for (const Outline::Front& f : o.fronts)
+                deepest = std::max(deepest, f.depth + f.du * x + f.dv * y + 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
+            double& depth = depths_[std::size_t(row * count_ + column)];
+            depth = std::min(depth, std::min(deepest, o.furthest));
+        }
+        return true;
+    });
+}
+
+bool ShadowCover::hides(const DrawnItem& item) const {
+    // Most are seen at their middle.
+    const Vec3 middle = place(item.center) / cell;
+    if (!(middle.x() >= 0.0 && middle.x() < count_ && middle.y() >= 0.0 && middle.y() < count_)) return false;
+    if (!(depths_[std::size_t(int(middle.y()) * count_ + int(middle.x()))] < cell * middle.z())) return false;
+    const Outline o = outline(item);
+    return for_each_row(o, false, [&](int row, int first, int last) {
+        if (row < 0 || row >= count_ || first < 0 || last >= count_) return false;
+        for (int column = first; column <= last; ++column) {
+            const double x = (column + 0.5) * cell - o.u, y = (row + 0.5) * cell - o.v;
+            double nearest = o.nearest;
+            for (const Outline::Front& f : o.fronts)
+                nearest = std::max(nearest, f.depth + f.du * x + f.dv * y - 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
+            if (!(depths_[std::size_t(row * count_ + column)] + depth_margin < nearest)) return false;
+        }
+        return true;
+    });
+}
+
+void drop_hidden_casters(const SceneLooks& looks, const std::vector<DrawnItem>& items, const ShadowFit& fit,
+                         std::vector<char>& casting) {
+    struct Caster {
+        double depth;
+        std::uint32_t item;
+    };
+    std::vector<Caster> casters;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (casting[i] != 0) casters.push_back({to_map(fit, items[i].center).z(), std::uint32_t(i)});
+    if (casters.size() < fewest) return;
+    std::sort(casters.begin(), casters.end(), [](const Caster& a, const Caster& b) {
+        return a.depth != b.depth ? a.depth < b.depth : a.item < b.item;
+    });
+    ShadowCover cover(fit);
+    for (const Caster& caster : casters) {
+        if (cover.hides(items[caster.item])) casting[caster.item] = 0;
+        else if (caster.item < looks.bodies.size() && looks.bodies[caster.item].kind == DrawKind::box) cover.add(items[caster.item]);
+    }
+}
+
+}  // namespace tumble

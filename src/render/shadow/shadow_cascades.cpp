@@ -1,0 +1,201 @@
+#include "render/shadow/shadow_cascades.h"
+
+#include "render/scene/distance_outliers.h"
+#include "render/gl/glm_conversion.h"
+#include "render/scene/large_receivers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Bodies roll a little out of the place where they start and land.
+constexpr double near_margin = 1.3;
+
+// A shadow's edge is about three texels wide. Around few bodies the map could be so fine that the edge looks cut with
+// scissors: a texel is at least this part of the bodies' typical reach (their half edge).
+constexpr double least_texel_of_reach = 0.02;
+
+// In small pictures a texel may be much less than a pixel. Then shadows are filtered by pixels, from texels of this part of one
+// (at the bodies' median distance) down; finer than the second they need not be, and a pixel seen at a low angle would be more
+// texels than its filter reaches.
+constexpr double filtered_by_pixel = 0.9, finest_pixels = 0.2;
+
+// Bodies may lie so far apart that one map around all has texels wider than so many pixels where the nearest eighth of them
+// ends: their shadows would be lost. Then the near map holds the nearest ones only, as many as leave it so fine.
+constexpr double lost_pixels = 8.0, fine_pixels = 3.0;
+
+// A ball of more than this part of the near map across that reaches out of it has sharp shadows within and coarse ones
+// beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
+constexpr double least_span = 0.5;
+
+// Lost bodies must not blur what is left: the far map grows to this many times the near one.
+constexpr double most_growth = 64.0;
+
+// The near map is at least this part of what all bodies take up, so that they lie within the far one, wherever in it the near
+// one lies.
+constexpr double least_of_all = 2.2 / most_growth;
+
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    void add(double at, double radius) {
+        low = std::min(low, at - radius);
+        high = std::max(high, at + radius);
+    }
+    bool empty() const { return low > high; }
+    double size() const { return high - low; }
+};
+
+/// Where a body starts, or lands.
+struct Place {
+    Vec3 center;
+    double radius, distance;   // m; from the eye
+};
+
+struct Held {
+    std::size_t count;
+    double size_of_all;   // m, across the light
+};
+
+/// How many of the places, which are in the order of their distance, the near map is made for.
+Held places_to_hold(const std::vector<Place>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
+    Extent x, y;
+    std::size_t fine = 0, finest = 0;
+    double blur = 0.0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        x.add(x_axis.dot(places[i].center), places[i].radius);
+        y.add(y_axis.dot(places[i].center), places[i].radius);
+        blur = near_margin * std::max(x.size(), y.size()) / texels / (pixel_size * places[i / 8].distance);   // pixels
+        if (blur <= fine_pixels) fine = i + 1;
+        if (blur < least) least = blur, finest = i + 1;
+    }
+    const double size = places.empty() ? 0.0 : std::max(x.size(), y.size());
+    if (blur <= lost_pixels) return {places.size(), size};
+    return {fine > 0 ? fine : finest, size};
+}
+
+double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
+
+}  // namespace
+
+double ShadowFit::far_along() const {
+    return filter.by_pixel ? 0.5 * std::max(least_pixel_step, most_pixel_step * near_texel / far_texel) + 1.0 : filter.along;
+}
+
+bool ShadowFit::near_holds(const Vec3& center, double radius) const {
+    // the filter's margin, and the offset along the normal
+    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.reach / texels;
+    for (const glm::vec4& row : {x, y})
+        if (std::abs(row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w) - 0.5) > room)
+            return false;
+    return true;
+}
+
+bool ShadowFit::spans_maps(const Vec3& center, double radius) const {
+    return 2.0 * radius > least_span * near_texel * texels && !near_holds(center, radius);
+}
+
+ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels)
+    : texels_(texels) {
+    z_axis_ = scene.light.direction.normalized();
+    const Vec3 across = std::abs(z_axis_.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
+    x_axis_ = (across - z_axis_ * z_axis_.dot(across)).normalized();
+    y_axis_ = z_axis_.cross(x_axis_);
+
+    const double gravity = scene.simulation.gravity.norm();
+    const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
+    const Landing landing(scene, looks);
+    std::vector<Place> places;
+    const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
+    const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
+        const Vec3 center = origin + rotation * look.bound_center;
+        const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
+        for (const Vec3& p : {center, landed})
+            if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
+                places.push_back({p, look.bound_radius, view.relative(p).norm()});
+    };
+    // A ground does not widen the map: what throws a shadow on it lies at the same place of the map as the shadow.
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
+        const BodyDescription& body = scene.bodies[i];
+        add(look, body.position, body.rotation, body.type == BodyType::dynamic);
+        for (const Keyframe& key : body.keyframes) add(look, key.position, key.rotation, false);
+    }
+
+    std::vector<double> distances;
+    for (const Place& p : places) distances.push_back(p.distance);
+    const double limit = far_limit(distances);
+    std::erase_if(places, [&](const Place& p) { return p.distance + p.radius > limit; });
+    double least = 0.0;   // of the near map: what it leaves out must lie within the far one
+    if (!turns) {
+        std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.distance < b.distance; });
+        const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
+        places.resize(held.count);
+        least = least_of_all * held.size_of_all;
+    }
+    Extent x, y;
+    distances.clear();
+    for (const Place& p : places) {
+        x.add(x_axis_.dot(p.center), p.radius);
+        y.add(y_axis_.dot(p.center), p.radius);
+        distances.push_back(p.distance);
+    }
+    if (x.empty()) {  // nothing in view at first: what the camera looks at
+        const Vec3 target = view.eye() + view.forward() * view.target_distance();
+        x.add(x_axis_.dot(target), 0.5 * view.target_distance());
+        y.add(y_axis_.dot(target), 0.5 * view.target_distance());
+    }
+    const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
+    const double softest = texels * std::min(least_texel_of_reach * looks.typical_reach, fine_pixels * pixel);
+    size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
+    if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
+    low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
+    low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
+}
+
+ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+                           const Vec3& carried) const {
+    const double texel = size_ / texels_;
+    const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
+    const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
+    Extent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        const BodyLook& look = looks.bodies[i];
+        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+        if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
+        const Vec3 center = view.eye() + ball.center;
+        x.add((x_axis_.dot(center) - low_x) / size_, ball.radius / size_);
+        y.add((y_axis_.dot(center) - low_y) / size_, ball.radius / size_);
+        z.add(z_axis_.dot(center), ball.radius);
+    }
+    if (x.empty()) x.add(0.5, 0.5), y.add(0.5, 0.5), z.add(0.0, size_);
+
+    ShadowFit fit;
+    fit.texels = texels_;
+    fit.filter = filter_;
+    fit.near_texel = size_ / texels_;
+    const auto row = [&](const Vec3& axis, double low, double size) {
+        return to_glm(axis / size, (axis.dot(view.eye()) - low) / size);
+    };
+    fit.x = row(x_axis_, low_x, size_);
+    fit.y = row(y_axis_, low_y, size_);
+
+    // The depths' range keeps to powers of two as well, so that a moving body does not round the others' depths anew.
+    const double depth_step = power_of_two_at_least(z.size());
+    const double low_z = depth_step * std::floor(z.low / depth_step);
+    fit.z = row(z_axis_, low_z, depth_step * (std::floor(z.high / depth_step) + 1.0) - low_z);
+
+    const double reach =
+        std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});  // from the near map's middle
+    fit.has_far = reach > 0.5 - 8.0 / texels_;                             // the filter's margin
+    const double growth = fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * reach))) : 1.0;
+    fit.far =
+        glm::vec4(float(1.0 / growth), float(0.5 - 0.5 / growth), float(0.5 - 0.5 / growth), fit.has_far ? 1.0f : 0.0f);
+    fit.far_texel = growth * fit.near_texel;
+    return fit;
+}
+
+}  // namespace tumble

@@ -1,0 +1,89 @@
+// What throws no shadow of its own: all that the sun could see of it lies behind other boxes.
+#include "example_scenes.h"
+#include "random.h"
+
+#include "render/shadow/caster_culling.h"
+
+#include <gtest/gtest.h>
+
+namespace tumble {
+namespace {
+
+// Does the way from `point` to the sun pass through the box?
+bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) { return passes_through(box, point, to_sun, 1e9); }
+
+/// Boxes in a cloud, wide ones among them, and the sun's view of them.
+struct Cloud {
+    Cloud() {
+        Random random(5);
+        for (int i = 0; i < 600; ++i) {
+            const Vec3 size = random.vector(0.3) + Vec3::Constant(i % 10 == 0 ? 2.0 : 0.6);
+            scene.bodies.push_back(box_body(random.vector(4.0, 4.0, 4.0), size, {200, 200, 200}, random.turn()));
+        }
+        looks = make_scene_looks(scene);
+        snapshot = first_snapshot(scene);
+        items = make_drawn_items(scene, looks, snapshot, view);
+        fit = ShadowStage(scene, looks, view, 768).fit(looks, snapshot, view);
+    }
+
+    SceneDescription scene = empty_scene();
+    SceneLooks looks;
+    CameraView view{scene.camera, 320, 180};
+    Snapshot snapshot;
+    std::vector<DrawnItem> items;
+    ShadowFit fit;
+};
+
+TEST(ShadowCover, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
+    const Cloud cloud;
+    std::vector<char> casting(cloud.items.size(), 1);
+    drop_hidden_casters(cloud.looks, cloud.items, cloud.fit, casting);
+    const Vec3 to_sun = -cloud.scene.light.direction.normalized();
+    int dropped = 0;
+    for (std::size_t i = 0; i < cloud.items.size(); ++i) {
+        if (casting[i] != 0) continue;
+        ++dropped;
+        for (double u = -1.0; u <= 1.0; u += 0.25)
+            for (double v = -1.0; v <= 1.0; v += 0.25)
+                for (int axis = 0; axis < 3; ++axis)
+                    for (const double side : {-1.0, 1.0}) {
+                        Vec3 on_cube;
+                        on_cube[axis] = side;
+                        on_cube[(axis + 1) % 3] = u;
+                        on_cube[(axis + 2) % 3] = v;
+                        const Vec3 point = cloud.view.eye() + cloud.items[i].center + cloud.items[i].half_axes * on_cube;
+                        bool shaded = false;
+                        for (std::size_t k = 0; k < cloud.items.size() && !shaded; ++k)
+                            shaded = casting[k] != 0 && shades(cloud.scene.bodies[k], point, to_sun);
+                        ASSERT_TRUE(shaded) << "body " << i;
+                    }
+    }
+    EXPECT_GT(dropped, 150) << "of 600: there is much to leave out";
+}
+
+TEST(ShadowCover, HidesWhatLiesBehindAndNothingElse) {
+    SceneDescription scene = empty_scene();
+    const Vec3 down = scene.light.direction.normalized();
+    const Vec3 across = down.unitOrthogonal();
+    const Quat turned = Quat::FromTwoVectors(Vec3::UnitZ(), down);
+    const auto cube = [&](const Vec3& at, double size) { return box_body(at, Vec3::Constant(size), {200, 200, 200}, turned); };
+    scene.bodies = {cube(Vec3(0.0, 2.0, 0.0), 2.0)};
+    const Vec3 front = scene.bodies[0].position;
+    for (const auto& [away, beside] : {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
+        scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
+    scene.bodies.push_back(cube(front + 2.0 * down, 2.5));   // wider than what lies before it
+    const SceneLooks looks = make_scene_looks(scene);
+    const CameraView view(scene.camera, 320, 180);
+    const Snapshot snapshot = first_snapshot(scene);
+    const std::vector<DrawnItem> items = make_drawn_items(scene, looks, snapshot, view);
+    const ShadowFit fit = ShadowStage(scene, looks, view, 768).fit(looks, snapshot, view);
+    ShadowCover cover(fit);
+    cover.add(items[0]);
+    std::vector<bool> hidden;
+    for (const DrawnItem& item : items) hidden.push_back(cover.hides(item));
+    EXPECT_EQ(hidden, (std::vector<bool>{false, true, true, false, false, true, true, false}))
+        << "itself; behind; behind, beside; out at the rim; before; within; far behind; wider";
+}
+
+}  // namespace
+}  // namespace tumble
