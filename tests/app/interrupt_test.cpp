@@ -1,5 +1,5 @@
 // Signals that ask the program to end: taken between two pieces of work, and never in the middle of a report.
-#include "app/interrupt.h"
+#include "app/threads/interrupt.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Files get their names in the order in which they were put, however long each takes to reach the disk.
-#include "app/publish_queue.h"
+#include "app/files/publish_queue.h"
 #include "core/error.h"
 
 #include "../support/folder.h"

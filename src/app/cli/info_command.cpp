@@ -1,0 +1,166 @@
+#include "app/cli/commands.h"
+#include "app/workers/frame_memory.h"
+#include "app/cli/say.h"
+#include "app/threads/stage_timer.h"
+#include "core/available_memory.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "sim/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
+constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
+
+const char* type_text(BodyType type) {
+    switch (type) {
+        case BodyType::dynamic: return "dynamic";
+        case BodyType::fixed: return "fixed";
+        case BodyType::kinematic: return "kinematic";
+    }
+    return "";
+}
+
+/// The kind of shape alone, for the groups, and with its measures, for the list.
+struct ShapeText {
+    std::string kind, measures;
+};
+
+ShapeText shape_text(const Shape& shape) {
+    struct Tell {
+        ShapeText operator()(const PlaneShape& s) const { return {"plane", fmt::format("offset {:.4g}", s.offset)}; }
+        ShapeText operator()(const BoxShape& s) const {
+            return {"box", fmt::format("{:.4g} x {:.4g} x {:.4g}", s.size.x(), s.size.y(), s.size.z())};
+        }
+        ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
+        ShapeText operator()(const MeshShape& s) const {
+            return {"mesh", fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
+                                        s.asset->surface.triangles.size())};
+        }
+        ShapeText operator()(const CompoundShape& s) const { return {"compound", fmt::format("{} parts", s.parts->size())}; }
+    };
+    return std::visit(Tell{}, shape);
+}
+
+std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }
+
+std::string camera_motion(const SceneDescription& scene) {
+    std::string text;
+    if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
+    if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
+    if (scene.camera.follow) text += fmt::format(", following {}", safe_text(scene.bodies[*scene.camera.follow].name));
+    return text;
+}
+
+void print_head(const SceneDescription& scene) {
+    const std::string file = safe_path(scene.file);
+    put("{}{}\n", scene.title.empty() ? file : safe_text(scene.title), scene.title.empty() ? "" : " (" + file + ")");
+    const std::int64_t frames = scene.frame_count();
+    const int steps = scene.simulation.steps_per_frame;
+    put("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
+               scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
+    put("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
+               scene.output.samples, scene.light.shadows ? "on" : "off");
+    put("  camera    from {} to {}, {:.4g} degrees high{}\n", vector_text(scene.camera.eye),
+               vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
+    put("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
+    if (scene.wind)
+        put("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
+                   scene.wind->density, scene.wind->drag);
+    if (!scene.forces.empty()) put("  forces    {} at points of bodies\n", scene.forces.size());
+}
+
+void print_groups(const SceneDescription& scene, const World& world) {
+    struct Group {
+        std::size_t count = 0;
+        double mass = 0.0;
+    };
+    std::map<std::pair<BodyType, std::string>, Group> groups;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        Group& group = groups[{body.type, shape_text(body.shape).kind}];
+        ++group.count;
+        group.mass += world.report(i).mass;
+    }
+    put("\n{} bodies\n", scene.bodies.size());
+    for (const auto& [key, group] : groups) {
+        put("  {:>7} {} {}", group.count, type_text(key.first), key.second);
+        if (key.first == BodyType::dynamic) put(", {:.6g} kg in all", group.mass);
+        put("\n");
+    }
+}
+
+void print_bodies(const SceneDescription& scene, const World& world) {
+    if (scene.bodies.empty()) return;
+    put("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
+               "principal inertia (kg m^2)", "hull");
+    const std::size_t count = std::min(scene.bodies.size(), listed_bodies);
+    for (std::size_t i = 0; i < count; ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        const BodyReport report = world.report(i);
+        const ShapeText shape = shape_text(body.shape);
+        const bool moves = body.type == BodyType::dynamic;
+        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type), shape.kind,
+                   shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
+                   moves ? vector_text(report.principal_inertia) : "-",
+                   report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
+    }
+    if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
+    put("  hull: vertices of the convex shape that collides\n");
+}
+
+/// Steps the world for a moment, and takes that for the whole: heaps that form later cost more.
+std::string simulation_cost(const SceneDescription& scene, World& world) {
+    const std::int64_t frames = scene.frame_count() - 1;
+    if (frames <= 0) return "nothing to simulate";
+    const double start = wall_seconds();
+    std::int64_t done = 0;
+    try {
+        while (done < frames && wall_seconds() - start < trial_seconds) {
+            world.advance_frame();
+            ++done;
+        }
+    } catch (const RunError& error) {
+        return fmt::format("the simulation fails: {}", error.what());
+    }
+    const double seconds = wall_seconds() - start;
+    return fmt::format("about {:.3g} s on one thread, by its first {} frames", seconds * double(frames) / double(done),
+                       done);
+}
+
+void print_cost(const SceneDescription& scene, World& world) {
+    const double pixels = double(scene.output.width) * scene.output.height;
+    PictureWork work;
+    work.clip = VideoKind::h264;
+    work.forms.video = PixelForm::yuv420;
+    work.frames = scene.frame_count();
+    const PictureMemory memory = picture_memory(scene, work);
+    put("\ncost\n");
+    put("  simulation  {}\n", simulation_cost(scene, world));
+    put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
+               1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
+    put("  memory      about {} for the pictures of each drawing process and {} for those of ffmpeg, for any number of frames\n",
+               memory_text(memory.worker), memory_text(memory.encoder));
+}
+
+}  // namespace
+
+void run_info(const InfoCommand& command) {
+    const SceneDescription scene = load_scene(command.scene, command.overrides);
+    World world(scene);
+    print_head(scene);
+    print_groups(scene, world);
+    print_bodies(scene, world);
+    print_cost(scene, world);
+}
+
+}  // namespace tumble

@@ -1,0 +1,34 @@
+#include "app/cli/options.h"
+#include "app/cli/say.h"
+#include "app/cli/standard_streams.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+
+#include <csignal>
+#include <exception>
+#include <new>
+
+int main(int argc, char** argv) {
+    tumble::open_missing_standard_streams();
+    // A file that grows beyond the user's limit, and a pipe whose reader is gone, are then errors of the write that met
+    // them, like a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        const int code = tumble::run_command_line(argc, argv);
+        tumble::finish_standard_output();
+        return code;
+    } catch (const tumble::InputError& error) {
+        tumble::say("{}\n", error.what());
+        return 2;
+    } catch (const tumble::RunError& error) {
+        tumble::say("{}\n", error.what());
+        return 1;
+    } catch (const std::bad_alloc&) {
+        tumble::say_text("error: out of memory\n");
+        return 1;
+    } catch (const std::exception& error) {
+        tumble::say("error: {}\n", tumble::safe_lines(error.what()));
+        return 1;
+    }
+}

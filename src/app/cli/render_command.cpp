@@ -1,0 +1,174 @@
+#include "app/cli/commands.h"
+#include "app/threads/interrupt.h"
+#include "app/files/output_plan.h"
+#include "app/workers/frame_memory.h"
+#include "app/pipeline/pipeline.h"
+#include "app/cli/progress.h"
+#include "app/cli/say.h"
+#include "app/threads/thread_budget.h"
+#include "app/timing/time_scaling.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What was written, and where the time went.
+struct Summary {
+    const SceneDescription& scene;
+    const FrameRange& frames;
+    const Pipeline& pipeline;
+    const FrameFolder* folder;
+    const AovFolder* aovs;
+    const VideoWriter* video;
+    const Drawer& drawer;
+    ProcessEnd workers_end;
+    std::optional<fs::path> clip;
+    double clip_fps;
+    double seconds;
+
+    void print() const {
+        if (video != nullptr)
+            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(),
+                       scene.output.width, scene.output.height, every_so_manieth(), stored());
+        if (folder != nullptr)
+            say("wrote {} to {}\n", safe_path(frame_path(folder->path(), frames.first)),
+                       frame_path(folder->path(), frames.end - 1).filename().string());
+        if (aovs != nullptr)
+            say("wrote {} to {}: {}\n", safe_path(aov_path(aovs->path(), frames.first)),
+                       aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
+        print_times();
+        if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
+        if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
+    }
+
+    std::string every_so_manieth() const {
+        if (video->frames_in_clip() == frames.count()) return "";
+        return fmt::format(" (every {}. of {}: the format holds no more)",
+                           video_format(*clip, clip_fps).frame_step, frames.count());
+    }
+
+    std::string stored() const {
+        if (video->frames_stored() == video->frames_in_clip()) return "";
+        return fmt::format(", stored as {} (what does not change is shown longer)", video->frames_stored());
+    }
+
+    void print_times() const {
+        const PipelineTimes& t = pipeline.times();
+        std::string text = fmt::format("{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s",
+                                       seconds, double(frames.count()) / seconds, drawer.drawn(), t.simulation.cpu.load(),
+                                       t.drawing.drawing.cpu.load());
+        if (folder != nullptr) text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
+        if (aovs != nullptr)
+            text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
+        if (video != nullptr)
+            text += fmt::format(", conversion {:.2f} s, video {:.2f} s", t.drawing.conversion.cpu.load(),
+                                t.video.cpu.load() + video->encoder_seconds());
+        rusage used{};
+        getrusage(RUSAGE_SELF, &used);
+        say("{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
+    }
+
+    /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
+    void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
+                     fs::path (&path)(const fs::path&, std::int64_t)) const {
+        const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
+        if (older != there.end())
+            say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
+                       safe_path(path(where, *older)));
+    }
+};
+
+/// The folder that the AOVs go to, if any are asked for.
+std::optional<fs::path> aov_folder(const RenderCommand& command) {
+    if (command.aovs.empty() && command.aov_folder)
+        throw InputError("--aov-folder: --aov must say what to write there, as in --aov depth,normal");
+    if (command.aovs.empty()) return std::nullopt;
+    if (!command.aov_folder && !command.frames)
+        throw InputError("--aov: --frames or --aov-folder must say where to write it");
+    return command.aov_folder ? command.aov_folder : command.frames;
+}
+
+/// Throws InputError where outputs would replace each other or what is read.
+void check_outputs(const RenderCommand& command, const FileList& inputs, const FrameRange& frames,
+                   const std::optional<fs::path>& clip, const std::optional<fs::path>& aovs_to) {
+    OutputPlan plan;
+    for (const fs::path& file : inputs) plan.add_input(file);
+    if (clip) plan.add("--output", *clip);
+    if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
+    if (command.frames)
+        plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
+    if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
+}
+
+}  // namespace
+
+void run_render(const RenderCommand& command) {
+    const double start = wall_seconds();
+    const std::optional<fs::path> aovs_to = aov_folder(command);
+    FileList inputs;
+    SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    const double clip_fps = scene.output.fps;
+    apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
+    const FrameRange frames = frames_from(scene, command.start);
+    const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
+    std::optional<fs::path> clip = command.clip;
+    if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
+
+    // What can be wrong with the outputs is found out before anything is simulated or written.
+    PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
+    const FrameForms& forms = work.forms;
+    if (clip) {
+        const VideoFormat format = video_format(*clip, clip_fps);
+        work.forms.video = format.pixels;
+        work.clip = format.kind;
+        find_ffmpeg();
+    }
+    check_outputs(command, inputs, frames, clip, aovs_to);
+    const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
+    const int workers = workers_that_fit(scene, work, wanted_workers);
+    if (workers < wanted_workers && !command.quiet)
+        say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
+    Interrupt interrupt;   // before any thread or process is made
+    // Before any thread. They open OpenGL while the bodies are built.
+    Drawer drawer(scene, command.drawing, forms, workers, shutter.moments);
+    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
+    World world = [&] {
+        SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies
+        divide_frames(in_parts, shutter.parts);
+        return World(in_parts, threads);
+    }();
+    std::optional<FrameFolder> folder;
+    if (command.frames) folder.emplace(*command.frames);
+    std::optional<FrameFolder> own_aov_folder;
+    std::error_code missing;
+    if (aovs_to && !(folder && fs::equivalent(*aovs_to, folder->path(), missing))) own_aov_folder.emplace(*aovs_to);
+    std::optional<AovFolder> aovs;
+    if (aovs_to) aovs.emplace(*aovs_to, scene, command.aovs);
+    std::optional<VideoWriter> video;
+    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.clip_options);
+
+    Pipeline pipeline(world, frames, drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
+                      aovs ? &*aovs : nullptr, shutter);
+    {
+        Progress progress(frames.count(), command.quiet);
+        pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
+    }
+    const ProcessEnd workers_end = drawer.finish();
+    if (!command.quiet)
+        Summary{scene, frames, pipeline, folder ? &*folder : nullptr, aovs ? &*aovs : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
+                clip_fps, wall_seconds() - start}
+            .print();
+}
+
+}  // namespace tumble

@@ -1,0 +1,39 @@
+#include "app/files/aov_folder.h"
+
+#include "app/files/frame_folder.h"
+#include "output/table_writer.h"
+#include "render/aov/shape_instance.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace tumble {
+
+std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame) {
+    return folder / fmt::format("aov_{:06}.npz", frame);
+}
+
+std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder) { return numbers_in(folder, "aov_", ".npz"); }
+
+std::filesystem::path segmentation_table_path(const std::filesystem::path& folder) { return folder / "segmentation.csv"; }
+
+std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<const std::byte> file) {
+    if (!std::exchange(begun_, true) && aovs_.has(Aov::segmentation)) write_table();
+    auto part = std::make_unique<TemporaryFile>(aov_path(folder_, frame), LeftParts::kept);
+    part->write(file);
+    return part;
+}
+
+/// A row a number: 0 is the background; bodies and cords by their index in the scene.
+void AovFolder::write_table() const {
+    TableWriter table(segmentation_table_path(folder_), "id,kind,index,name");
+    table.integer(0).text("background").text("").text("").end_row();
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+        table.integer(body_id(i)).text("body").integer(std::int64_t(i)).text(scene_.bodies[i].name).end_row();
+    for (std::size_t i = 0; i < scene_.cords.size(); ++i)
+        table.integer(cord_id(scene_, i)).text("cord").integer(std::int64_t(i)).text("").end_row();
+    table.finish();
+}
+
+}  // namespace tumble

@@ -1,0 +1,48 @@
+// A folder of frames: frame_000000.png, frame_000001.png, ...
+#pragma once
+
+#include "app/files/folder_lock.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// The file of frame n. Six digits, more where needed.
+std::filesystem::path frame_path(const std::filesystem::path& folder, std::int64_t frame);
+
+/// The numbers of the frames that are in the folder, ascending. Throws InputError where it is no folder.
+std::vector<std::int64_t> frames_in(const std::filesystem::path& folder);
+
+/// The same of any files whose name is `before`, a number of six digits or more, and `after`.
+std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::string_view before, std::string_view after);
+
+/// The number in such a name; nothing where it is none.
+std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after);
+
+/// A folder to write frames into, for this run alone: made where it is missing, and taken away again if nothing ever came
+/// into it.
+class FrameFolder {
+public:
+    /// Removes what killed runs left half-written of frames and AOVs. Throws RunError where the folder cannot be made or
+    /// written into, or another run writes into it.
+    explicit FrameFolder(const std::filesystem::path& folder);
+    ~FrameFolder();
+    FrameFolder(const FrameFolder&) = delete;
+    FrameFolder& operator=(const FrameFolder&) = delete;
+
+    const std::filesystem::path& path() const { return folder_; }
+
+private:
+    void make();
+    void remove_empty() const;
+
+    std::filesystem::path folder_;
+    std::vector<std::filesystem::path> made_;   // outermost first
+    std::optional<FolderLock> lock_;
+};
+
+}  // namespace tumble

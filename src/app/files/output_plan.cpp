@@ -1,0 +1,122 @@
+#include "app/files/output_plan.h"
+
+#include "app/files/frame_folder.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/output_target.h"
+
+#include <fmt/format.h>
+
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// Linux's null device: what is written there together is not mixed.
+bool swallows_all(const struct stat& status) { return S_ISCHR(status.st_mode) && status.st_rdev == makedev(1, 3); }
+
+}  // namespace
+
+std::optional<OutputPlan::File> OutputPlan::file_at(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0 || swallows_all(status)) return std::nullopt;
+    return File{status.st_dev, status.st_ino};
+}
+
+std::optional<OutputPlan::Place> OutputPlan::place_of(const fs::path& path) {
+    fs::path rest = path.filename();
+    for (fs::path folder = folder_of(path);; folder = folder_of(folder)) {
+        if (const auto there = file_at(folder)) return Place{*there, rest};
+        if (folder == folder_of(folder)) return std::nullopt;
+        rest = folder.filename() / rest;
+    }
+}
+
+bool OutputPlan::is_one_of(const Place& place, const OutputSeries& series) {
+    const auto any = place_of(series.path(series.folder, series.first));
+    if (!any || any->folder != place.folder) return false;
+    if (place.rest == any->rest.parent_path()) return true;   // the folder itself, before it is made
+    if (place.rest.parent_path() != any->rest.parent_path()) return false;
+    const std::string name = place.rest.filename().string();
+    const auto number = number_in(name, series.before, series.after);
+    return number && *number >= series.first && *number < series.end && series.path(series.folder, *number).filename() == name;
+}
+
+OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path& name) {
+    const OutputTarget target = output_target(name);
+    Output output{option, name, std::nullopt, std::nullopt};
+    if (target.descriptor) {
+        struct stat status {};
+        // Later a file of our own might have this number.
+        if (::fstat(*target.descriptor, &status) != 0)
+            throw RunError(fmt::format("cannot write '{}': {}", safe_path(name), std::generic_category().message(errno)));
+        if (!swallows_all(status)) output.file = File{status.st_dev, status.st_ino};
+        return output;
+    }
+    output.file = file_at(target.path);
+    if (!target.in_place) output.place = place_of(target.path);
+    return output;
+}
+
+void OutputPlan::compare_with_inputs(const Output& output) const {
+    for (const Input& input : inputs_)
+        if (output.file == input.file)
+            throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", output.option, safe_path(output.name),
+                                         safe_path(input.name)));
+}
+
+void OutputPlan::compare_with_outputs(const Output& output) const {
+    const auto fail = [&](const std::string& option, const fs::path& name) {
+        throw InputError(fmt::format("{} and {} must be two files ('{}' and '{}' are one)", option, output.option,
+                                     safe_path(name), safe_path(output.name)));
+    };
+    for (const Output& other : outputs_)
+        if ((output.place && output.place == other.place) || (output.file && output.file == other.file))
+            fail(other.option, other.name);
+    for (const OutputSeries& series : series_)
+        if (output.place && is_one_of(*output.place, series)) fail(series.option, series.folder);
+}
+
+void OutputPlan::add_input(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return;
+    if (const auto there = file_at(file)) inputs_.push_back({file, *there});
+}
+
+void OutputPlan::add(const std::string& option, const fs::path& file) {
+    const Output output = look_at(option, file);
+    compare_with_inputs(output);
+    compare_with_outputs(output);
+    outputs_.push_back(output);
+}
+
+void OutputPlan::add(const OutputSeries& series) {
+    series_.push_back(series);
+    for (const Output& output : outputs_)
+        if (output.place && is_one_of(*output.place, series))
+            throw InputError(fmt::format("{} and {} must be two files ('{}' is a name in '{}')", output.option, series.option,
+                                         safe_path(output.name), safe_path(series.folder)));
+    std::error_code error;
+    if (!fs::is_directory(series.folder, error)) return;
+    for (const std::int64_t number : numbers_in(series.folder, series.before, series.after)) {
+        const fs::path name = series.path(series.folder, number);
+        const fs::file_status status = fs::symlink_status(name, error);
+        if (number < series.first || number >= series.end || !fs::exists(status)) continue;
+        Output output = look_at(series.option, name);
+        compare_with_inputs(output);
+        // Two names of one file in a folder are no harm: each is replaced by itself.
+        if (fs::is_regular_file(status)) output.place.reset();
+        compare_with_outputs(output);
+        if (fs::is_symlink(status)) outputs_.push_back(output);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,80 @@
+// The whole street at work at once:
+//
+//   simulation ──poses──> drawing processes ──frames──┬──> PNG files
+//                                                     ├──> AOV files
+//                                                     └──> video (ffmpeg)
+//
+// What a frame becomes (planes for ffmpeg, a PNG file, its AOVs) is made where it is drawn; here it is only written. Each arrow is a
+// bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the clip is. The first error
+// of any stage stops all of them.
+#pragma once
+
+#include "app/files/aov_folder.h"
+#include "app/workers/render_pool.h"
+#include "app/files/frame_folder.h"
+#include "app/timing/frame_range.h"
+#include "app/files/publish_queue.h"
+#include "app/threads/stage_timer.h"
+#include "output/video_writer.h"
+#include "scene/description/description.h"
+#include "sim/world.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+namespace tumble {
+
+class Interrupt;
+class StageGroup;
+
+/// What the stages used; they overlap, so that the sum is more than the run.
+struct PipelineTimes {
+    StageTime simulation;
+    DrawingTimes drawing;
+    StageTime files, aov_files, video;
+};
+
+class Pipeline {
+public:
+    /// Simulates the frames up to the range's end and draws those in it; each goes to the outputs that are there (null: not
+    /// asked for).
+    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
+    /// the outputs want.
+    Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+             AovFolder* aovs = nullptr, Shutter shutter = {});
+
+    /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
+    /// Throws the first error of any stage; RunError when interrupted. Frames published by then are whole, and stay.
+    void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
+
+    const PipelineTimes& times() const { return times_; }
+
+private:
+    void simulate();
+    Exposure expose(std::int64_t frame);
+    Snapshot after_the_last();
+    void write_frames();
+    void write_aovs();
+    void write_video();
+    bool hand_on(const Frame& frame);
+    std::int64_t finished() const;
+
+    World& world_;
+    FrameRange frames_;
+    Drawer& drawer_;
+    const FrameFolder* folder_;
+    VideoWriter* video_;
+    AovFolder* aovs_;
+    Shutter shutter_;
+    BoundedQueue<Exposure> poses_;
+    BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
+    PublishQueue frame_files_, aov_files_;
+    std::atomic<std::int64_t> filmed_{0};
+    PipelineTimes times_;
+};
+
+/// Waits for the stages of a run: reports, and stops them when the user interrupts. Throws their first error.
+void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<void()>& report);
+
+}  // namespace tumble

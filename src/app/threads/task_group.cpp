@@ -1,0 +1,65 @@
+#include "app/threads/task_group.h"
+
+#include "core/error.h"
+#include "core/start_thread.h"
+
+#include <utility>
+
+namespace tumble {
+
+StageGroup::~StageGroup() {
+    if (!wait(std::chrono::milliseconds(0))) stop(std::make_exception_ptr(RunError("stopped")));
+    join();
+}
+
+void StageGroup::on_stop(std::function<void()> action) { stop_actions_.push_back(std::move(action)); }
+
+void StageGroup::start(std::function<void()> stage) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++running_;
+    }
+    const auto run = [this, work = std::move(stage)] {
+        try {
+            work();
+        } catch (...) {
+            stop(std::current_exception());
+        }
+        const std::lock_guard lock(mutex_);
+        --running_;
+        ended_.notify_all();
+    };
+    try {
+        threads_.push_back(start_thread<std::thread>(run));
+    } catch (...) {   // no more threads to be had
+        const std::lock_guard lock(mutex_);
+        --running_;
+        throw;
+    }
+}
+
+void StageGroup::stop(std::exception_ptr why) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (error_) return;
+        error_ = std::move(why);
+    }
+    for (const auto& action : stop_actions_) action();
+}
+
+bool StageGroup::wait(std::chrono::milliseconds at_most) {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, at_most, [&] { return running_ == 0; });
+}
+
+void StageGroup::finish() {
+    join();
+    if (error_) std::rethrow_exception(error_);
+}
+
+void StageGroup::join() {
+    for (std::thread& thread : threads_)
+        if (thread.joinable()) thread.join();
+}
+
+}  // namespace tumble

@@ -1,0 +1,74 @@
+#include "app/workers/frame_memory.h"
+
+#include "app/files/aov_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace tumble {
+namespace {
+
+// Bytes a pixel.
+constexpr std::uint64_t sample = 8;          // color and depth
+constexpr std::uint64_t targets = 2;         // the background and the picture, each with all samples (framebuffer.h)
+constexpr std::uint64_t picture = 4;         // RGBA
+constexpr std::uint64_t drawing = 10;        // what smoothing edges and reading back keep: measured, as docs/output.md tells
+constexpr std::uint64_t light = 12;          // the sums of a mean of moments (image_mean.h)
+constexpr std::uint64_t surface = 16;        // where AOVs find it: depth, surface, triangle (surface_map.h)
+
+constexpr std::int64_t slots = 4;            // of a worker (drawer.cpp); a frame takes one
+
+}  // namespace
+
+PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work) {
+    const OutputSettings& output = scene.output;
+    const std::uint64_t pixels = std::uint64_t(output.width) * std::uint64_t(output.height);
+    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);   // as the renderer chooses
+    PictureMemory memory;
+    if (work.forms.picture()) {
+        memory.worker += pixels * (targets * samples * sample + picture + drawing);
+        if (samples > 1) memory.worker += pixels * picture;                 // their mean
+        if (work.moments > 1) memory.worker += pixels * (light + picture);
+    }
+    if (work.forms.video) {
+        const auto used = std::uint64_t(std::clamp<std::int64_t>(work.frames, 1, slots));
+        memory.worker += (used + 1) * frame_bytes(*work.forms.video, output.width, output.height);
+    }
+    if (!work.forms.aovs.empty()) {
+        memory.worker += pixels * surface;
+        for (const Aov aov : all_aovs)
+            if (work.forms.aovs.has(aov)) memory.worker += 2 * pixels * bytes_of_pixel(aov);   // values, and room for the file
+    }
+    if (work.clip) memory.encoder = encoder_memory(*work.clip, output.width, output.height);
+    return memory;
+}
+
+std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
+    // Bytes a pixel: the growth of ffmpeg 5.1's peak from 1280 x 720 to 4096 x 2304 pixels, 8 plain frames.
+    const auto of_pixel = [&]() -> std::uint64_t {
+        switch (kind) {
+            case VideoKind::h264: return 25;
+            case VideoKind::vp9: return 115;
+            case VideoKind::gif: return 42;
+        }
+        return 0;
+    }();
+    return of_pixel * std::uint64_t(width) * std::uint64_t(height);
+}
+
+int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers, const AvailableMemory& own,
+                     const AvailableMemory& shared) {
+    const PictureMemory memory = picture_memory(scene, work);
+    const std::string what = fmt::format("drawing pictures of {} x {} pixels", scene.output.width, scene.output.height);
+    const std::string_view remedy = "a smaller --size takes less";
+    require_memory(memory.worker, own, what, remedy);
+    require_memory(memory.total(1), shared, what, remedy);
+    int fitting = workers;
+    while (fitting > 1 && memory.total(fitting) > shared.bytes) --fitting;
+    return fitting;
+}
+
+}  // namespace tumble

@@ -1,0 +1,198 @@
+#include "app/workers/render_pool.h"
+
+#include "app/workers/reorder_buffer.h"
+#include "core/error.h"
+#include "core/start_thread.h"
+#include "render/gl/shader_compile_schedule.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+// One is filled, one waits for its turn, one is read; those that the queues behind hold make the worker wait.
+constexpr int slots_of_worker = 4;
+
+/// In memory that all processes see. Null where there is only one.
+std::shared_ptr<CompilationTurns> make_turns(int workers) {
+    if (workers < 2) return nullptr;
+    void* const memory = mmap(nullptr, sizeof(CompilationTurns), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return nullptr;   // then each compiles everything
+    return {new (memory) CompilationTurns, [](CompilationTurns* turns) { munmap(turns, sizeof *turns); }};
+}
+
+}  // namespace
+
+/// The free slots of a worker. They come back from the outputs, whenever the last of those lets go.
+class Drawer::Slots : public std::enable_shared_from_this<Slots> {
+public:
+    explicit Slots(std::shared_ptr<WorkerMemory> memory) : memory_(std::move(memory)) {
+        for (int i = 0; i < slots_of_worker; ++i) free_.push_back(i);
+    }
+
+    /// Waits for one; nothing: it was stopped. It is free again when the last copy of the pointer is gone.
+    std::shared_ptr<const int> take() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return stopped_ || !free_.empty(); });
+        if (stopped_) return nullptr;
+        const int* const slot = new int(free_.back());
+        free_.pop_back();
+        return {slot, [self = shared_from_this()](const int* back) { self->put_back(back); }};
+    }
+
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+        changed_.notify_all();
+    }
+
+    const WorkerMemory& memory() const { return *memory_; }
+
+private:
+    void put_back(const int* slot) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(*slot);
+        delete slot;
+        changed_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::vector<int> free_;
+    bool stopped_ = false;
+    std::shared_ptr<WorkerMemory> memory_;   // lives as long as a slot of it is read
+};
+
+Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+               int most_moments)
+    : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
+    RenderOptions in_turns = options;
+    in_turns.turns = turns_.get();
+    std::vector<int> sockets;
+    for (int i = 0; i < workers; ++i) {
+        workers_.push_back(std::make_unique<DrawWorker>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
+        sockets.push_back(workers_.back()->socket());
+        slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
+    }
+}
+
+Drawer::~Drawer() = default;
+
+void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
+                 std::int64_t first) {
+    FrameOrder order(workers_.size(), first);
+    std::vector<std::thread> threads;
+    const auto stop = [&] {
+        poses.cancel();
+        order.stop();
+        for (const auto& slots : slots_) slots->stop();
+        for (std::thread& thread : threads) thread.join();
+    };
+    try {
+        for (std::size_t i = 0; i < workers_.size(); ++i)
+            threads.push_back(start_thread<std::thread>([&, i] {
+                try {
+                    tend(i, poses, order, times, first);
+                } catch (...) {
+                    order.fail(std::current_exception());
+                }
+                order.leave();
+            }));
+        while (const std::optional<Frame> frame = order.next())
+            if (!hand_on(*frame)) break;
+    } catch (...) {
+        stop();
+        throw;
+    }
+    stop();
+}
+
+/// What to draw; false: the frame shows what the one before shows, which it may not where it is the first (`anew`).
+bool Drawer::follow(Exposure& exposure, bool anew) {
+    if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
+    if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
+    return !exposure.moments.empty() || exposure.aovs;
+}
+
+/// The poses to draw of the picture; false: it is that of the frame before. Where nothing moves while the shutter is
+/// open, one moment is left.
+bool Drawer::follow_picture(Exposure& exposure) {
+    bool first = false, later = false;
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i)
+        if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
+    if (!later) exposure.moments.resize(1);
+    const bool moved_before = std::exchange(moves_, later);
+    return first || later || moved_before;
+}
+
+/// The life of the thread that looks after one worker.
+void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times,
+                  std::int64_t first) {
+    Slots& slots = *slots_[worker];
+    const auto next_pose = [&]() -> std::optional<Exposure> {
+        const std::lock_guard lock(pose_mutex_);
+        while (std::optional<Exposure> pose = poses.pop()) {
+            const bool wanted = follow(*pose, pose->frame == first);
+            if (pose->frame < first) continue;
+            if (wanted) {
+                if (!pose->moments.empty()) ++drawn_;
+                return pose;
+            }
+            if (!order.add_repeated(pose->frame)) break;
+        }
+        return std::nullopt;
+    };
+    // The slot comes first: who has a pose can always finish it, and the frames behind it wait for no one else.
+    while (const std::shared_ptr<const int> slot = slots.take()) {
+        const std::optional<Exposure> pose = next_pose();
+        if (!pose) return;
+        const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
+        times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
+        times.conversion.add(drawn.conversion.wall, drawn.conversion.cpu);
+        times.png.add(drawn.png.wall, drawn.png.cpu);
+        times.aovs.add(drawn.aovs.wall, drawn.aovs.cpu);
+        Frame frame;
+        frame.number = pose->frame;
+        if (pose->aovs) {
+            frame.aov_slot = slot;
+            frame.aovs = slots.memory().aovs(*slot).first(drawn.aov_bytes);
+        }
+        if (pose->moments.empty()) {
+            order.add_with_last_picture(std::move(frame));
+            continue;
+        }
+        frame.slot = slot;
+        frame.video = {slot, slots.memory().video(*slot).data()};
+        frame.png = slots.memory().png(*slot).first(drawn.png_bytes);
+        order.add(std::move(frame), worker, drawn.unchanged);
+    }
+}
+
+void Drawer::abandon() {
+    for (const auto& worker : workers_) worker->kill();
+}
+
+ProcessEnd Drawer::finish() {
+    ProcessEnd sum;
+    for (const auto& worker : workers_) {
+        const ProcessEnd end = worker->finish();
+        sum.cpu_seconds += end.cpu_seconds;
+        sum.peak_memory += end.peak_memory;
+    }
+    return sum;
+}
+
+std::vector<pid_t> Drawer::processes() const {
+    std::vector<pid_t> ids;
+    for (const auto& worker : workers_) ids.push_back(worker->id());
+    return ids;
+}
+
+}  // namespace tumble

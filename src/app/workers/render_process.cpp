@@ -1,0 +1,236 @@
+#include "app/workers/render_process.h"
+
+#include "app/files/aov_file.h"
+#include "app/threads/stage_timer.h"
+#include "core/error.h"
+#include "core/image_mean.h"
+#include "core/memory_limit.h"
+#include "output/png_writer.h"
+#include "output/video_pixels.h"
+
+#include <fmt/format.h>
+
+#include <malloc.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;   // bytes
+// A worker without a job has nothing to do but to end, which takes it milliseconds.
+constexpr auto longest_end = std::chrono::seconds(1);
+
+struct Job {
+    std::int64_t frame = 0;
+    int slot = 0;
+    std::size_t moments = 1;   // none: no picture is wanted
+    bool aovs = false;
+};
+
+/// Messages are whole or not there (SOCK_SEQPACKET). False: nobody is at the other end.
+template <typename T>
+bool send_message(int socket, const T& message) {
+    ssize_t n = 0;
+    while ((n = ::send(socket, &message, sizeof message, MSG_NOSIGNAL)) < 0 && errno == EINTR) {}
+    return n == ssize_t(sizeof message);
+}
+
+template <typename T>
+bool receive_message(int socket, T& message) {
+    ssize_t n = 0;
+    while ((n = ::recv(socket, &message, sizeof message, 0)) < 0 && errno == EINTR) {}
+    return n == ssize_t(sizeof message);
+}
+
+template <typename Work>
+WorkTime timed(const Work& work) {
+    StageTime time;
+    {
+        const StageTimer timer(time);
+        work();
+    }
+    return {time.wall.load(), time.cpu.load()};
+}
+
+/// The child's whole life: its OpenGL, and its last frame in all forms.
+class FrameMaker {
+public:
+    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, WorkerMemory& memory)
+        : memory_(memory) {
+        if (forms.picture()) renderer_.emplace(scene, options);
+        if (!forms.aovs.empty()) aovs_.emplace(scene, forms.aovs);
+        if (forms.video) video_.emplace(*forms.video, scene.output.width, scene.output.height);
+        if (forms.png) png_.emplace();
+    }
+
+    DrawnFrame make(const Job& job) {
+        DrawnFrame drawn;
+        drawn.frame = snapshot_.frame = job.frame;
+        if (job.moments > 0) make_picture(job, drawn);
+        if (job.aovs)
+            drawn.aovs = timed([&] {
+                memory_.read_aov_poses(aov_poses_);
+                const std::span<const std::byte> file = aovs_->make(aov_poses_);
+                std::ranges::copy(file, memory_.aovs(job.slot).data());
+                drawn.aov_bytes = file.size();
+            });
+        return drawn;
+    }
+
+private:
+    void make_picture(const Job& job, DrawnFrame& drawn) {
+        drawn.drawing = timed([&] { expose(job); });
+        const bool partly = !blurred_before_ && job.moments == 1;   // else another picture came before
+        const std::vector<Rectangle> changed =
+            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
+        const Image& picture = job.moments == 1 ? image_ : blurred_;
+        blurred_before_ = job.moments > 1;
+        drawn.unchanged = changed.empty();
+        if (video_)
+            drawn.conversion = timed([&] {
+                video_->update(picture, changed);
+                std::ranges::copy(video_->bytes(), memory_.video(job.slot).data());
+            });
+        if (png_)
+            drawn.png = timed([&] {
+                if (!changed.empty()) file_ = png_->encode(picture, changed);
+                std::ranges::copy(file_, memory_.png(job.slot).data());
+            });
+        drawn.png_bytes = file_.size();
+    }
+
+    void expose(const Job& job) {
+        for (std::size_t i = 0; i < job.moments; ++i) {
+            memory_.read_poses(i, snapshot_);
+            renderer_->render(snapshot_, image_);
+            if (job.moments > 1) mean_.add(image_);
+        }
+        if (job.moments > 1) mean_.take(blurred_);
+    }
+
+    WorkerMemory& memory_;
+    std::optional<Renderer> renderer_;
+    Snapshot snapshot_;
+    Image image_;          // the last moment that was drawn
+    ImageMean mean_;
+    Image blurred_;
+    bool blurred_before_ = false;
+    std::optional<VideoPixels> video_;
+    std::optional<PngEncoder> png_;
+    std::span<const std::byte> file_;
+    std::optional<AovFile> aovs_;
+    AovPoses aov_poses_;
+};
+
+/// What went wrong, without the "error: " that the program puts before it again.
+std::string reason(const std::exception& error) {
+    std::string_view text = error.what();
+    constexpr std::string_view prefix = "error: ";
+    if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
+    return std::string(text);
+}
+
+[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms,
+                       WorkerMemory& memory, int socket) {
+    ::setpgid(0, 0);   // Ctrl-C reaches it only through us
+    sigset_t none;
+    sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    // What a frame needs is taken again for the next: given back to the system, it would come as hundreds of new pages.
+    // Larger blocks do go back.
+    ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
+    ::mallopt(M_TRIM_THRESHOLD, kept_memory);
+    ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: a core for each worker
+
+    Job job;
+    bool asked = false;
+    try {
+        FrameMaker maker(scene, options, forms, memory);
+        while ((asked = receive_message(socket, job)))
+            if (!send_message(socket, maker.make(job))) break;
+        ::_exit(0);   // nor those of its own OpenGL, which takes milliseconds to let go of what ends anyway
+    } catch (const std::exception& error) {
+        const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+        memory.write_words(out_of_memory ? "out of memory" : reason(error));
+        DrawnFrame failure;
+        failure.failed = true;
+        // Where OpenGL could not be opened, no frame has been asked for yet.
+        if (asked || receive_message(socket, job)) send_message(socket, failure);
+    }
+    ::_exit(0);   // no destructors of the parent's objects, no second flush of its streams
+}
+
+}  // namespace
+
+DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+                       int most_moments, std::span<const int> other_sockets)
+    : memory_(std::make_shared<WorkerMemory>(scene, forms, slots, most_moments)) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+        throw RunError("cannot make a socket: " + std::generic_category().message(errno));
+    std::fflush(nullptr);
+    const pid_t program = ::getpid();
+    id_ = ::fork();
+    if (id_ == 0) {
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);   // a worker that hangs or was stopped does not outlive the program either
+        if (::getppid() != program) ::_exit(0);
+        // The program's end of a socket, kept open here, would hide the program's end from that worker.
+        ::close(ends[0]);
+        for (const int socket : other_sockets) ::close(socket);
+        work(scene, options, forms, *memory_, ends[1]);
+    }
+    const int error = errno;
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (id_ < 0) {
+        ::close(socket_);
+        throw RunError("cannot start a process for drawing: " + std::generic_category().message(error));
+    }
+}
+
+DrawWorker::~DrawWorker() {
+    kill();
+    finish();
+}
+
+DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
+    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
+    if (exposure.aovs) memory_->write_aov_poses(*exposure.aovs);
+    DrawnFrame drawn;
+    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) || !receive_message(socket_, drawn))
+        died(exposure.frame);
+    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
+    return drawn;
+}
+
+void DrawWorker::died(std::int64_t frame) {
+    throw RunError(fmt::format("cannot draw frame {}: its process {}{}", frame, finish().describe(), memory_limit_note()));
+}
+
+void DrawWorker::kill() {
+    const std::lock_guard lock(id_mutex_);
+    if (id_ >= 0) ::kill(id_, SIGKILL);
+}
+
+ProcessEnd DrawWorker::finish() {
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes it for its last job
+    if (id_ < 0) return {};
+    if (!ends_within(id_, longest_end)) kill();
+    const std::lock_guard lock(id_mutex_);
+    return wait_for_process(std::exchange(id_, -1));
+}
+
+}  // namespace tumble

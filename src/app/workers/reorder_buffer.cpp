@@ -1,0 +1,94 @@
+#include "app/workers/reorder_buffer.h"
+
+#include "core/check.h"
+
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr std::int64_t most_ahead = 4096;   // repeated frames that wait for a drawn one: small, but not without end
+
+}  // namespace
+
+FrameOrder::FrameOrder(std::size_t workers, std::int64_t first)
+    : first_(first), next_(first), working_(workers), picture_of_worker_(workers, -1) {}
+
+void FrameOrder::add(Frame frame, std::size_t worker, bool unchanged) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t number = frame.number;
+    waiting_.emplace(number, Waiting{std::move(frame), worker, unchanged});
+    changed_.notify_all();
+}
+
+void FrameOrder::add_with_last_picture(Frame frame) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t number = frame.number;
+    waiting_.emplace(number, Waiting{std::move(frame), std::nullopt, true});
+    changed_.notify_all();
+}
+
+bool FrameOrder::add_repeated(std::int64_t number) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return stopped_ || number < next_ + most_ahead; });
+    if (stopped_) return false;
+    Frame frame;
+    frame.number = number;
+    waiting_.emplace(number, Waiting{std::move(frame), std::nullopt, true});
+    if (number == next_) changed_.notify_all();
+    return true;
+}
+
+void FrameOrder::leave() {
+    const std::lock_guard lock(mutex_);
+    --working_;
+    changed_.notify_all();
+}
+
+void FrameOrder::fail(std::exception_ptr error) {
+    const std::lock_guard lock(mutex_);
+    if (!stopped_) error_ = std::move(error);
+    stopped_ = true;
+    changed_.notify_all();
+}
+
+void FrameOrder::stop() { fail(nullptr); }
+
+std::optional<Frame> FrameOrder::next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return stopped_ || waiting_.contains(next_) || working_ == 0; });
+    if (error_) std::rethrow_exception(error_);
+    const auto found = waiting_.find(next_);
+    if (stopped_ || found == waiting_.end()) return std::nullopt;
+    Waiting waiting = std::move(found->second);
+    waiting_.erase(found);
+    ++next_;
+    changed_.notify_all();
+    return told_apart(std::move(waiting));
+}
+
+/// Frames come here in order, so that "the worker's frame before" is known by now.
+Frame FrameOrder::told_apart(Waiting waiting) {
+    Frame& frame = waiting.frame;
+    TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);
+    if (!frame.aov_slot) {
+        frame.aovs = last_.aovs;
+        frame.aov_slot = last_.aov_slot;
+    }
+    if (!waiting.worker) {
+        frame.repeated = frame.number > first_;
+        frame.video = last_.video;
+        frame.png = last_.png;
+        frame.slot = last_.slot;
+        last_ = std::move(frame);
+        return last_;
+    }
+    std::int64_t& worker = picture_of_worker_[*waiting.worker];
+    const std::int64_t picture = waiting.unchanged ? worker : frame.number;
+    frame.repeated = picture == last_picture_;
+    worker = last_picture_ = picture;
+    last_ = std::move(frame);
+    return last_;
+}
+
+}  // namespace tumble

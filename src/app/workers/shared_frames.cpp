@@ -1,0 +1,98 @@
+#include "app/workers/shared_frames.h"
+
+#include "app/files/aov_file.h"
+#include "core/check.h"
+#include "core/error.h"
+#include "output/png_writer.h"
+
+#include <fmt/format.h>
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+constexpr std::size_t page = 4096;                 // bytes: parts of different writers on pages of their own
+constexpr std::size_t numbers_of_moment = 4;       // time; x, y, z
+constexpr std::size_t numbers_of_body = 7;         // x, y, z; x, y, z, w
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
+
+}  // namespace
+
+WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
+    : followed_(scene.camera.follow),
+      motion_(forms.aovs.has(Aov::motion)),
+      bodies_(scene.bodies.size()),
+      most_moments_(std::size_t(most_moments)),
+      poses_size_((numbers_of_moment + bodies_ * numbers_of_body) * sizeof(double)),
+      slots_at_(words_size + whole_pages((most_moments_ + (forms.aovs.empty() ? 0 : motion_ ? 2 : 1)) * poses_size_)),
+      video_at_(0),
+      video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
+      png_at_(whole_pages(video_size_)),
+      png_size_(forms.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
+      aovs_at_(png_at_ + whole_pages(png_size_)),
+      aovs_size_(forms.aovs.empty() ? 0 : aov_file_bound(forms.aovs, scene.output.width, scene.output.height)),
+      slot_size_(aovs_at_ + whole_pages(aovs_size_)),
+      size_(slots_at_ + slot_size_ * std::size_t(slots)) {
+    // Pages that are never written take no memory: a PNG file is far smaller than the room for it.
+    void* const memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED)
+        throw RunError(fmt::format("no memory for frames ({} MiB): {}", size_ >> 20,
+                                   std::generic_category().message(errno)));
+    memory_ = static_cast<std::byte*>(memory);
+}
+
+WorkerMemory::~WorkerMemory() { munmap(memory_, size_); }
+
+void WorkerMemory::write_poses(std::size_t moment, const Snapshot& snapshot) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
+    double* to = poses(moment).data();
+    *to++ = snapshot.time;
+    if (followed_) std::copy_n(snapshot.bodies[*followed_].center_of_mass.data(), 3, to);
+    to += 3;
+    for (const BodyState& body : snapshot.bodies) {
+        std::copy_n(body.origin.data(), 3, to);
+        std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
+        to += numbers_of_body;
+    }
+}
+
+void WorkerMemory::read_poses(std::size_t moment, Snapshot& snapshot) const {
+    snapshot.bodies.resize(bodies_);
+    const double* from = poses(moment).data();
+    snapshot.time = *from++;
+    if (followed_) std::copy_n(from, 3, snapshot.bodies[*followed_].center_of_mass.data());
+    from += 3;
+    for (BodyState& body : snapshot.bodies) {
+        std::copy_n(from, 3, body.origin.data());
+        std::copy_n(from + 3, 4, body.orientation.coeffs().data());
+        from += numbers_of_body;
+    }
+}
+
+void WorkerMemory::write_aov_poses(const AovPoses& poses) {
+    write_poses(most_moments_, poses.now);
+    TUMBLE_CHECK_EQ(poses.next.has_value(), motion_);
+    if (motion_) write_poses(most_moments_ + 1, *poses.next);
+}
+
+void WorkerMemory::read_aov_poses(AovPoses& poses) const {
+    read_poses(most_moments_, poses.now);
+    if (motion_) read_poses(most_moments_ + 1, poses.next.emplace());
+}
+
+void WorkerMemory::write_words(const std::string& words) {
+    const std::size_t size = std::min(words.size(), words_size - 1);
+    std::memcpy(memory_, words.data(), size);
+    memory_[size] = std::byte{0};
+}
+
+std::string WorkerMemory::words() const { return reinterpret_cast<const char*>(memory_); }
+
+}  // namespace tumble

@@ -1,0 +1,360 @@
+// The drawing processes: the same bytes from any number of them, an error for each that dies, and none left behind.
+#include "app/files/aov_file.h"
+#include "app/workers/render_pool.h"
+#include "core/error.h"
+#include "core/image_mean.h"
+#include "output/png_writer.h"
+#include "output/video_pixels.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string_view>
+#include <thread>
+
+namespace tumble {
+namespace {
+
+constexpr FrameForms both{PixelForm::yuv420, true, {}};
+
+SceneDescription two_boxes() {
+    SceneDescription scene;
+    scene.output.width = 240;
+    scene.output.height = 160;
+    scene.output.samples = 1;
+    scene.camera.eye = {1.0, 3.0, 9.0};
+    scene.camera.target = {0.0, 1.5, 0.0};
+    for (int i = 0; i < 3; ++i) {
+        BodyDescription body;
+        if (i == 0) body.shape = PlaneShape{};
+        else body.shape = BoxShape{{1.0, 1.0, 1.0}};
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+/// One box rests; the other moves in frames 0 to 7 and 12 to 14, and rests in between and afterwards.
+Snapshot at_frame(std::int64_t n) {
+    const std::int64_t moves = n < 8 ? n : n < 12 ? 7 : n < 15 ? n - 4 : 10;
+    Snapshot snapshot;
+    snapshot.frame = n;
+    snapshot.time = double(n) / 60.0;
+    snapshot.bodies.resize(3);
+    for (BodyState& body : snapshot.bodies) {
+        body.origin = {0.0, 0.0, 0.0};
+        body.orientation = Quat::Identity();
+    }
+    snapshot.bodies[1].origin = {-1.0, 0.5, 0.0};
+    snapshot.bodies[2].origin = {1.0, 0.5 + 0.3 * double(moves), 0.0};
+    return snapshot;
+}
+
+Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
+
+/// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
+Exposure blurred(std::int64_t n) {
+    Exposure exposure = sharp(n);
+    const Snapshot next = at_frame(n + 1);
+    for (int i = 1; i < 4; ++i) {
+        Snapshot between = at_frame(n);
+        between.time += double(i) / (4 * 60.0);
+        between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
+        exposure.moments.push_back(between);
+    }
+    return exposure;
+}
+
+struct Seen {
+    std::int64_t number;
+    bool repeated;
+    std::vector<std::byte> video, png, aovs;
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+/// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
+std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64_t frames,
+                       const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
+                       const std::function<Exposure(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
+    BoundedQueue<Exposure> poses(4);
+    std::thread simulation([&] {
+        for (std::int64_t n = 0; n < frames; ++n)
+            if (!poses.push(exposure(n))) return;
+        poses.close();
+    });
+    std::vector<Seen> seen;
+    DrawingTimes times;
+    const std::size_t video_bytes = frame_bytes(PixelForm::yuv420, scene.output.width, scene.output.height);
+    try {
+        drawer.run(
+            poses,
+            [&](const Frame& frame) {
+                seen.push_back({frame.number, frame.repeated, {}, {frame.png.begin(), frame.png.end()},
+                                {frame.aovs.begin(), frame.aovs.end()}});
+                if (frame.video) seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
+                meanwhile(frame.number);
+                return true;
+            },
+            times, first);
+    } catch (...) {
+        simulation.join();
+        throw;
+    }
+    simulation.join();
+    return seen;
+}
+
+TEST(Drawer, TheNumberOfProcessesChangesNoByte) {
+    const SceneDescription scene = two_boxes();
+    std::vector<Seen> first;
+    for (const int workers : {1, 2, 3}) {
+        Drawer drawer(scene, {}, both, workers);
+        const std::vector<Seen> seen = draw(drawer, scene, 24);
+        ASSERT_EQ(seen.size(), 24u);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+        EXPECT_EQ(drawer.drawn(), 11);
+    }
+    for (std::size_t n = 0; n < first.size(); ++n) {
+        EXPECT_EQ(first[n].number, std::int64_t(n));
+        EXPECT_EQ(first[n].repeated, (n >= 8 && n < 12) || n >= 15) << n;
+    }
+    EXPECT_NE(first[0].video, first[7].video);
+    EXPECT_NE(first[7].png, first[14].png);
+}
+
+TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
+    SceneDescription scene = two_boxes();
+    scene.camera.orbit = 360.0;
+    for (const bool blur : {false, true}) {
+        std::vector<Seen> first;
+        for (const int workers : {1, 2}) {
+            Drawer drawer(scene, {}, both, workers, 4);
+            const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
+            if (first.empty()) first = seen;
+            EXPECT_TRUE(seen == first) << workers;
+            EXPECT_EQ(drawer.drawn(), 24);
+        }
+        for (std::size_t n = 1; n < first.size(); ++n) {
+            EXPECT_FALSE(first[n].repeated) << n;
+            EXPECT_NE(first[n].png, first[n - 1].png) << n;
+        }
+    }
+}
+
+// Trembling tells: a pose that is drawn anew only when it has moved far enough is that of the whole clip.
+TEST(Drawer, AFrameIsTheSameWhicheverWasTheFirst) {
+    const SceneDescription scene = two_boxes();
+    const auto creeping = [](std::int64_t n) {
+        Exposure exposure = sharp(n);
+        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // .02 pixels are .9e-3 m
+        return exposure;
+    };
+    for (const auto& exposure : {std::function<Exposure(std::int64_t)>(creeping), std::function<Exposure(std::int64_t)>(blurred)}) {
+        Drawer whole(scene, {}, both, 2, 4);
+        const std::vector<Seen> all = draw(whole, scene, 36, [](std::int64_t) {}, exposure);
+        for (const std::int64_t first : {1, 7, 10, 20, 35}) {
+            Drawer drawer(scene, {}, both, 2, 4);
+            const std::vector<Seen> seen = draw(drawer, scene, 36, [](std::int64_t) {}, exposure, first);
+            ASSERT_EQ(seen.size(), std::size_t(36 - first));
+            EXPECT_FALSE(seen.front().repeated);
+            for (std::size_t i = 0; i < seen.size(); ++i) {
+                const Seen& expected = all[i + std::size_t(first)];
+                EXPECT_EQ(seen[i].number, expected.number);
+                EXPECT_EQ(seen[i].repeated, i > 0 && expected.repeated) << first << ' ' << i;
+                EXPECT_TRUE(seen[i].video == expected.video && seen[i].png == expected.png) << first << ' ' << i;
+            }
+        }
+    }
+}
+
+AovSet depth_and_motion() {
+    AovSet aovs;
+    aovs.add(Aov::depth);
+    aovs.add(Aov::motion);
+    return aovs;
+}
+
+/// Frames of which some differ by less than is drawn.
+Snapshot trembling(std::int64_t n) {
+    Snapshot snapshot = at_frame(n);
+    snapshot.bodies[1].origin.x() += n % 5 == 0 ? 1e-7 : 0.0;
+    return snapshot;
+}
+
+Exposure with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
+
+TEST(Drawer, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
+    const SceneDescription scene = two_boxes();
+    FrameForms with = both, alone;
+    with.aovs = alone.aovs = depth_and_motion();
+    const auto without_aovs = [](std::int64_t n) { return Exposure{n, {trembling(n)}, {}}; };
+    std::vector<Seen> pictures, first;
+    {
+        Drawer drawer(scene, {}, both, 2);
+        pictures = draw(drawer, scene, 24, [](std::int64_t) {}, without_aovs);
+    }
+    for (const int workers : {1, 2, 3}) {
+        Drawer drawer(scene, {}, with, workers);
+        const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, with_aovs);
+        ASSERT_EQ(seen.size(), 24u);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+        EXPECT_EQ(drawer.drawn(), 11);
+
+        Drawer no_pictures(scene, {}, alone, workers);
+        const std::vector<Seen> aovs = draw(no_pictures, scene, 24, [](std::int64_t) {}, with_aovs);
+        ASSERT_EQ(aovs.size(), 24u);
+        for (std::size_t n = 0; n < aovs.size(); ++n) EXPECT_TRUE(aovs[n].aovs == first[n].aovs) << n;
+        EXPECT_EQ(no_pictures.drawn(), 0);
+    }
+    AovFile file(scene, depth_and_motion());
+    for (std::size_t n = 0; n < first.size(); ++n) {
+        EXPECT_TRUE(std::ranges::equal(first[n].aovs, file.make(*with_aovs(std::int64_t(n)).aovs))) << n;
+        EXPECT_EQ(first[n].number, pictures[n].number);
+        EXPECT_EQ(first[n].repeated, pictures[n].repeated) << n;
+        EXPECT_TRUE(first[n].video == pictures[n].video && first[n].png == pictures[n].png) << n;
+    }
+    // In the pictures nothing moves from frame 15 on, but the values tell 20 from 21.
+    EXPECT_TRUE(first[20].repeated && first[21].repeated);
+    EXPECT_NE(first[20].aovs, first[21].aovs);
+    EXPECT_EQ(first[22].aovs, first[23].aovs);
+}
+
+// Of work in a process of its own: this one must stay without OpenGL, so that the next tests can fork.
+int status_of_process(const std::function<int()>& work) {
+    const pid_t id = fork();
+    if (id == 0) _exit(work());
+    int status = -1;
+    waitpid(id, &status, 0);
+    return status;
+}
+
+TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
+    const SceneDescription scene = two_boxes();
+    Drawer drawer(scene, {}, both, 2);
+    const std::vector<Seen> seen = draw(drawer, scene, 16);
+    const auto expect = [&] {
+        RenderOptions options;
+        options.full_redraw = true;
+        Renderer renderer(scene, options);
+        PngEncoder png;
+        for (const Seen& s : seen) {
+            Image image;
+            renderer.render(at_frame(s.number), image);
+            const Rectangle whole{0, 0, image.width, image.height};
+            VideoPixels pixels(PixelForm::yuv420, image.width, image.height);
+            pixels.update(image, {&whole, 1});
+            if (!std::ranges::equal(pixels.bytes(), s.video) || !std::ranges::equal(png.encode(image), s.png)) return 1;
+        }
+        return 0;
+    };
+    EXPECT_EQ(status_of_process(expect), 0);
+}
+
+TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
+    const SceneDescription scene = two_boxes();
+    std::vector<Seen> first;
+    for (const int workers : {1, 3}) {
+        Drawer drawer(scene, {}, both, workers, 4);
+        const std::vector<Seen> seen = draw(drawer, scene, 20, [](std::int64_t) {}, blurred);
+        if (first.empty()) first = seen;
+        EXPECT_TRUE(seen == first) << workers;
+    }
+    // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
+    for (std::size_t n = 0; n < first.size(); ++n)
+        EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
+    const auto expect = [&] {
+        Renderer renderer(scene, {});
+        PngEncoder png;
+        for (const Seen& s : first) {
+            ImageMean mean;
+            Image image, expected;
+            for (const Snapshot& moment : blurred(s.number).moments) {
+                renderer.render(moment, image);
+                mean.add(image);
+            }
+            mean.take(expected);
+            if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
+        }
+        return 0;
+    };
+    EXPECT_EQ(status_of_process(expect), 0);
+}
+
+std::string error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const RunError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
+    const SceneDescription scene = two_boxes();
+    for (const int workers : {1, 2}) {
+        Drawer drawer(scene, {}, both, workers);
+        std::int64_t last = -1;
+        const std::string error = error_of([&] {
+            // Frames without end, all of which move: the run can only end by the error, whoever draws how many of them.
+            const auto meanwhile = [&](std::int64_t n) {
+                if (n == 3) kill(drawer.processes().back(), SIGKILL);
+                last = n;
+            };
+            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) { return Exposure{n, {at_frame(n % 8)}, {}}; });
+        });
+        constexpr std::string_view words = "error: cannot draw frame ";
+        ASSERT_EQ(error.find(words), 0u) << error;
+        EXPECT_NE(error.find("its process ended by signal 9"), std::string::npos) << error;
+        EXPECT_LT(last, std::stoll(error.substr(words.size())));   // what comes after the one that was lost is not handed on
+    }
+}
+
+TEST(Drawer, WhatOpenGlSaysIsReported) {
+    const SceneDescription scene = two_boxes();
+    RenderOptions options;
+    options.shader_folder = "/nowhere";
+    Drawer drawer(scene, options, both, 2);
+    const std::string error = error_of([&] { draw(drawer, scene, 4); });
+    EXPECT_EQ(error.find("error: cannot draw frame "), 0u) << error;
+    EXPECT_NE(error.find("/nowhere"), std::string::npos) << error;
+    EXPECT_EQ(error.find("error:", 1), std::string::npos) << error;
+}
+
+TEST(Drawer, AbandonedItComesBack) {
+    const SceneDescription scene = two_boxes();
+    Drawer drawer(scene, {}, both, 2);
+    EXPECT_NE(error_of([&] {
+                  draw(drawer, scene, 15, [&](std::int64_t n) {
+                      if (n == 2) drawer.abandon();
+                  });
+              }),
+              "no error");
+}
+
+TEST(Drawer, LeavesNoProcessBehind) {
+    const SceneDescription scene = two_boxes();
+    std::vector<pid_t> ids;
+    {
+        Drawer unused(scene, {}, both, 2);
+        ids = unused.processes();
+    }
+    {
+        Drawer drawer(scene, {}, both, 2);
+        draw(drawer, scene, 3);
+        for (const pid_t id : drawer.processes()) ids.push_back(id);
+        const ProcessEnd end = drawer.finish();
+        EXPECT_GT(end.cpu_seconds, 0.0);
+        EXPECT_GT(end.peak_memory, std::int64_t(1) << 20);
+    }
+    ASSERT_EQ(ids.size(), 4u);
+    for (const pid_t id : ids) EXPECT_EQ(kill(id, 0), -1) << "process " << id << " is there, or was never waited for";
+}
+
+}  // namespace
+}  // namespace tumble

@@ -1,0 +1,99 @@
+// Slow motion and speed-up against a run at the normal speed.
+#include "app/timing/motion_blur.h"
+#include "app/timing/time_scaling.h"
+#include "core/error.h"
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+namespace tumble {
+namespace {
+
+SceneDescription falling_box() {
+    SceneDescription scene;
+    scene.output.fps = 60.0;
+    scene.simulation.duration = 1.0;
+    scene.simulation.steps_per_frame = 4;
+    BodyDescription ground, box;
+    ground.shape = PlaneShape{};
+    ground.type = BodyType::fixed;
+    box.shape = BoxShape{{1.0, 1.0, 1.0}};
+    box.position = {0.0, 1.5, 0.0};
+    box.angular_velocity = {1.0, 2.0, 0.5};
+    scene.bodies = {ground, box};
+    return scene;
+}
+
+std::vector<Snapshot> frames_of(const SceneDescription& scene) {
+    World world(scene);
+    std::vector<Snapshot> frames{world.snapshot()};
+    while (std::int64_t(frames.size()) < scene.frame_count()) {
+        world.advance_frame();
+        frames.push_back(world.snapshot());
+    }
+    return frames;
+}
+
+TEST(Speed, KeepsTheStepWhereItCan) {
+    const std::vector<Snapshot> normal = frames_of(falling_box());
+    for (const auto& [speed, steps] : {std::pair{0.25, 1}, {0.5, 2}, {2.0, 8}, {3.0, 12}}) {
+        SceneDescription scene = falling_box();
+        const double step = scene.step();
+        apply_speed(scene, speed);
+        EXPECT_EQ(scene.step(), step);
+        EXPECT_EQ(scene.simulation.steps_per_frame, steps);
+        const std::vector<Snapshot> frames = frames_of(scene);
+        EXPECT_EQ(std::int64_t(frames.size()), std::int64_t(60.0 / speed) + 1);
+        // Frame n shows the moment n * speed of the normal run's frames, to the last bit where that has one.
+        for (std::size_t n = 0; n < frames.size(); ++n) {
+            const double at = double(n) * speed;
+            if (at != double(std::size_t(at))) continue;
+            const BodyState &a = frames[n].bodies[1], &b = normal[std::size_t(at)].bodies[1];
+            ASSERT_EQ(a.origin, b.origin) << speed << ", frame " << n;
+            ASSERT_EQ(a.orientation.coeffs(), b.orientation.coeffs()) << speed << ", frame " << n;
+            ASSERT_EQ(frames[n].time, normal[std::size_t(at)].time);
+        }
+    }
+}
+
+TEST(Speed, NeverMakesTheStepLonger) {
+    for (double speed = slowest_speed; speed <= fastest_speed; speed *= 1.37) {
+        SceneDescription scene = falling_box();
+        const double step = scene.step(), fps = scene.output.fps;
+        apply_speed(scene, speed);
+        EXPECT_LE(scene.step(), step * (1.0 + 1e-9)) << speed;
+        EXPECT_DOUBLE_EQ(scene.step() * scene.simulation.steps_per_frame, speed / fps) << speed;
+    }
+}
+
+TEST(Shutter, OpensForTheNearestPartOfAFrame) {
+    const auto of = [](double degrees, int samples) {
+        const Shutter shutter = Shutter::of(degrees, samples);
+        return std::pair{shutter.parts, shutter.moments};
+    };
+    EXPECT_EQ(of(0.0, 8), (std::pair{1, 1}));
+    EXPECT_EQ(of(180.0, 8), (std::pair{16, 8}));
+    EXPECT_EQ(of(360.0, 8), (std::pair{8, 8}));
+    EXPECT_EQ(of(90.0, 4), (std::pair{16, 4}));
+    EXPECT_EQ(of(270.0, 8), (std::pair{11, 8}));   // 262 degrees
+}
+
+TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
+    SceneDescription scene = falling_box();
+    const double step = scene.step();
+    divide_frames(scene, 4);
+    EXPECT_EQ(scene.step(), step);
+    EXPECT_EQ(scene.output.fps, 240.0);
+    const std::vector<Snapshot> normal = frames_of(falling_box()), parts = frames_of(scene);
+    ASSERT_EQ(parts.size(), 4 * (normal.size() - 1) + 1);
+    for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
+}
+
+TEST(Speed, TooManyFramesAreRefused) {
+    SceneDescription scene = falling_box();
+    scene.simulation.duration = 1e6;
+    EXPECT_THROW(apply_speed(scene, 1e-3), InputError);
+}
+
+}  // namespace
+}  // namespace tumble
