@@ -1,4 +1,5 @@
 // A frame as a table of contents; each step has a file of its own.
+#include "render/render_scene_builder.h"
 #include "render/renderer.h"
 
 #include "core/check.h"
@@ -7,6 +8,7 @@
 #include "render/camera/camera.h"
 #include "render/damage/damage_tracker.h"
 #include "render/gl/shader_compile_schedule.h"
+#include "render/gl/shader_locator.h"
 #include "render/passes/draw_list.h"
 #include "render/scene/compound_expansion.h"
 #include "render/antialiasing/analytic_aa.h"
@@ -22,6 +24,7 @@
 #include "render/shadow/shadow_map.h"
 #include "render/passes/body_pass.h"
 #include "render/scene/fog_distance.h"
+#include "render/scene/near_plane.h"
 
 #include <fmt/format.h>
 

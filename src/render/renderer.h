@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "render/gl/gl_backend.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
@@ -13,7 +14,6 @@
 
 namespace tumble {
 
-enum class GlBackend { osmesa, egl };
 class CompilationTurns;
 struct RenderTimes;
 
@@ -53,9 +53,5 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
-
-/// Where the shaders are: $TUMBLE_SHADERS, else beside the installed program, else the source tree it was built from.
-/// Throws RunError naming the places looked at.
-std::filesystem::path find_shader_folder();
 
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #include "drawing.h"
 #include "example_scenes.h"
 
+#include "render/render_scene_builder.h"
 #include "render/scene/render_scene.h"
 #include "render/camera/camera_animation.h"
 #include "render/camera/camera.h"

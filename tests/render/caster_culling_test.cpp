@@ -2,6 +2,7 @@
 #include "example_scenes.h"
 #include "random.h"
 
+#include "render/render_scene_builder.h"
 #include "render/shadow/caster_culling.h"
 
 #include <gtest/gtest.h>

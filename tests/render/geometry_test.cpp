@@ -2,11 +2,12 @@
 #include "example_scenes.h"
 
 #include "core/deterministic_math.h"
+#include "render/render_scene_builder.h"
 #include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
 #include "render/damage/tile_merge.h"
 #include "render/passes/draw_list.h"
-#include "render/passes/frame_uniforms.h"
+#include "render/scene/near_plane.h"
 #include "render/scene/large_receivers.h"
 #include "render/ambient_occlusion/occluder_boxes.h"
 #include "render/scene/plane_patch.h"

@@ -3,6 +3,7 @@
 #include "example_scenes.h"
 #include "random.h"
 
+#include "render/render_scene_builder.h"
 #include "render/mesh/mesh_lod.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/ambient_occlusion/atlas_layout.h"

@@ -1,6 +1,7 @@
 // What is left out of the drawing must really be hidden: checked by rays.
 #include "example_scenes.h"
 
+#include "render/render_scene_builder.h"
 #include "render/damage/plane_dirty_regions.h"
 #include "render/scene/plane_axes.h"
 #include "render/culling/occlusion_culling.h"

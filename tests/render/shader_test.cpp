@@ -3,6 +3,7 @@
 #include "example_scenes.h"
 
 #include "core/error.h"
+#include "render/gl/shader_locator.h"
 #include "render/gl/shader_source.h"
 
 #include <gtest/gtest.h>

@@ -7,6 +7,7 @@
 #include "core/memory_limit.h"
 #include "core/safe_text.h"
 #include "output/process.h"
+#include "render/gl/shader_locator.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "render/damage/damage_tracker.h"
 
-#include "render/passes/frame_uniforms.h"
+#include "render/scene/near_plane.h"
 #include "render/damage/plane_damage.h"
 #include "render/damage/volume_damage.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/gl/gl_functions.h"
-#include "render/renderer.h"
+#include "render/gl/gl_backend.h"
 
 #include <memory>
 

@@ -1,5 +1,4 @@
-// find_shader_folder() of renderer.h.
-#include "render/renderer.h"
+#include "render/gl/shader_locator.h"
 
 #include "core/error.h"
 #include "core/safe_text.h"

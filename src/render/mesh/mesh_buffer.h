@@ -1,8 +1,9 @@
 // A mesh on the graphics side, drawn many times at once with one Instance each.
 #pragma once
 
-#include "render/passes/draw_list.h"
 #include "render/gl/gl_object.h"
+#include "render/mesh/instance.h"
+#include "scene/description/description.h"
 
 #include <array>
 #include <cstdint>

@@ -4,28 +4,15 @@
 
 #include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
+#include "render/mesh/instance.h"
 #include "render/mesh/mesh_lod.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/shadow/shadow_cascades.h"
 #include "sim/snapshot/snapshot.h"
 
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include <vector>
 
 namespace tumble {
-
-/// One drawn body (of a box, one of its faces), as shaders/instance.glsl reads it.
-struct Instance {
-    glm::vec4 position;     // of the body's origin, relative to the eye; w: bevel, m
-    glm::vec4 orientation;  // x, y, z, w
-    glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
-    glm::vec4 color;        // linear; w: roughness
-    glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec4 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its surface's
-                            // number as alpha; 1: looks into the near shadow map, 0: the far one
-};
 
 /// The meshes by number: half a box (what the sun sees of it), one face of it, the balls from coarse to fine, the
 /// cylinder, then the scene's own, each with its levels of detail.

@@ -3,6 +3,7 @@
 
 #include "render/camera/camera.h"
 #include "render/shadow/shadow_cascades.h"
+#include "scene/description/description.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -26,13 +27,5 @@ bool sun_is_up(const SceneDescription& scene);
 /// `sun_up`: else there is no sunlight.
 FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
                                   const ShadowFit& shadows, int atlas_height, bool widen_rods);
-
-/// How deep at least what is in view of a body lies, m.
-double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
-                   const CameraView& view);
-
-/// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
-/// movements do not round all depths anew.
-double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
 
 }  // namespace tumble

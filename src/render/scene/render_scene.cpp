@@ -1,11 +1,6 @@
 #include "render/scene/render_scene.h"
 
-#include "render/scene/distance_outliers.h"
-#include "render/ambient_occlusion/lightmap_selection.h"
 #include "render/scene/large_receivers.h"
-#include "render/ambient_occlusion/occluder_boxes.h"
-#include "render/ambient_occlusion/vertex_samples.h"
-#include "render/ambient_occlusion/occlusion_atlas.h"
 
 #include <algorithm>
 #include <array>
@@ -40,8 +35,6 @@ MeshLook make_mesh_look(const MeshAsset& asset) {
     for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
     look.bound_center = bounds.center();
     look.half_extent = 0.5 * bounds.extent();
-    look.occluders = make_mesh_occluders(asset.surface);
-    set_mesh_probes(look);
     return look;
 }
 
@@ -84,54 +77,9 @@ void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
 
 void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
 
-// Which bodies some eye of the camera has near, as they start.
-std::vector<char> bodies_near(const SceneDescription& scene, const SceneLooks& looks) {
-    std::vector<Vec3> eyes;
-    for (const CameraKeyframe& key : scene.camera.keyframes) eyes.push_back(key.eye);
-    if (eyes.empty()) eyes.push_back(scene.camera.eye);
-    std::vector<char> near(looks.bodies.size(), 0);
-    std::vector<double> distances, sorted;
-    for (const Vec3& eye : eyes) {
-        distances.assign(looks.bodies.size(), std::numeric_limits<double>::infinity());
-        sorted.clear();
-        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            if (!(looks.bodies[i].reach > 0.0) || looks.bodies[i].ground) continue;
-            distances[i] = (scene.bodies[i].position - eye).norm();
-            sorted.push_back(distances[i]);
-        }
-        if (sorted.empty()) break;
-        const double limit = far_limit(sorted);
-        for (std::size_t i = 0; i < near.size(); ++i)
-            if (distances[i] <= limit) near[i] = 1;
-    }
-    return near;
-}
-
-// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers
-// and what is lost.
-double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
-    constexpr double stragglers = 0.02, margin = 1.1;
-    double extent = 0.0;
-    const std::vector<char> near = bodies_near(scene, looks);
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> at;
-        for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-            if (near[i] != 0) at.push_back(scene.bodies[i].position[axis]);
-        if (at.empty()) break;
-        const auto skipped = std::ptrdiff_t(stragglers * double(at.size()));
-        std::nth_element(at.begin(), at.begin() + skipped, at.end());
-        const double low = at[std::size_t(skipped)];
-        std::nth_element(at.begin(), at.end() - 1 - skipped, at.end());
-        extent = std::max(extent, *(at.end() - 1 - skipped) - low);
-    }
-    double cell = std::exp2(std::floor(std::log2(looks.typical_reach / OcclusionAtlas::texels_per_reach)));
-    while (margin * extent > cell * (OcclusionAtlas::largest_window - 64)) cell *= 2.0;
-    return cell;
-}
-
 }  // namespace
 
-SceneLooks make_scene_looks(const SceneDescription& scene) {
+SceneLooks describe_bodies(const SceneDescription& scene) {
     SceneLooks looks;
     for (const BodyDescription& body : scene.bodies) {
         BodyLook look;
@@ -158,8 +106,6 @@ SceneLooks make_scene_looks(const SceneDescription& scene) {
     }
     for (const BodyLook& look : looks.bodies)
         if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
-    looks.window_cell = window_cell_for(scene, looks);
-    choose_fine_surfaces(scene, looks);
     return looks;
 }
 

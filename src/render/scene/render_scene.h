@@ -75,7 +75,9 @@ struct SceneLooks {
 /// From so many bodies on, small ones are looked at pixel by pixel and darkened coarsely; with fewer it would gain little.
 inline constexpr std::size_t crowd = 2000;
 
-SceneLooks make_scene_looks(const SceneDescription& scene);
+/// Shapes, bounds, colors, large receivers and the typical reach: all but the data of ambient occlusion, which
+/// make_scene_looks() of render_scene_builder.h adds.
+SceneLooks describe_bodies(const SceneDescription& scene);
 
 /// The ball around a body, relative to the eye.
 struct BoundingBall {

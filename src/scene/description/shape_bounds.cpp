@@ -1,7 +1,7 @@
 #include "scene/description/shape_bounds.h"
 
 #include "core/check.h"
-#include "scene/keys/compound.h"
+#include "scene/description/shape_extent.h"
 
 #include <algorithm>
 

@@ -3,7 +3,8 @@
 // a step that fits the file's fps may not fit the one of --fps.
 #pragma once
 
-#include "scene/load.h"
+#include "scene/description/description.h"
+#include "scene/keys/overrides.h"
 #include "scene/toml/toml_reader.h"
 
 #include <span>

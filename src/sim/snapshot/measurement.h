@@ -3,7 +3,7 @@
 
 #include "sim/dynamics/body.h"
 #include "sim/geometry/manifold.h"
-#include "sim/world.h"
+#include "sim/snapshot/report.h"
 
 #include <vector>
 

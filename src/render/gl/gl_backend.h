@@ -1,0 +1,8 @@
+// The ways into OpenGL that a user can choose from.
+#pragma once
+
+namespace tumble {
+
+enum class GlBackend { osmesa, egl };
+
+}  // namespace tumble

@@ -1,0 +1,10 @@
+// The whole render scene of a scene: its bodies, and the data that ambient occlusion keeps of them.
+#pragma once
+
+#include "render/scene/render_scene.h"
+
+namespace tumble {
+
+SceneLooks make_scene_looks(const SceneDescription& scene);
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+#include "render/scene/near_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
+constexpr double nearest_part = 1e-4;
+
+}  // namespace
+
+// The ball around a ground often holds the eye; but what is in view of the box around it is no nearer than its nearest
+// point, and along the axis less by a corner's cosine.
+double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
+                   const CameraView& view) {
+    const double depth = ball.center.dot(view.forward()) - ball.radius;
+    if (!look.ground) return depth;
+    const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
+    const Vec3 eye = state.orientation.conjugate() * -ball.center;
+    const double gap = (eye.cwiseAbs() - half_size).cwiseMax(0.0).norm();
+    double longest = 1.0;   // of rays that are 1 along the axis
+    for (const double x : {0.0, double(view.width())})
+        for (const double y : {0.0, double(view.height())}) longest = std::max(longest, view.ray(x, y).norm());
+    return std::max(depth, gap / longest);
+}
+
+double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+    double nearest = view.target_distance();
+    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
+        if (looks.bodies[i].kind == DrawKind::hidden || looks.bodies[i].kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
+        if (view.sees(ball.center, ball.radius))
+            nearest = std::min(nearest, least_depth(looks.bodies[i], looks, snapshot.bodies[i], ball, view));
+    }
+    nearest = std::max(nearest, nearest_part * view.target_distance());
+    return std::exp2(std::floor(std::log2(0.5 * nearest)));
+}
+
+}  // namespace tumble

@@ -1,0 +1,17 @@
+// The distance of the near plane, from the bodies in view.
+#pragma once
+
+#include "render/camera/camera.h"
+#include "render/scene/render_scene.h"
+
+namespace tumble {
+
+/// How deep at least what is in view of a body lies, m.
+double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
+                   const CameraView& view);
+
+/// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
+/// movements do not round all depths anew.
+double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+
+}  // namespace tumble

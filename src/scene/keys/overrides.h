@@ -1,0 +1,19 @@
+// Values of the command line that take the place of the scene file's.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace tumble {
+
+/// What the command line may say in place of the file. Each is checked like the file's own value;
+/// an error names the option ("--fps: ...").
+struct SceneOverrides {
+    std::optional<double> duration, fps, step;
+    std::optional<int> steps_per_frame, width, height, samples;
+    std::optional<std::string> integrator, impacts, impact_law;
+};
+
+using FileList = std::vector<std::filesystem::path>;
+
+}  // namespace tumble

@@ -1,0 +1,153 @@
+// The layers of src/: a folder includes only the folders below it, and no cycle joins two folders at any depth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <istream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = fs::path(TUMBLE_SOURCE_DIR) / "src";
+
+/// The includes that a top folder may have.
+struct Layer {
+    std::vector<std::string> allowed;              // beginnings of our headers: a folder ("core/") or one header
+    std::vector<std::string> forbidden_libraries;  // beginnings of system headers
+};
+
+const std::map<std::string, Layer> layers = {
+    {"core", {{"core/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"scene", {{"core/", "scene/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/"}}},
+    {"render",
+     {{"core/", "scene/description/", "sim/snapshot/snapshot.h", "render/"},
+      {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
+    {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
+    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "app/"}, {}}},
+};
+
+/// The includes of each folder below src/, by folder.
+using FolderGraph = std::map<std::string, std::set<std::string>>;
+
+struct Include {
+    std::string header;
+    bool ours;
+};
+
+std::vector<Include> includes_of(std::istream& text) {
+    static const std::regex include("^\\s*#\\s*include\\s*([\"<])([^\">]+)[\">].*$");
+    std::vector<Include> includes;
+    std::smatch match;
+    for (std::string line; std::getline(text, line);)
+        if (std::regex_match(line, match, include))
+            includes.push_back({match[2], match[1] == "\"" || fs::exists(source / match[2].str())});
+    return includes;
+}
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& beginnings) {
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&](const std::string& b) { return text.rfind(b, 0) == 0; });
+}
+
+std::vector<std::string> forbidden_includes(const std::string& top_folder, std::istream& text) {
+    const Layer& layer = layers.at(top_folder);
+    std::vector<std::string> forbidden;
+    for (const Include& include : includes_of(text))
+        if (include.ours ? !starts_with_any(include.header, layer.allowed)
+                         : starts_with_any(include.header, layer.forbidden_libraries))
+            forbidden.push_back(include.header);
+    return forbidden;
+}
+
+std::vector<fs::path> source_files() {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(source))
+        if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+FolderGraph folder_graph() {
+    FolderGraph graph;
+    for (const fs::path& file : source_files()) {
+        const std::string folder = file.parent_path().lexically_relative(source).string();
+        std::ifstream text(file);
+        for (const Include& include : includes_of(text)) {
+            const std::string other = fs::path(include.header).parent_path().string();
+            if (include.ours && other != folder) graph[folder].insert(other);
+        }
+    }
+    return graph;
+}
+
+std::set<std::string> reachable(const FolderGraph& graph, const std::string& from) {
+    std::set<std::string> seen;
+    std::vector<std::string> open{from};
+    while (!open.empty()) {
+        const auto next = graph.find(open.back());
+        open.pop_back();
+        if (next == graph.end()) continue;
+        for (const std::string& folder : next->second)
+            if (seen.insert(folder).second) open.push_back(folder);
+    }
+    return seen;
+}
+
+/// "a -> b" for each include that is part of a cycle between folders.
+std::vector<std::string> cyclic_includes(const FolderGraph& graph) {
+    std::vector<std::string> cyclic;
+    for (const auto& [folder, others] : graph)
+        for (const std::string& other : others)
+            if (reachable(graph, other).count(folder) > 0) cyclic.push_back(folder + " -> " + other);
+    return cyclic;
+}
+
+TEST(Architecture, EveryTopFolderHasALayer) {
+    for (const auto& entry : fs::directory_iterator(source)) {
+        if (!entry.is_directory()) continue;
+        EXPECT_EQ(layers.count(entry.path().filename()), 1u) << entry.path().filename();
+    }
+}
+
+TEST(Architecture, NoIncludeLeavesItsLayer) {
+    const std::vector<fs::path> files = source_files();
+    for (const fs::path& file : files) {
+        const fs::path name = file.lexically_relative(source);
+        std::ifstream text(file);
+        for (const std::string& header : forbidden_includes(name.begin()->string(), text))
+            ADD_FAILURE() << "src/" << name.string() << " includes " << header;
+    }
+    EXPECT_GT(files.size(), 100u);
+}
+
+TEST(Architecture, NoCycleBetweenFolders) {
+    for (const std::string& include : cyclic_includes(folder_graph())) ADD_FAILURE() << "in a cycle: " << include;
+}
+
+TEST(Architecture, AForbiddenIncludeIsFound) {
+    std::istringstream upwards(
+        "#include \"sim/world.h\"\n#include <vector>\n  # include \"core/color.h\"\n#include <GL/gl.h>\n");
+    EXPECT_EQ(forbidden_includes("scene", upwards), (std::vector<std::string>{"sim/world.h", "GL/gl.h"}));
+    std::istringstream bridge("#include \"sim/snapshot/snapshot.h\"\n#include \"sim/world.h\"\n");
+    EXPECT_EQ(forbidden_includes("render", bridge), (std::vector<std::string>{"sim/world.h"}));
+}
+
+TEST(Architecture, ACycleIsFound) {
+    const FolderGraph straight{{"a", {"b", "c"}}, {"b", {"c"}}};
+    EXPECT_TRUE(cyclic_includes(straight).empty());
+    const FolderGraph round{{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}};
+    EXPECT_EQ(cyclic_includes(round), (std::vector<std::string>{"b -> c", "c -> b"}));
+}
+
+}  // namespace
+}  // namespace tumble
