@@ -7,7 +7,7 @@ namespace tumble::bench {
 
 std::vector<Snapshot> drawn_clip(const SceneDescription& scene, int first, int end) {
     World world(scene);
-    DrawnPoses drawn(scene);
+    PoseFilter drawn(scene);
     std::vector<Snapshot> clip;
     for (int frame = 0; frame < end; ++frame) {
         if (frame > 0) world.advance_frame();

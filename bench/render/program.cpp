@@ -65,7 +65,7 @@ Arguments read_arguments(int argc, char** argv) {
 void measure_cost(const Arguments& a) {
     const SceneDescription scene = load_scene(a.scene, a.overrides);
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
-    RenderTimes times;
+    PassTimes times;
     RenderOptions options;
     options.full_redraw = a.full;
     if (a.stages) options.times = &times;
@@ -73,7 +73,7 @@ void measure_cost(const Arguments& a) {
     Image frame;
     std::vector<double> costs;
     double pixels = 0.0, rectangles = 0.0;
-    RenderTimes sum_of_times;
+    PassTimes sum_of_times;
     for (int round = 0; round < a.rounds; ++round) {
         renderer.render(clip.front(), frame);   // what is done once, and the leap back
         times = {};

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-NumberTrack::NumberTrack(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth)
+KeyframeCurve::KeyframeCurve(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth)
     : times_(std::move(times)), values_(std::move(values)), smooth_(smooth) {
     for (const Eigen::VectorXd& value : values_) slopes_.push_back(Eigen::VectorXd::Zero(value.size()));
     for (std::size_t i = 1; i + 1 < times_.size(); ++i) {
@@ -16,7 +16,7 @@ NumberTrack::NumberTrack(std::vector<double> times, std::vector<Eigen::VectorXd>
     }
 }
 
-Eigen::VectorXd NumberTrack::at(double time) const {
+Eigen::VectorXd KeyframeCurve::at(double time) const {
     if (time <= times_.front()) return values_.front();
     if (time >= times_.back()) return values_.back();
     const auto next = std::size_t(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()), i = next - 1;

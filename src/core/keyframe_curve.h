@@ -8,10 +8,10 @@
 
 namespace tumble {
 
-class NumberTrack {
+class KeyframeCurve {
 public:
     /// Times increase; there is at least one, and as many values, all of one length.
-    NumberTrack(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth);
+    KeyframeCurve(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth);
 
     Eigen::VectorXd at(double time) const;
 

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 struct Neighbour {
-    std::uint32_t triangle = MeshSheets::none;
+    std::uint32_t triangle = MeshComponents::none;
     bool alike = false;   // do both use the edge in opposite directions, as triangles of one side do?
 };
 
@@ -41,10 +41,10 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(const std::vector<std::array
 
 }  // namespace
 
-MeshSheets find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     const auto neighbours = neighbours_of(triangles);
-    MeshSheets result;
-    result.sheet.assign(triangles.size(), MeshSheets::none);
+    MeshComponents result;
+    result.sheet.assign(triangles.size(), MeshComponents::none);
     result.turned.assign(triangles.size(), 0);
     result.rim.assign(triangles.size(), 0);
     std::vector<char> found(triangles.size(), 0);
@@ -57,7 +57,7 @@ MeshSheets find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangle
         for (std::size_t k = 0; k < members.size(); ++k) {
             const std::uint32_t t = members[k];
             for (const Neighbour& n : neighbours[t]) {
-                if (n.triangle == MeshSheets::none) {
+                if (n.triangle == MeshComponents::none) {
                     result.rim[t] = 1;
                     continue;
                 }

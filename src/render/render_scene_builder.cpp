@@ -14,7 +14,7 @@ namespace tumble {
 namespace {
 
 // Which bodies some eye of the camera has near, as they start.
-std::vector<char> bodies_near(const SceneDescription& scene, const SceneLooks& looks) {
+std::vector<char> bodies_near(const SceneDescription& scene, const RenderScene& looks) {
     std::vector<Vec3> eyes;
     for (const CameraKeyframe& key : scene.camera.keyframes) eyes.push_back(key.eye);
     if (eyes.empty()) eyes.push_back(scene.camera.eye);
@@ -38,7 +38,7 @@ std::vector<char> bodies_near(const SceneDescription& scene, const SceneLooks& l
 
 // A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers
 // and what is lost.
-double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
+double window_cell_for(const SceneDescription& scene, const RenderScene& looks) {
     constexpr double stragglers = 0.02, margin = 1.1;
     double extent = 0.0;
     const std::vector<char> near = bodies_near(scene, looks);
@@ -60,9 +60,9 @@ double window_cell_for(const SceneDescription& scene, const SceneLooks& looks) {
 
 }  // namespace
 
-SceneLooks make_scene_looks(const SceneDescription& scene) {
-    SceneLooks looks = describe_bodies(scene);
-    for (MeshLook& mesh : looks.meshes) {
+RenderScene make_render_scene(const SceneDescription& scene) {
+    RenderScene looks = describe_bodies(scene);
+    for (RenderMesh& mesh : looks.meshes) {
         mesh.occluders = make_mesh_occluders(mesh.asset->surface);
         set_mesh_probes(mesh);
     }

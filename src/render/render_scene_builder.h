@@ -5,6 +5,6 @@
 
 namespace tumble {
 
-SceneLooks make_scene_looks(const SceneDescription& scene);
+RenderScene make_render_scene(const SceneDescription& scene);
 
 }  // namespace tumble

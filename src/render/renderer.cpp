@@ -42,13 +42,13 @@ std::string words(const GlFunctions& gl, GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
-CameraView first_view(const SceneDescription& scene, const SceneLooks& looks, const RenderOptions& options) {
+Camera first_view(const SceneDescription& scene, const RenderScene& looks, const RenderOptions& options) {
     const double viewing = viewing_distance(scene, looks);
-    return CameraView(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
-        .with_distances(viewing, haze_distance(scene, looks, viewing));
+    return Camera(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
+        .with_distances(viewing, fog_distance(scene, looks, viewing));
 }
 
-std::vector<Rectangle> whole_picture(const CameraView& view) { return {{0, 0, view.width(), view.height()}}; }
+std::vector<Rectangle> whole_picture(const Camera& view) { return {{0, 0, view.width(), view.height()}}; }
 
 }  // namespace
 
@@ -56,7 +56,7 @@ struct Renderer::State {
     State(const SceneDescription& description, const RenderOptions& options, const std::filesystem::path& shaders)
         : drawn(description),
           scene(drawn.scene()),
-          looks(make_scene_looks(scene)),
+          looks(make_render_scene(scene)),
           sun_up(sun_is_up(scene)),
           path(description.camera),
           camera(scene.camera),
@@ -83,7 +83,7 @@ struct Renderer::State {
           times(options.times),
           turns(options.turns) {
         drawn.forget_bodies();
-        gl.FrontFace(GL_CW);  // the picture is drawn upside down (see CameraView)
+        gl.FrontFace(GL_CW);  // the picture is drawn upside down (see Camera)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
             GL_DEPTH_CLAMP);  // nothing is cut off in front of the near plane or in front of the sun's first depth
@@ -108,7 +108,7 @@ struct Renderer::State {
         return true;
     }
 
-    // With draws of which nothing is let through. Those that take longest first: see CompilationTurns.
+    // With draws of which nothing is let through. Those that take longest first: see ShaderCompileSchedule.
     void compile_shaders(const DrawList& list) {
         if (turns == nullptr) return;
         bind_textures();
@@ -146,18 +146,18 @@ struct Renderer::State {
         framebuffer.begin(changed, closing);
     }
 
-    DrawnParts drawn;
+    CompoundExpansion drawn;
     const SceneDescription& scene;
-    SceneLooks looks;
+    RenderScene looks;
     bool sun_up;
-    CameraPath path;
+    CameraAnimation path;
     CameraDescription camera;   // as it was for the last picture
-    CameraView view;
-    ShadowStage stage;
-    OcclusionMaker occlusion;
-    ChangeFinder changes;
-    TileMarks last_marks;
-    MeshDetails details;
+    Camera view;
+    CascadeFitter stage;
+    AmbientOcclusion occlusion;
+    DamageTracker changes;
+    DirtyTiles last_marks;
+    MeshLods details;
     EdgeFinder edges;
     Image drawn_image;  // as it was drawn, with surface numbers in alpha
     std::unique_ptr<GlContext> context;
@@ -166,16 +166,16 @@ struct Renderer::State {
     bool smooth_edges;
     Framebuffer framebuffer;
     GlObject uniforms;
-    MeshLibrary meshes;
+    GpuMeshCache meshes;
     OcclusionTexture occlusion_texture;
     ShadowMap shadow_map;
-    SurfacePrograms programs;
-    PlanePainter planes;
+    BodyPass programs;
+    PlanePass planes;
     bool background_kept = false;
     std::vector<Rectangle> changed, closing;   // what is drawn anew; what was before and is not now
     bool full_redraw, draw_hidden;
-    RenderTimes* times;
-    CompilationTurns* turns;   // until its shaders are compiled
+    PassTimes* times;
+    ShaderCompileSchedule* turns;   // until its shaders are compiled
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -188,7 +188,7 @@ Renderer::~Renderer() = default;
 void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
     s.context->make_current();  // there may be other renderers in this thread
-    StageClock clock(s.gl, s.times);
+    PassTimer clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
     const bool camera_moved = s.move_camera(whole);
     const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
@@ -201,26 +201,26 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
                      s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}, s.framebuffer.samples() <= 1};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
-    const std::vector<DrawnItem>& items = state.items;
+    const std::vector<DrawableBounds>& items = state.items;
     const double near_distance = state.near_distance;
-    const ShadowFit& shadows = state.shadows;
+    const ShadowCascades& shadows = state.shadows;
     const Visibility seen = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     std::optional<Visibility> everything;
     const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.looks, s.view)) : seen;
     // Of what is seen alone: where a tile lies in the atlas may tell in a colour's last digit.
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, seen);
-    TileMarks marks = s.changes.find(state, darkening, visibility);
+    DirtyTiles marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
     s.changed = marks.rectangles();
     s.closing = s.last_marks.rectangles_outside(marks);
     s.last_marks = marks;
 
-    ShadowMarks shadow_marks = s.changes.shadow_marks();
+    ShadowDirtyTiles shadow_marks = s.changes.shadow_marks();
     if (s.full_redraw) shadow_marks.mark_all();
     const bool all_shadows = shadow_marks.all();
     const Vec3 light = s.scene.light.direction.normalized();
     std::vector<char> wanted, casting;
-    for (const DrawnItem& item : items) {
+    for (const DrawableBounds& item : items) {
         wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
         casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) &&
                           s.view.sees_swept(item.center, item.radius, light) ? 1 : 0);
@@ -232,7 +232,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     for (const PlanePatch& plane : planes)
         touched.push_back(
             find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, atlas, snapshot, marks));
-    clock.ends(RenderStage::preparation);
+    clock.ends(Pass::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
     s.meshes.upload(list, s.details);
@@ -241,27 +241,27 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
-    clock.ends(RenderStage::upload);
+    clock.ends(Pass::upload);
     s.compile_shaders(list);
 
     if (s.scene.light.shadows && !shadow_marks.none())
         s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
-    clock.ends(RenderStage::shadow);
+    clock.ends(Pass::shadow);
 
     s.begin_picture(planes, camera_moved);
-    clock.ends(RenderStage::background);
+    clock.ends(Pass::background);
 
     s.bind_textures();
     s.programs.draw(s.meshes, list.visible);
-    clock.ends(RenderStage::bodies);
+    clock.ends(Pass::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
-    clock.ends(RenderStage::planes);
+    clock.ends(Pass::planes);
     if (camera_moved) s.planes.draw_open(planes, s.looks);   // last: not where bodies and their shadows are already
-    clock.ends(RenderStage::background);
+    clock.ends(Pass::background);
 
     s.framebuffer.resolve(s.changed);
     s.framebuffer.read(s.changed, s.drawn_image);
-    clock.ends(RenderStage::read);
+    clock.ends(Pass::read);
     std::vector<Rectangle> written = s.changed;
     if (!follows) {
         frame = Image(s.view.width(), s.view.height());
@@ -274,10 +274,10 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     copy_opaque(s.drawn_image, written, frame);
     // Of what is hidden, drawn or not, no edges: surfaces share numbers, and one might be taken for what lies before it.
     if (s.smooth_edges) {
-        blend_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
+        blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
         blend_rods(s.drawn_image, s.edges.rods(), marks, frame);
     }
-    clock.ends(RenderStage::edges);
+    clock.ends(Pass::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
 }
 

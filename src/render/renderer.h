@@ -14,8 +14,8 @@
 
 namespace tumble {
 
-class CompilationTurns;
-struct RenderTimes;
+class ShaderCompileSchedule;
+struct PassTimes;
 
 struct RenderOptions {
     GlBackend backend = GlBackend::osmesa;
@@ -24,8 +24,8 @@ struct RenderOptions {
     bool draw_hidden = false;             // what lies behind boxes as well: for tests and comparisons
     bool multisample = false;             // edges by several samples a pixel, as where cords are drawn: for comparisons
     double shift_x = 0.0, shift_y = 0.0;  // pixels that the picture is moved by, under one: for averages of many
-    RenderTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer
-    CompilationTurns* turns = nullptr;    // shared with the other processes that draw this scene, if there are any
+    PassTimes* times = nullptr;         // where to sum up what the stages cost; must outlive the renderer
+    ShaderCompileSchedule* turns = nullptr;    // shared with the other processes that draw this scene, if there are any
 };
 
 /// One OpenGL context and what is uploaded to it. Use it from the thread that made it.
@@ -38,7 +38,7 @@ public:
     /// Draws the snapshot at the scene's output size, from where the camera is at its time. Only what changed since the
     /// last render() is drawn and written: a `frame` of the right size must hold the picture that render() made before
     /// (any copy of it will do); another size, an empty image for one, is replaced by the whole picture. Bodies that do
-    /// not move cost little only when their poses are the same to the bit: DrawnPoses sees to that. A camera that has
+    /// not move cost little only when their poses are the same to the bit: PoseFilter sees to that. A camera that has
     /// moved has everything drawn.
     void render(const Snapshot& snapshot, Image& frame);
 

@@ -58,9 +58,9 @@ struct World::State {
     SleepMonitor sleep;
     std::uint64_t seen_sleep_changes = UINT64_MAX;
     std::vector<std::uint32_t> awake_bodies, moving_bodies, kinematic_bodies;   // ascending; moving: both others
-    std::unique_ptr<Flights> flights;   // with exact impacts
+    std::unique_ptr<EventDrivenMotion> flights;   // with exact impacts
     FreeFlights free_flights;           // with exact motion between stepped ones
-    MotionLimit motion_limit;
+    CcdClamp motion_limit;
     std::vector<BodyVelocity> motions;
     std::atomic<bool> any_fast{false};   // of the motions: each body's own thread tells
     std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // body
@@ -95,7 +95,7 @@ struct World::State {
             if (bodies[i].track) kinematic_bodies.push_back(i);
         motions.resize(bodies.size());
         place_kinematic_bodies();
-        if (settings.impacts == ImpactMode::exact) flights = std::make_unique<Flights>(bodies, settings, fps);
+        if (settings.impacts == ImpactMode::exact) flights = std::make_unique<EventDrivenMotion>(bodies, settings, fps);
     }
 
     double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
@@ -128,7 +128,7 @@ struct World::State {
                (!body.gyration.isZero(0.0) || turns_too_far(body, h));
     }
     void step_motions();
-    const std::vector<StepLimit>& held_limits();
+    const std::vector<CcdFraction>& held_limits();
     void lose_time(std::uint32_t i, double share, bool in_contact);
     void solve_resting_contacts();
     void forget_blows();
@@ -352,7 +352,7 @@ void World::State::step_motions() {
 
 // Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
 // find their impacts themselves.
-const std::vector<StepLimit>& World::State::held_limits() {
+const std::vector<CcdFraction>& World::State::held_limits() {
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
         pairs = broad_phase.update(bodies, h, &pool);
         std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
@@ -418,7 +418,7 @@ void World::State::move() {
             else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
             if (in_contact && share < 1.0) lose_time(i, share, true);
         }
-        if (limits[i].carrier != StepLimit::none) carry_along(body, bodies[limits[i].carrier], share, h);
+        if (limits[i].carrier != CcdFraction::none) carry_along(body, bodies[limits[i].carrier], share, h);
         look_at_numbers(i);
     });
     ++steps;

@@ -20,7 +20,7 @@
 namespace tumble {
 namespace {
 
-constexpr FrameForms both{PixelForm::yuv420, true, {}};
+constexpr FrameOutputs both{PixelForm::yuv420, true, {}};
 
 SceneDescription two_boxes() {
     SceneDescription scene;
@@ -54,11 +54,11 @@ Snapshot at_frame(std::int64_t n) {
     return snapshot;
 }
 
-Exposure sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
+MotionBlurFrame sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
 
 /// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
-Exposure blurred(std::int64_t n) {
-    Exposure exposure = sharp(n);
+MotionBlurFrame blurred(std::int64_t n) {
+    MotionBlurFrame exposure = sharp(n);
     const Snapshot next = at_frame(n + 1);
     for (int i = 1; i < 4; ++i) {
         Snapshot between = at_frame(n);
@@ -77,10 +77,10 @@ struct Seen {
 };
 
 /// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
-std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64_t frames,
+std::vector<Seen> draw(RenderPool& drawer, const SceneDescription& scene, std::int64_t frames,
                        const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
-                       const std::function<Exposure(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
-    BoundedQueue<Exposure> poses(4);
+                       const std::function<MotionBlurFrame(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
+    BoundedQueue<MotionBlurFrame> poses(4);
     std::thread simulation([&] {
         for (std::int64_t n = 0; n < frames; ++n)
             if (!poses.push(exposure(n))) return;
@@ -108,11 +108,11 @@ std::vector<Seen> draw(Drawer& drawer, const SceneDescription& scene, std::int64
     return seen;
 }
 
-TEST(Drawer, TheNumberOfProcessesChangesNoByte) {
+TEST(RenderPool, TheNumberOfProcessesChangesNoByte) {
     const SceneDescription scene = two_boxes();
     std::vector<Seen> first;
     for (const int workers : {1, 2, 3}) {
-        Drawer drawer(scene, {}, both, workers);
+        RenderPool drawer(scene, {}, both, workers);
         const std::vector<Seen> seen = draw(drawer, scene, 24);
         ASSERT_EQ(seen.size(), 24u);
         if (first.empty()) first = seen;
@@ -127,13 +127,13 @@ TEST(Drawer, TheNumberOfProcessesChangesNoByte) {
     EXPECT_NE(first[7].png, first[14].png);
 }
 
-TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
+TEST(RenderPool, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
     SceneDescription scene = two_boxes();
     scene.camera.orbit = 360.0;
     for (const bool blur : {false, true}) {
         std::vector<Seen> first;
         for (const int workers : {1, 2}) {
-            Drawer drawer(scene, {}, both, workers, 4);
+            RenderPool drawer(scene, {}, both, workers, 4);
             const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
             if (first.empty()) first = seen;
             EXPECT_TRUE(seen == first) << workers;
@@ -147,18 +147,18 @@ TEST(Drawer, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
 }
 
 // Trembling tells: a pose that is drawn anew only when it has moved far enough is that of the whole clip.
-TEST(Drawer, AFrameIsTheSameWhicheverWasTheFirst) {
+TEST(RenderPool, AFrameIsTheSameWhicheverWasTheFirst) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
-        Exposure exposure = sharp(n);
+        MotionBlurFrame exposure = sharp(n);
         exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // .02 pixels are .9e-3 m
         return exposure;
     };
-    for (const auto& exposure : {std::function<Exposure(std::int64_t)>(creeping), std::function<Exposure(std::int64_t)>(blurred)}) {
-        Drawer whole(scene, {}, both, 2, 4);
+    for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping), std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
+        RenderPool whole(scene, {}, both, 2, 4);
         const std::vector<Seen> all = draw(whole, scene, 36, [](std::int64_t) {}, exposure);
         for (const std::int64_t first : {1, 7, 10, 20, 35}) {
-            Drawer drawer(scene, {}, both, 2, 4);
+            RenderPool drawer(scene, {}, both, 2, 4);
             const std::vector<Seen> seen = draw(drawer, scene, 36, [](std::int64_t) {}, exposure, first);
             ASSERT_EQ(seen.size(), std::size_t(36 - first));
             EXPECT_FALSE(seen.front().repeated);
@@ -186,27 +186,27 @@ Snapshot trembling(std::int64_t n) {
     return snapshot;
 }
 
-Exposure with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
+MotionBlurFrame with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
 
-TEST(Drawer, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
+TEST(RenderPool, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
     const SceneDescription scene = two_boxes();
-    FrameForms with = both, alone;
+    FrameOutputs with = both, alone;
     with.aovs = alone.aovs = depth_and_motion();
-    const auto without_aovs = [](std::int64_t n) { return Exposure{n, {trembling(n)}, {}}; };
+    const auto without_aovs = [](std::int64_t n) { return MotionBlurFrame{n, {trembling(n)}, {}}; };
     std::vector<Seen> pictures, first;
     {
-        Drawer drawer(scene, {}, both, 2);
+        RenderPool drawer(scene, {}, both, 2);
         pictures = draw(drawer, scene, 24, [](std::int64_t) {}, without_aovs);
     }
     for (const int workers : {1, 2, 3}) {
-        Drawer drawer(scene, {}, with, workers);
+        RenderPool drawer(scene, {}, with, workers);
         const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, with_aovs);
         ASSERT_EQ(seen.size(), 24u);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
         EXPECT_EQ(drawer.drawn(), 11);
 
-        Drawer no_pictures(scene, {}, alone, workers);
+        RenderPool no_pictures(scene, {}, alone, workers);
         const std::vector<Seen> aovs = draw(no_pictures, scene, 24, [](std::int64_t) {}, with_aovs);
         ASSERT_EQ(aovs.size(), 24u);
         for (std::size_t n = 0; n < aovs.size(); ++n) EXPECT_TRUE(aovs[n].aovs == first[n].aovs) << n;
@@ -234,9 +234,9 @@ int status_of_process(const std::function<int()>& work) {
     return status;
 }
 
-TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
+TEST(RenderPool, AllFormsAreOfThePictureThatTheRendererDraws) {
     const SceneDescription scene = two_boxes();
-    Drawer drawer(scene, {}, both, 2);
+    RenderPool drawer(scene, {}, both, 2);
     const std::vector<Seen> seen = draw(drawer, scene, 16);
     const auto expect = [&] {
         RenderOptions options;
@@ -256,11 +256,11 @@ TEST(Drawer, AllFormsAreOfThePictureThatTheRendererDraws) {
     EXPECT_EQ(status_of_process(expect), 0);
 }
 
-TEST(Drawer, MotionBlurIsTheMeanOfItsMoments) {
+TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
     const SceneDescription scene = two_boxes();
     std::vector<Seen> first;
     for (const int workers : {1, 3}) {
-        Drawer drawer(scene, {}, both, workers, 4);
+        RenderPool drawer(scene, {}, both, workers, 4);
         const std::vector<Seen> seen = draw(drawer, scene, 20, [](std::int64_t) {}, blurred);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
@@ -295,10 +295,10 @@ std::string error_of(const std::function<void()>& action) {
     return "no error";
 }
 
-TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
+TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
     const SceneDescription scene = two_boxes();
     for (const int workers : {1, 2}) {
-        Drawer drawer(scene, {}, both, workers);
+        RenderPool drawer(scene, {}, both, workers);
         std::int64_t last = -1;
         const std::string error = error_of([&] {
             // Frames without end, all of which move: the run can only end by the error, whoever draws how many of them.
@@ -306,7 +306,7 @@ TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
                 if (n == 3) kill(drawer.processes().back(), SIGKILL);
                 last = n;
             };
-            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) { return Exposure{n, {at_frame(n % 8)}, {}}; });
+            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) { return MotionBlurFrame{n, {at_frame(n % 8)}, {}}; });
         });
         constexpr std::string_view words = "error: cannot draw frame ";
         ASSERT_EQ(error.find(words), 0u) << error;
@@ -315,20 +315,20 @@ TEST(Drawer, ADyingProcessIsReportedWithItsFrame) {
     }
 }
 
-TEST(Drawer, WhatOpenGlSaysIsReported) {
+TEST(RenderPool, WhatOpenGlSaysIsReported) {
     const SceneDescription scene = two_boxes();
     RenderOptions options;
     options.shader_folder = "/nowhere";
-    Drawer drawer(scene, options, both, 2);
+    RenderPool drawer(scene, options, both, 2);
     const std::string error = error_of([&] { draw(drawer, scene, 4); });
     EXPECT_EQ(error.find("error: cannot draw frame "), 0u) << error;
     EXPECT_NE(error.find("/nowhere"), std::string::npos) << error;
     EXPECT_EQ(error.find("error:", 1), std::string::npos) << error;
 }
 
-TEST(Drawer, AbandonedItComesBack) {
+TEST(RenderPool, AbandonedItComesBack) {
     const SceneDescription scene = two_boxes();
-    Drawer drawer(scene, {}, both, 2);
+    RenderPool drawer(scene, {}, both, 2);
     EXPECT_NE(error_of([&] {
                   draw(drawer, scene, 15, [&](std::int64_t n) {
                       if (n == 2) drawer.abandon();
@@ -337,15 +337,15 @@ TEST(Drawer, AbandonedItComesBack) {
               "no error");
 }
 
-TEST(Drawer, LeavesNoProcessBehind) {
+TEST(RenderPool, LeavesNoProcessBehind) {
     const SceneDescription scene = two_boxes();
     std::vector<pid_t> ids;
     {
-        Drawer unused(scene, {}, both, 2);
+        RenderPool unused(scene, {}, both, 2);
         ids = unused.processes();
     }
     {
-        Drawer drawer(scene, {}, both, 2);
+        RenderPool drawer(scene, {}, both, 2);
         draw(drawer, scene, 3);
         for (const pid_t id : drawer.processes()) ids.push_back(id);
         const ProcessEnd end = drawer.finish();

@@ -18,8 +18,8 @@ Frame numbered(std::int64_t number) {
 
 std::int64_t slot_of(const Frame& frame) { return *static_cast<const std::int64_t*>(frame.slot.get()); }
 
-TEST(FrameOrder, PutsFramesInOrder) {
-    FrameOrder order(2);
+TEST(ReorderBuffer, PutsFramesInOrder) {
+    ReorderBuffer order(2);
     for (const std::int64_t n : {3, 1, 0, 2}) order.add(numbered(n), std::size_t(n % 2), false);
     for (std::int64_t n = 0; n < 4; ++n) {
         const std::optional<Frame> frame = order.next();
@@ -33,8 +33,8 @@ TEST(FrameOrder, PutsFramesInOrder) {
     EXPECT_FALSE(order.next());
 }
 
-TEST(FrameOrder, ARepeatedFrameShowsTheOneBefore) {
-    FrameOrder order(1);
+TEST(ReorderBuffer, ARepeatedFrameShowsTheOneBefore) {
+    ReorderBuffer order(1);
     ASSERT_TRUE(order.add_repeated(1));
     ASSERT_TRUE(order.add_repeated(2));
     order.add(numbered(3), 0, false);
@@ -49,8 +49,8 @@ TEST(FrameOrder, ARepeatedFrameShowsTheOneBefore) {
     }
 }
 
-TEST(FrameOrder, AovsGoTheirOwnWay) {
-    FrameOrder order(1);
+TEST(ReorderBuffer, AovsGoTheirOwnWay) {
+    ReorderBuffer order(1);
     const auto with_aovs = [](Frame frame) {
         frame.aov_slot = std::make_shared<std::int64_t>(frame.number);
         return frame;
@@ -73,10 +73,10 @@ TEST(FrameOrder, AovsGoTheirOwnWay) {
     }
 }
 
-TEST(FrameOrder, UnchangedIsMeantOfTheWorkersOwnFrame) {
+TEST(ReorderBuffer, UnchangedIsMeantOfTheWorkersOwnFrame) {
     // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. "Unchanged" since its own last frame is a repetition only where
     // that is also the picture just before.
-    FrameOrder order(2);
+    ReorderBuffer order(2);
     const auto add = [&](std::int64_t n, std::size_t worker, bool unchanged) { order.add(numbered(n), worker, unchanged); };
     add(0, 0, false);
     add(1, 1, false);
@@ -88,8 +88,8 @@ TEST(FrameOrder, UnchangedIsMeantOfTheWorkersOwnFrame) {
     for (const bool expected : repeated) EXPECT_EQ(order.next()->repeated, expected);
 }
 
-TEST(FrameOrder, TheFirstErrorIsThrown) {
-    FrameOrder order(2);
+TEST(ReorderBuffer, TheFirstErrorIsThrown) {
+    ReorderBuffer order(2);
     order.add(numbered(1), 0, false);
     std::thread later([&] {
         order.fail(std::make_exception_ptr(RunError("first")));
@@ -105,8 +105,8 @@ TEST(FrameOrder, TheFirstErrorIsThrown) {
     EXPECT_FALSE(order.add_repeated(5));
 }
 
-TEST(FrameOrder, RepeatedFramesWaitForThoseBefore) {
-    FrameOrder order(2);
+TEST(ReorderBuffer, RepeatedFramesWaitForThoseBefore) {
+    ReorderBuffer order(2);
     std::thread ahead([&] {
         std::int64_t n = 1;
         while (order.add_repeated(n)) ++n;

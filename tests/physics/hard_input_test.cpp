@@ -186,7 +186,7 @@ TEST(HardInput, BoundsOfFreeRotation) {
     for (int trial = 0; trial < trials(300); ++trial) {
         const Vec3 size(std::pow(10.0, random(-3.0, 0.0)), std::pow(10.0, random(-3.0, 0.0)), 1.0);
         const Body body = free_box(size, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(10.0));
-        const Path path = Path::flight(body, Vec3::Zero());
+        const Trajectory path = Trajectory::flight(body, Vec3::Zero());
         double spin = 0.0, turning = 0.0;
         for (int k = 0; k < 400; ++k) {
             const double t = 0.005 * k;

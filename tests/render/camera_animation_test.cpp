@@ -32,15 +32,15 @@ SceneDescription small_heap() {
     return scene;
 }
 
-TEST(CameraPath, StandsStillWhereNothingMovesIt) {
+TEST(CameraAnimation, StandsStillWhereNothingMovesIt) {
     const SceneDescription scene = empty_scene();
-    EXPECT_TRUE(same_place(CameraPath(scene.camera).at(at_time(scene, 3.0)), scene.camera));
+    EXPECT_TRUE(same_place(CameraAnimation(scene.camera).at(at_time(scene, 3.0)), scene.camera));
 }
 
-TEST(CameraPath, TurnsAboutTheTargetCounterClockwiseFromAbove) {
+TEST(CameraAnimation, TurnsAboutTheTargetCounterClockwiseFromAbove) {
     SceneDescription scene = empty_scene();
     scene.camera.orbit = 30.0;
-    const CameraPath path(scene.camera);
+    const CameraAnimation path(scene.camera);
     for (const double time : {0.0, 1.0, 3.0, 4.5, 10.0}) {
         const double angle = M_PI / 6.0 * time;
         const CameraDescription now = path.at(at_time(scene, time));
@@ -50,22 +50,22 @@ TEST(CameraPath, TurnsAboutTheTargetCounterClockwiseFromAbove) {
     EXPECT_EQ(path.at(at_time(scene, 12.0)).eye, scene.camera.eye) << "to the last bit";
 }
 
-TEST(CameraPath, AnOrbitKeepsItsHeightAboutATiltedUp) {
+TEST(CameraAnimation, AnOrbitKeepsItsHeightAboutATiltedUp) {
     SceneDescription scene = empty_scene();
     scene.camera.up = Vec3(1.0, 2.0, 0.5);   // not of unit length
     scene.camera.orbit = -77.0;
     const Vec3 arm = scene.camera.eye - scene.camera.target;
-    const CameraDescription now = CameraPath(scene.camera).at(at_time(scene, 1.3));
+    const CameraDescription now = CameraAnimation(scene.camera).at(at_time(scene, 1.3));
     EXPECT_NEAR((now.eye - now.target).norm(), arm.norm(), rounding);
     EXPECT_NEAR((now.eye - now.target).dot(scene.camera.up), arm.dot(scene.camera.up), rounding);
 }
 
-TEST(CameraPath, GoesThroughItsKeyframes) {
+TEST(CameraAnimation, GoesThroughItsKeyframes) {
     SceneDescription scene = empty_scene();
     scene.camera.keyframes = {{1.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {2.0, {4, 0, 8}, {0, 2, 0}, 20.0}, {4.0, {4, 6, 8}, {0, 2, 2}, 30.0}};
     for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
         scene.camera.interpolation = way;
-        const CameraPath path(scene.camera);
+        const CameraAnimation path(scene.camera);
         for (const CameraKeyframe& key : scene.camera.keyframes) {
             const CameraDescription now = path.at(at_time(scene, key.time));
             EXPECT_LT((now.eye - key.eye).norm() + (now.target - key.target).norm(), rounding);
@@ -81,10 +81,10 @@ TEST(CameraPath, GoesThroughItsKeyframes) {
 }
 
 // A camera that waits stands still, however quickly it leaves; its eye may wait while its target moves.
-TEST(CameraPath, AWaitingCameraStandsStill) {
+TEST(CameraAnimation, AWaitingCameraStandsStill) {
     SceneDescription scene = empty_scene();
     scene.camera.keyframes = {{0.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {3.0, {0, 0, 8}, {2, 0, 0}, 40.0}, {3.2, {5, 0, 8}, {2, 1, 0}, 20.0}};
-    const CameraPath path(scene.camera);
+    const CameraAnimation path(scene.camera);
     for (double t = 0.0; t <= 3.0; t += 0.1) {
         const CameraDescription now = path.at(at_time(scene, t));
         EXPECT_EQ(now.eye, Vec3(0, 0, 8)) << t;
@@ -93,7 +93,7 @@ TEST(CameraPath, AWaitingCameraStandsStill) {
 }
 
 // Straight above its target the picture stood across its way for one frame. What was to the right just before is so still.
-TEST(CameraPath, PassesOverItsTargetWithoutAQuarterTurn) {
+TEST(CameraAnimation, PassesOverItsTargetWithoutAQuarterTurn) {
     for (const double orbit : {0.0, 50.0})
         for (const double height : {8.0, -8.0})
             for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
@@ -102,9 +102,9 @@ TEST(CameraPath, PassesOverItsTargetWithoutAQuarterTurn) {
                 scene.camera.interpolation = way;
                 scene.camera.orbit = orbit;
                 scene.camera.keyframes = {{1.0, {2, height, 4}, {0, 0, 0}, 40.0}, {3.0, {-2, height, -4}, {0, 0, 0}, 40.0}};
-                const CameraPath path(scene.camera);
-                const auto view_at = [&](double time) { return CameraView(path.at(at_time(scene, time)), 320, 180); };
-                const CameraView before = view_at(2.0 - 1e-6), there = view_at(2.0), after = view_at(2.0 + 1e-6);
+                const CameraAnimation path(scene.camera);
+                const auto view_at = [&](double time) { return Camera(path.at(at_time(scene, time)), 320, 180); };
+                const Camera before = view_at(2.0 - 1e-6), there = view_at(2.0), after = view_at(2.0 + 1e-6);
                 EXPECT_LT((there.eye() - Vec3(0.0, height, 0.0)).norm(), rounding);
                 // Nearly level, along (2, 4): up x that is to the right, seen from above and from below.
                 const double angle = orbit * M_PI / 180.0 * 2.0;
@@ -116,7 +116,7 @@ TEST(CameraPath, PassesOverItsTargetWithoutAQuarterTurn) {
             }
 }
 
-TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
+TEST(CameraAnimation, FollowsABodyAndTurnsAroundIt) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane(), ball_body(Vec3(1.0, 1.0, 0.0), 0.5, {200, 60, 50})};
     scene.camera.follow = 1;
@@ -124,14 +124,14 @@ TEST(CameraPath, FollowsABodyAndTurnsAroundIt) {
     scene.camera.orbit = 90.0;
     Snapshot snapshot = at_time(scene, 1.0);
     snapshot.bodies[1].origin = snapshot.bodies[1].center_of_mass = Vec3(4.0, 3.0, -2.0);
-    const CameraDescription now = CameraPath(scene.camera).at(snapshot);
+    const CameraDescription now = CameraAnimation(scene.camera).at(snapshot);
     EXPECT_LT((now.eye - Vec3(8.0 + 3.0, 1.0 + 2.0, -2.0)).norm(), rounding);
     EXPECT_LT((now.target - Vec3(3.0, 3.0, -2.0)).norm(), rounding);
 }
 
 // A body whose origin is at one end, and which tumbles about its middle: the camera goes along with the middle, in a
 // straight line.
-TEST(CameraPath, FollowsTheCentreOfMassOfWhatTumbles) {
+TEST(CameraAnimation, FollowsTheCentreOfMassOfWhatTumbles) {
     SceneDescription scene = empty_scene();
     const Vec3 middle(0.3, 0.1, -0.2);   // body frame, from the origin
     const Quat first(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
@@ -139,7 +139,7 @@ TEST(CameraPath, FollowsTheCentreOfMassOfWhatTumbles) {
     scene.camera.follow = 0;
     scene.camera.follow_start = scene.bodies[0].position;
     scene.camera.follow_start_rotation = first;
-    const CameraPath path(scene.camera);
+    const CameraAnimation path(scene.camera);
     const Vec3 start = scene.bodies[0].position + first * middle;
     for (const double time : {0.0, 0.7, 2.0}) {
         Snapshot snapshot = at_time(scene, time);
@@ -182,7 +182,7 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
         RenderOptions everything;
         everything.full_redraw = true;
         Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
-        DrawnPoses poses(scene);
+        PoseFilter poses(scene);
         Image frame, sparse, truth;
         for (int n = 0; n < 15; ++n) {   // with stillness before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
@@ -236,7 +236,7 @@ TEST(MovingCamera, NoTwoFramesAreTheSamePictureUntilItStops) {
     SceneDescription scene = small_heap();
     scene.camera.keyframes = {{0.0, scene.camera.eye, scene.camera.target, 40.0},
                               {1.0, scene.camera.eye + Vec3(1.0, 0.0, 0.0), scene.camera.target, 40.0}};
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     for (int n = 0; n < 16; ++n) {
         Snapshot snapshot = at_time(scene, 0.1 * n);
         EXPECT_EQ(poses.follow(snapshot), n <= 10) << n;
@@ -248,7 +248,7 @@ TEST(MovingCamera, RestsWithABodyThatTrembles) {
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
     scene.bodies[1].surface.visible = false;   // followed all the same
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     Snapshot snapshot = at_time(scene, 0.0);
     poses.follow(snapshot);
     snapshot = at_time(scene, 0.1);
@@ -264,7 +264,7 @@ TEST(MovingCamera, RestsWithABodyThatTrembles) {
 TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
     SceneDescription scene = empty_scene();
     for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
-    const SceneLooks looks = make_scene_looks(scene);
+    const RenderScene looks = make_render_scene(scene);
     scene.camera.eye = Vec3(0.0, 0.0, 10.0);
     const auto with_target = [&](double z) {
         scene.camera.target = Vec3(0.0, 0.0, z);
@@ -279,7 +279,7 @@ TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
     scene.bodies.clear();
     scene.camera.keyframes.clear();
     scene.camera.target = Vec3(0.0, 0.0, 6.0);
-    EXPECT_EQ(viewing_distance(scene, make_scene_looks(scene)), 4.0);
+    EXPECT_EQ(viewing_distance(scene, make_render_scene(scene)), 4.0);
 }
 
 // A tower behind marbles was nowhere in the picture: half of the light was haze at five times their distance.
@@ -292,7 +292,7 @@ TEST(HazeDistance, LeavesWhatIsLargeInThePicture) {
     const auto with_box = [&](const Vec3& position, double size) {
         scene.bodies[3].position = position;
         scene.bodies[3].shape = BoxShape{Vec3::Constant(size)};
-        return haze_distance(scene, make_scene_looks(scene), 10.0);
+        return fog_distance(scene, make_render_scene(scene), 10.0);
     };
     EXPECT_EQ(with_box(Vec3(1.0, 1.0, -1.0), 1.0), 50.0);        // near
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, -190.5), 0.5), 50.0);      // a dot

@@ -21,21 +21,21 @@ struct Cloud {
             const Vec3 size = random.vector(0.3) + Vec3::Constant(i % 10 == 0 ? 2.0 : 0.6);
             scene.bodies.push_back(box_body(random.vector(4.0, 4.0, 4.0), size, {200, 200, 200}, random.turn()));
         }
-        looks = make_scene_looks(scene);
+        looks = make_render_scene(scene);
         snapshot = first_snapshot(scene);
         items = make_drawn_items(scene, looks, snapshot, view);
-        fit = ShadowStage(scene, looks, view, 768).fit(looks, snapshot, view);
+        fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
     }
 
     SceneDescription scene = empty_scene();
-    SceneLooks looks;
-    CameraView view{scene.camera, 320, 180};
+    RenderScene looks;
+    Camera view{scene.camera, 320, 180};
     Snapshot snapshot;
-    std::vector<DrawnItem> items;
-    ShadowFit fit;
+    std::vector<DrawableBounds> items;
+    ShadowCascades fit;
 };
 
-TEST(ShadowCover, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
+TEST(CasterCulling, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
     const Cloud cloud;
     std::vector<char> casting(cloud.items.size(), 1);
     drop_hidden_casters(cloud.looks, cloud.items, cloud.fit, casting);
@@ -62,7 +62,7 @@ TEST(ShadowCover, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
     EXPECT_GT(dropped, 150) << "of 600: there is much to leave out";
 }
 
-TEST(ShadowCover, HidesWhatLiesBehindAndNothingElse) {
+TEST(CasterCulling, HidesWhatLiesBehindAndNothingElse) {
     SceneDescription scene = empty_scene();
     const Vec3 down = scene.light.direction.normalized();
     const Vec3 across = down.unitOrthogonal();
@@ -73,15 +73,15 @@ TEST(ShadowCover, HidesWhatLiesBehindAndNothingElse) {
     for (const auto& [away, beside] : {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
         scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
     scene.bodies.push_back(cube(front + 2.0 * down, 2.5));   // wider than what lies before it
-    const SceneLooks looks = make_scene_looks(scene);
-    const CameraView view(scene.camera, 320, 180);
+    const RenderScene looks = make_render_scene(scene);
+    const Camera view(scene.camera, 320, 180);
     const Snapshot snapshot = first_snapshot(scene);
-    const std::vector<DrawnItem> items = make_drawn_items(scene, looks, snapshot, view);
-    const ShadowFit fit = ShadowStage(scene, looks, view, 768).fit(looks, snapshot, view);
-    ShadowCover cover(fit);
+    const std::vector<DrawableBounds> items = make_drawn_items(scene, looks, snapshot, view);
+    const ShadowCascades fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
+    CasterCulling cover(fit);
     cover.add(items[0]);
     std::vector<bool> hidden;
-    for (const DrawnItem& item : items) hidden.push_back(cover.hides(item));
+    for (const DrawableBounds& item : items) hidden.push_back(cover.hides(item));
     EXPECT_EQ(hidden, (std::vector<bool>{false, true, true, false, false, true, true, false}))
         << "itself; behind; behind, beside; out at the rim; before; within; far behind; wider";
 }

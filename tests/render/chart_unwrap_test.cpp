@@ -68,7 +68,7 @@ double worst(const MeshAsset& asset, double cell) {
     return most;
 }
 
-TEST(MeshCharts, ShowTheSurfaceBetweenTexels) {
+TEST(ChartedMesh, ShowTheSurfaceBetweenTexels) {
     for (const double cell : {0.03, 0.1, 0.3}) {
         EXPECT_LT(worst(*sheet_asset(8.0, 1), cell), 1e-4) << cell;
         EXPECT_LT(worst(*sheet_asset(8.0, 60), cell), 1e-4) << cell;
@@ -78,12 +78,12 @@ TEST(MeshCharts, ShowTheSurfaceBetweenTexels) {
 }
 
 // Texel by texel no two charts meet, rims included: what is interpolated is of one chart.
-TEST(MeshCharts, LieSideBySide) {
+TEST(ChartedMesh, LieSideBySide) {
     for (const auto& asset : {torus_asset(2.0, 0.7, 48, 24), spiral_asset(3)}) {
         const auto charts = make_mesh_charts(*asset, 0.1, 1'000'000);
         ASSERT_TRUE(charts);
         std::set<std::pair<int, int>> taken;
-        for (const MeshCharts::Chart& c : charts->charts)
+        for (const ChartedMesh::Chart& c : charts->charts)
             for (int y = c.y; y < c.y + c.height; ++y)
                 for (int x = c.x; x < c.x + c.width; ++x) {
                     EXPECT_TRUE(x >= 0 && y >= 0 && x < charts->width && y < charts->height);
@@ -92,25 +92,25 @@ TEST(MeshCharts, LieSideBySide) {
     }
 }
 
-TEST(MeshCharts, AreNoneWhereTheyDoNotFit) {
+TEST(ChartedMesh, AreNoneWhereTheyDoNotFit) {
     EXPECT_FALSE(make_mesh_charts(*sheet_asset(8.0, 1), 0.001, 1'000'000'000)) << "8000 to a side";
     EXPECT_FALSE(make_mesh_charts(*sheet_asset(8.0, 1), 0.1, 1000));
 }
 
 // Every used texel is in one block, and its place in the block's and group's bounds.
-TEST(FineSurface, BlocksHoldTheirTexels) {
+TEST(OcclusionLightmap, BlocksHoldTheirTexels) {
     auto charts = make_mesh_charts(*torus_asset(2.0, 0.7, 48, 24), 0.1, 1'000'000);
     ASSERT_TRUE(charts);
     std::set<std::pair<int, int>> used;
     for (int y = 0; y < charts->height; ++y)
         for (int x = 0; x < charts->width; ++x)
             if (charts->used(std::size_t(y * charts->width + x))) used.emplace(x, y);
-    const FineSurface mesh = fine_surface_of_mesh(*charts), ball = fine_surface_of_ball(3.0, 100);
+    const OcclusionLightmap mesh = fine_surface_of_mesh(*charts), ball = fine_surface_of_ball(3.0, 100);
     std::size_t in_blocks = 0;
-    for (const FineSurface* surface : {&mesh, &ball})
-        for (const FineSurface::Group& group : surface->groups)
+    for (const OcclusionLightmap* surface : {&mesh, &ball})
+        for (const OcclusionLightmap::Group& group : surface->groups)
             for (std::uint32_t i = group.first; i < group.end; ++i) {
-                const FineSurface::Block& block = surface->blocks[i];
+                const OcclusionLightmap::Block& block = surface->blocks[i];
                 EXPECT_EQ(block.bounds.min, block.bounds.min.cwiseMax(group.bounds.min));
                 EXPECT_EQ(block.bounds.max, block.bounds.max.cwiseMin(group.bounds.max));
                 for (int y = block.y; y < block.y + block.height; ++y)

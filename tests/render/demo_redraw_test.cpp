@@ -21,7 +21,7 @@ TEST_P(DemoRedraw, HasTheBytesOfAFullRedraw) {
         load_scene(std::filesystem::path(TUMBLE_SOURCE_DIR) / "assets" / "scenes" / (std::string(GetParam()) + ".toml"), small);
     const bool large = scene.bodies.size() > 500;
     World world(scene);
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     RenderOptions everything;
     everything.full_redraw = true;
     Renderer partial(scene, {}), full(scene, everything);

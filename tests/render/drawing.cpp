@@ -20,7 +20,7 @@ Image drawn(const SceneDescription& scene, const RenderOptions& options) {
 }
 
 Pixel pixel_of(const SceneDescription& scene, const Vec3& point) {
-    const CameraView view(scene.camera, scene.output.width, scene.output.height);
+    const Camera view(scene.camera, scene.output.width, scene.output.height);
     const Eigen::Vector2d at = view.pixel(view.relative(point));
     return {int(std::floor(at.x())), int(std::floor(at.y()))};
 }

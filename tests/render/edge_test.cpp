@@ -52,17 +52,17 @@ struct HalfPlane {
     }
 };
 
-TileMarks all_marked(const CameraView& view) {
-    TileMarks marks(view);
+DirtyTiles all_marked(const Camera& view) {
+    DirtyTiles marks(view);
     marks.mark_all();
     return marks;
 }
 
 Image blended(const Image& drawn, const ScreenEdge& edge) {
-    const CameraView view(empty_scene().camera, drawn.width, drawn.height);
+    const Camera view(empty_scene().camera, drawn.width, drawn.height);
     Image frame(drawn.width, drawn.height);
     copy_opaque(drawn, {{0, 0, drawn.width, drawn.height}}, frame);
-    blend_edges(drawn, {edge}, all_marked(view), frame);
+    blend_analytic_edges(drawn, {edge}, all_marked(view), frame);
     return frame;
 }
 
@@ -158,7 +158,7 @@ private:
 };
 
 // Whether a point of the screen lies on the box.
-auto shown_box(const CameraView& view, const BodyDescription& box, const Vec3& half_size) {
+auto shown_box(const Camera& view, const BodyDescription& box, const Vec3& half_size) {
     FewPoints corners;
     for (const Vec3& p : box_corners(view.relative(box.position), box.rotation.toRotationMatrix(), half_size)) corners.push_back(view.pixel(p));
     return [corners = convex_hull(corners)](const ScreenPoint& p) {
@@ -172,7 +172,7 @@ TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
-    const CameraView view(scene.camera, 320, 180);
+    const Camera view(scene.camera, 320, 180);
     for (double angle = 0.1; angle < 1.5; angle += 0.45) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, 0.5).normalized()));
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), Vec3(2.0, 1.4, 1.0), {255, 255, 255}, turned)};
@@ -195,7 +195,7 @@ TEST(SmoothEdges, OfAMeshHaveManyShades) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3(0.0, 1.0, 0.0), torus_asset(1.2, 0.4), {255, 255, 255},
                               Quat(Eigen::AngleAxisd(1.1, Vec3::UnitX())))};
-    const CameraView view(scene.camera, 320, 180);
+    const Camera view(scene.camera, 320, 180);
     const Quat back = scene.bodies[0].rotation.conjugate();
     const Vec3 eye = back * (scene.camera.eye - scene.bodies[0].position);
     const auto inside = [&](const ScreenPoint& p) {   // march along the ray to the exact torus
@@ -233,7 +233,7 @@ TEST(SmoothEdges, OfGroundsThatReachBehindTheEye) {
     scene.camera.eye = Vec3(1.0, 2.0, 3.0);
     scene.camera.target = Vec3(0.0, 1.5, -7.0);
     scene.camera.up = Vec3(0.3, 1.0, 0.0);
-    const CameraView view(scene.camera, 320, 180);
+    const Camera view(scene.camera, 320, 180);
     const Vec3 half_size(30.0, 0.5, 30.0), low(-30.0, -1.0, -30.0), high(30.0, 0.0, 30.0);
     const auto on_box = [&](const ScreenPoint& p) {
         const Vec3 ray = view.ray(p.x(), p.y());
@@ -267,7 +267,7 @@ TEST(SmoothEdges, OfThinBoxesAreStraight) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
-    const CameraView view(scene.camera, 320, 180);
+    const Camera view(scene.camera, 320, 180);
     for (double angle = 0.07; angle < 1.5; angle += 0.3) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
         const Vec3 half_size(1.5, 0.03, 0.03);

@@ -78,7 +78,7 @@ TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
     EXPECT_EQ(points.open[1], 1.0f);
 }
 
-TEST(SurfaceLattice, HasWhatItsPointsHaveOneByOne) {
+TEST(TexelGrid, HasWhatItsPointsHaveOneByOne) {
     std::mt19937 engine(3);
     const auto random = [&](float low, float high) {
         return low + (high - low) * float(double(engine()) / 4294967296.0);
@@ -96,7 +96,7 @@ TEST(SurfaceLattice, HasWhatItsPointsHaveOneByOne) {
         const Eigen::Vector3f along = normal.cross(across), corner = vector(1.0f), floor = vector(1.0f).normalized();
         const int columns = 5, rows = 1 + trial % 4;
         const float reach = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
-        SurfaceLattice lattice;
+        TexelGrid lattice;
         lattice.set(corner, across, along, normal, columns, rows);
         lattice.darken(box, reach);
         SurfacePoints points;
@@ -192,8 +192,8 @@ TEST(MeshOccluders, StayInsideAndLeaveTheHoleFree) {
 TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
-    const SceneLooks looks = make_scene_looks(scene);
-    const CameraView view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the middle row
+    const RenderScene looks = make_render_scene(scene);
+    const Camera view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the middle row
     const std::vector<PlanePatch> patches = make_plane_patches(looks, first_snapshot(scene), view, 0.01);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_DOUBLE_EQ(patches[0].height, 1.0);
@@ -204,7 +204,7 @@ TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
         EXPECT_NEAR(corner.z, 1.0 - 0.02 / depth, 1e-6);
     }
     scene.camera.eye.y() = scene.camera.target.y() = -1.0;  // from below one looks through
-    EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), CameraView(scene.camera, 320, 180), 0.01).empty());
+    EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), Camera(scene.camera, 320, 180), 0.01).empty());
 }
 
 TEST(PlanePatch, CellsAreRoundNumbers) {
@@ -215,21 +215,21 @@ TEST(PlanePatch, CellsAreRoundNumbers) {
     EXPECT_DOUBLE_EQ(pattern_cell(15000.0), 1000.0);
 }
 
-TEST(ShadowFit, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
+TEST(ShadowCascades, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
     const SceneDescription scene = heap_scene(50);
-    const SceneLooks looks = make_scene_looks(scene);
-    const CameraView view(scene.camera, 1280, 720);
-    const ShadowStage stage(scene, looks, view, 1024);
+    const RenderScene looks = make_render_scene(scene);
+    const Camera view(scene.camera, 1280, 720);
+    const CascadeFitter stage(scene, looks, view, 1024);
     Snapshot snapshot = first_snapshot(scene);
-    const ShadowFit rest = stage.fit(looks, snapshot, view);
+    const ShadowCascades rest = stage.fit(looks, snapshot, view);
     EXPECT_FALSE(rest.has_far);
     snapshot.bodies[3].origin += Vec3(0.3, 0.2, -0.1);
-    const ShadowFit moved_a_little = stage.fit(looks, snapshot, view);
+    const ShadowCascades moved_a_little = stage.fit(looks, snapshot, view);
     EXPECT_EQ(rest.x, moved_a_little.x);
     EXPECT_EQ(rest.y, moved_a_little.y);
     EXPECT_EQ(rest.z, moved_a_little.z);
     snapshot.bodies[3].origin = Vec3(-25.0, 1.0, -30.0);
-    const ShadowFit flown = stage.fit(looks, snapshot, view);
+    const ShadowCascades flown = stage.fit(looks, snapshot, view);
     EXPECT_EQ(rest.x, flown.x);
     EXPECT_EQ(rest.y, flown.y);
     ASSERT_TRUE(flown.has_far);
@@ -254,7 +254,7 @@ TEST(Grounds, AreMuchLargerThanAllTheRestTogether) {
         SceneDescription scene = empty_scene();
         scene.bodies.push_back(box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), {}));
         for (const double x : {-1.5, 0.5, 1.5}) scene.bodies.push_back(box_body(Vec3(x, 0.5, 0.0), Vec3::Ones(), {}));
-        const SceneLooks looks = make_scene_looks(scene);
+        const RenderScene looks = make_render_scene(scene);
         EXPECT_EQ(looks.bodies[0].ground, ground) << size;   // diagonal against 1.5 * max(4.73, 7.5)
         for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(looks.bodies[i].ground);
         EXPECT_EQ(looks.typical_reach, 0.5);
@@ -267,9 +267,9 @@ TEST(Grounds, CatchWhatFalls) {
     const Quat slope(Eigen::AngleAxisd(pi / 6.0, Vec3::UnitZ()));
     scene.bodies.push_back(box_body(Vec3(0.0, 20.0, 0.0), Vec3(40.0, 2.0, 40.0), {}, slope));
     scene.bodies.push_back(ball_body(Vec3(0.0, 25.0, 0.0), 0.5, {}));
-    const SceneLooks looks = make_scene_looks(scene);
+    const RenderScene looks = make_render_scene(scene);
     ASSERT_TRUE(looks.bodies[1].ground);
-    const Landing landing(scene, looks);
+    const RestHeightEstimate landing(scene, looks);
     // Above the middle plane the top lies 1 / cos 30 degrees higher, and rises by tan 30 degrees.
     EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 3.0), -Vec3::UnitY()), 5.0 - 2.0 / std::sqrt(3.0), 1e-9);
     EXPECT_NEAR(landing.fall(Vec3(3.0, 25.0, 0.0), -Vec3::UnitY()), 5.0 - 5.0 / std::sqrt(3.0), 1e-9);
@@ -285,8 +285,8 @@ TEST(NearDistance, FitsTheGroundBelowTheEye) {
     scene.camera.eye = Vec3(0.0, 4.0, 8.0);
     scene.bodies.push_back(box_body(Vec3(0.0, -1.0, 0.0), Vec3(100.0, 2.0, 100.0), {}));
     scene.bodies.push_back(box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {}));
-    const CameraView view(scene.camera, 320, 180);
-    const double near = near_distance_for(make_scene_looks(scene), first_snapshot(scene), view);
+    const Camera view(scene.camera, 320, 180);
+    const double near = near_distance_for(make_render_scene(scene), first_snapshot(scene), view);
     const double nearest = 4.0 / -view.ray(160.0, 180.0).y();
     EXPECT_LT(near, nearest);
     EXPECT_GT(near, nearest / 8.0) << "depths have too few bits";
@@ -295,8 +295,8 @@ TEST(NearDistance, FitsTheGroundBelowTheEye) {
 TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
     SceneDescription scene = heap_scene(30);
     scene.bodies.push_back(box_body(scene.camera.eye + Vec3(0.0, 0.0, 30.0), Vec3::Ones(), {1, 2, 3}));
-    const SceneLooks looks = make_scene_looks(scene);
-    const CameraView view(scene.camera, 1280, 720);
+    const RenderScene looks = make_render_scene(scene);
+    const Camera view(scene.camera, 1280, 720);
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
     const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view,

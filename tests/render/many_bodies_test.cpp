@@ -42,9 +42,9 @@ TEST(ManyBodies, LeavingOutWhatIsHiddenChangesNoByte) {
     RenderOptions everything;
     everything.draw_hidden = true;
     EXPECT_EQ(drawn(scene), drawn(scene, everything));
-    const SceneLooks looks = make_scene_looks(scene);
+    const RenderScene looks = make_render_scene(scene);
     EXPECT_GT(looks.mesh_triangles, most_whole_triangles) << "so that meshes are simplified";
-    const CameraView view(scene.camera, scene.output.width, scene.output.height);
+    const Camera view(scene.camera, scene.output.width, scene.output.height);
     const auto count = [](const Visibility& v) { return std::count(v.bodies.begin(), v.bodies.end(), true); };
     const auto coarse = count(find_visible(looks, first_snapshot(scene), view));
     const auto fine = count(find_visible(looks, first_snapshot(scene), view, true));
@@ -75,8 +75,8 @@ TEST(ManyBodies, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
 }
 
 TEST(ManyBodies, HundredThousandFitTheAtlas) {
-    SceneLooks looks;
-    BodyLook look;
+    RenderScene looks;
+    RenderBody look;
     look.kind = DrawKind::box;
     look.half_size = Vec3::Constant(0.5);
     look.reach = 0.5;
@@ -105,9 +105,9 @@ TEST(ManyBodies, DarkeningGoesOverFromOneValueToAll) {
         scene.bodies = {ground_plane(), box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 200, 200})};
         for (std::size_t i = 0; i < crowd; ++i)
             scene.bodies.push_back(box_body(Vec3(0.0, 50.0 + 9.0 * double(i), 0.0), Vec3::Ones(), {200, 200, 200}));
-        const SceneLooks looks = make_scene_looks(scene);
-        const CameraView view(scene.camera, scene.output.width, scene.output.height);
-        OcclusionMaker maker(looks, Vec3::Zero());
+        const RenderScene looks = make_render_scene(scene);
+        const Camera view(scene.camera, scene.output.width, scene.output.height);
+        AmbientOcclusion maker(looks, Vec3::Zero());
         maker.update(first_snapshot(scene), view, everything_visible(looks, view));
         const OcclusionPlace& place = maker.atlas().places[1];
         int low = 255, high = 0;
@@ -145,14 +145,14 @@ double distance(const Vec3& point, const TriangleMesh& mesh) {
     return least;
 }
 
-TEST(MeshDetail, IsOffByNoMoreThanAskedFor) {
+TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
     const auto asset = torus_asset(1.0, 0.3);
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), asset, {1, 2, 3})};
-    const SceneLooks looks = make_scene_looks(scene);
+    const RenderScene looks = make_render_scene(scene);
     std::size_t last = asset->indices.size();
     for (const double deviation : {0.003, 0.01, 0.03, 0.1}) {
-        const MeshDetail detail = simplify(looks.meshes[0], deviation);
+        const MeshLod detail = simplify(looks.meshes[0], deviation);
         EXPECT_LT(detail.indices.size(), last) << deviation;
         last = detail.indices.size();
         EXPECT_EQ(detail.surface.triangles.size() * 3, detail.indices.size());
@@ -169,14 +169,14 @@ TEST(MeshDetail, IsOffByNoMoreThanAskedFor) {
 
 // Wherever a mesh is in the picture, a point of it that is off by as much as its level may be lands within a quarter of a
 // pixel of its true place.
-TEST(MeshDetail, IsOffByAQuarterOfAPixelAtMost) {
+TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), torus_asset(1.0, 0.3), {1, 2, 3})};
-    SceneLooks looks = make_scene_looks(scene);
-    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), CameraView(scene.camera, 320, 180)), 0u) << "few triangles";
+    RenderScene looks = make_render_scene(scene);
+    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), Camera(scene.camera, 320, 180)), 0u) << "few triangles";
     looks.mesh_triangles = most_whole_triangles + 1;
-    const BodyLook& look = looks.bodies[0];
-    const CameraView view(scene.camera, scene.output.width, scene.output.height);
+    const RenderBody& look = looks.bodies[0];
+    const Camera view(scene.camera, scene.output.width, scene.output.height);
     Random random(4);
     double worst = 0.0;
     std::size_t coarsest = 0;

@@ -18,8 +18,8 @@ bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
 
 struct Heap {
     SceneDescription scene = heap_scene(150);
-    SceneLooks looks = make_scene_looks(scene);
-    CameraView view{scene.camera, 1280, 720};
+    RenderScene looks = make_render_scene(scene);
+    Camera view{scene.camera, 1280, 720};
     Snapshot snapshot = first_snapshot(scene);
     Visibility visibility = find_visible(looks, snapshot, view);
 
@@ -66,13 +66,13 @@ TEST(Visibility, FacesLeftOutAreBehindOtherBoxesOrTurnedAway) {
 
 TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
     const Heap heap;
-    const ShadowStage stage(heap.scene, heap.looks, heap.view, 1024);
+    const CascadeFitter stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
-    OcclusionMaker darkening(heap.looks, heap.view.eye());
+    AmbientOcclusion darkening(heap.looks, heap.view.eye());
     darkening.update(heap.snapshot, heap.view, heap.visibility);
     ASSERT_EQ(darkening.atlas().windows.size(), 1u);
-    const OcclusionWindow& window = darkening.atlas().windows[0];
+    const PlaneOcclusionTile& window = darkening.atlas().windows[0];
     const PlaneAxes axes = plane_axes(planes[0].normal);
     // Of the four texels around a place, the least open.
     const auto least_open = [&](const Vec3& point) {
@@ -87,7 +87,7 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
                                                                           std::size_t(window.x + x)]);
         return least;
     };
-    TileMarks everything(heap.view);
+    DirtyTiles everything(heap.view);
     everything.mark_all();
     const std::vector<Rectangle> areas = find_touched_areas(
         planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view), heap.view,
@@ -127,7 +127,7 @@ TEST(Visibility, ABoxAroundTheEyeHidesNothing) {
     scene.bodies = {box_body(scene.camera.eye, Vec3(4.0, 4.0, 4.0), {1, 2, 3}),
                     box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3})};
     const Visibility visibility =
-        find_visible(make_scene_looks(scene), first_snapshot(scene), CameraView(scene.camera, 320, 180));
+        find_visible(make_render_scene(scene), first_snapshot(scene), Camera(scene.camera, 320, 180));
     EXPECT_TRUE(visibility.bodies[1]);
 }
 

@@ -232,10 +232,10 @@ TEST(PartialRedraw, FillsAnImageOfAnotherSizeWhollyAndLeavesTheRestOfOneThatFits
     EXPECT_EQ(touched, Image(232, 152)) << "nothing had changed";
 }
 
-TEST(TileMarks, MarksTheTilesOfAHull) {
+TEST(DirtyTiles, MarksTheTilesOfAHull) {
     const SceneDescription scene = empty_scene();   // 320 x 180: 20 x 12 tiles
-    const CameraView view(scene.camera, 320, 180);
-    TileMarks marks(view);
+    const Camera view(scene.camera, 320, 180);
+    DirtyTiles marks(view);
     EXPECT_TRUE(marks.none());
     const auto at = [&](double x, double y) { return Vec3(7.0 * view.ray(x, y)); };
     const std::array<Vec3, 3> triangle = {at(40.0, 40.0), at(120.0, 40.0), at(40.0, 120.0)};

@@ -16,15 +16,15 @@ SceneDescription one_box() {
 }
 
 double pixel_at_box(const SceneDescription& scene) {
-    const CameraView view(scene.camera, scene.output.width, scene.output.height);
+    const Camera view(scene.camera, scene.output.width, scene.output.height);
     return view.pixel_size() * (8.0 - std::sqrt(0.75));
 }
 
-TEST(DrawnPoses, FollowsWhatMovesByMoreThanTheTolerance) {
+TEST(PoseFilter, FollowsWhatMovesByMoreThanTheTolerance) {
     const SceneDescription scene = one_box();
     const double pixel = pixel_at_box(scene);
     for (const bool far : {false, true}) {
-        DrawnPoses poses(scene);
+        PoseFilter poses(scene);
         Snapshot snapshot = first_snapshot(scene);
         EXPECT_TRUE(poses.follow(snapshot)) << "the first frame is new";
         EXPECT_FALSE(poses.follow(snapshot));
@@ -36,19 +36,19 @@ TEST(DrawnPoses, FollowsWhatMovesByMoreThanTheTolerance) {
 }
 
 // Every frame of it was drawn.
-TEST(DrawnPoses, ASceneWithoutBodiesIsDrawnOnce) {
+TEST(PoseFilter, ASceneWithoutBodiesIsDrawnOnce) {
     const SceneDescription scene = empty_scene();
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     Snapshot snapshot = first_snapshot(scene);
     EXPECT_TRUE(poses.follow(snapshot));
     EXPECT_FALSE(poses.follow(snapshot));
 }
 
-TEST(DrawnPoses, CountsTurnsByTheWayOfTheFarthestPoint) {
+TEST(PoseFilter, CountsTurnsByTheWayOfTheFarthestPoint) {
     const SceneDescription scene = one_box();
     const double reach = 2.0 * std::sqrt(0.75);
     for (const bool far : {false, true}) {
-        DrawnPoses poses(scene);
+        PoseFilter poses(scene);
         Snapshot snapshot = first_snapshot(scene);
         poses.follow(snapshot);
         const double length = (far ? 1.01 : 0.99) * drawn_tolerance * pixel_at_box(scene) / reach;   // of dq = 2 sin(a / 4)
@@ -59,10 +59,10 @@ TEST(DrawnPoses, CountsTurnsByTheWayOfTheFarthestPoint) {
 }
 
 // Small steps add up: no drawn pose is ever further from the true one than the tolerance.
-TEST(DrawnPoses, StaysWithinTheToleranceOfASlowMovement) {
+TEST(PoseFilter, StaysWithinTheToleranceOfASlowMovement) {
     const SceneDescription scene = one_box();
     const double most = drawn_tolerance * pixel_at_box(scene);
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     Vec3 truth = Vec3(0.0, 1.0, 0.0);
     int followed = 0;
     for (int i = 0; i < 100; ++i) {
@@ -75,10 +75,10 @@ TEST(DrawnPoses, StaysWithinTheToleranceOfASlowMovement) {
     EXPECT_NEAR(followed, 25, 1);
 }
 
-TEST(DrawnPoses, MovesPlanesExactlyAndIgnoresWhatIsNotDrawn) {
+TEST(PoseFilter, MovesPlanesExactlyAndIgnoresWhatIsNotDrawn) {
     SceneDescription scene = one_box();
     scene.bodies[1].surface.visible = false;
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     Snapshot snapshot = first_snapshot(scene);
     poses.follow(snapshot);
     snapshot.bodies[1].origin.x() += 1.0;
@@ -87,11 +87,11 @@ TEST(DrawnPoses, MovesPlanesExactlyAndIgnoresWhatIsNotDrawn) {
     EXPECT_TRUE(poses.follow(snapshot)) << "a plane goes on for ever";
 }
 
-TEST(DrawnPoses, AnInvisibleBodyMovesItsCord) {
+TEST(PoseFilter, AnInvisibleBodyMovesItsCord) {
     SceneDescription scene = one_box();
     scene.bodies[1].surface.visible = false;
     scene.cords.push_back({1, Vec3::Zero(), Vec3(0.0, 3.0, 0.0), 0.02, {60, 60, 60}});
-    DrawnPoses poses(scene);
+    PoseFilter poses(scene);
     Snapshot snapshot = first_snapshot(scene);
     poses.follow(snapshot);
     snapshot.bodies[1].origin.x() += 0.1;

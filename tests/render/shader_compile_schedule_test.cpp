@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t parts = 12;
 
 struct Shared {
-    CompilationTurns turns;
+    ShaderCompileSchedule turns;
     std::array<std::atomic<int>, parts> runs{}, early{};
     std::atomic<bool> first_taken{false};
 };
@@ -83,9 +83,9 @@ TEST_F(Turns, AProcessThatDiesIsNotWaitedForWithoutEnd) {
 
 TEST_F(Turns, PartsBeyondTheMostAreLeftOut) {
     int runs = 0;
-    const std::vector<std::function<void()>> all(CompilationTurns::most + 3, [&] { ++runs; });
+    const std::vector<std::function<void()>> all(ShaderCompileSchedule::most + 3, [&] { ++runs; });
     shared_->turns.run(all);
-    EXPECT_EQ(runs, int(CompilationTurns::most));
+    EXPECT_EQ(runs, int(ShaderCompileSchedule::most));
 }
 
 TEST_F(Turns, ThePictureIsTheSame) {
@@ -98,7 +98,7 @@ TEST_F(Turns, ThePictureIsTheSame) {
         scene.bodies.push_back(mesh_body(Vec3(-1.2, 1.4, 0.3), torus_asset(0.5, 0.2), {90, 160, 60}));
         const Image alone = drawn(scene);
         RenderOptions options;
-        CompilationTurns turns;
+        ShaderCompileSchedule turns;
         options.turns = &turns;
         EXPECT_EQ(drawn(scene, options).pixels, alone.pixels);
     }

@@ -54,7 +54,7 @@ Edges shadow_edges(int width, int height, bool on_box) {
     const Image image = drawn(scene);
     scene.light.shadows = false;
     const Image open = drawn(scene);
-    const CameraView view(scene.camera, width, height);
+    const Camera view(scene.camera, width, height);
     const Pixel inside = pixel_of(scene, Vec3(-1.0, 0.0, 0.2));
     const double dark = linear(image, inside.x, inside.y) / linear(open, inside.x, inside.y);
     EXPECT_LT(dark, 0.6);

@@ -38,7 +38,7 @@ TEST(Rods, TakeTheirShareOfEachColumn) {
         for (const double degrees : {0.0, 3.0, 17.0, 44.0}) {
             SceneDescription scene = before_a_wall();
             const Image empty = drawn(scene);
-            const double pixel = CameraView(scene.camera, scene.output.width, scene.output.height).pixel_size() * distance;
+            const double pixel = Camera(scene.camera, scene.output.width, scene.output.height).pixel_size() * distance;
             const double angle = degrees * M_PI / 180.0;
             scene.bodies.push_back(rod(Vec3(0.003, 0.011, 0.0), 200.0 * pixel, width * pixel, angle));
             const Image image = drawn(scene);
@@ -69,7 +69,7 @@ TEST(Rods, AreHiddenByWhatStandsBeforeThem) {
     const Image without = drawn(scene);
     scene.bodies.push_back(rod(Vec3::Zero(), 6.0, 0.01, 0.2));
     const Image with = drawn(scene);
-    const CameraView view(scene.camera, scene.output.width, scene.output.height);
+    const Camera view(scene.camera, scene.output.width, scene.output.height);
     for (double x = -0.9; x < 0.9; x += 0.02) {
         const Pixel at = pixel_of(scene, Vec3(x, std::tan(0.2) * x, 1.1));
         EXPECT_EQ(brightness(with, at), brightness(without, at)) << x;

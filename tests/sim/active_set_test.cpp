@@ -20,7 +20,7 @@ Vec6 random_six(Random& random) {
 struct Problem {
     std::size_t bodies = 0;
     std::vector<VelocityRow> rows;
-    std::vector<Projection::Demand> demands;
+    std::vector<ActiveSet::Demand> demands;
 
     void add(VelocityRow row, double value) {
         const double length = std::sqrt(row.squared_norm());
@@ -72,13 +72,13 @@ void expect_optimal(const Problem& p, const std::vector<double>& lambda, double 
 
 }  // namespace
 
-TEST(Projection, MeetsTheOptimalityConditions) {
+TEST(ActiveSet, MeetsTheOptimalityConditions) {
     Random random(71);
     int met = 0;
     for (int trial = 0; trial < 1000; ++trial) {
         const Problem p = random_problem(random, 1 + random.below(8), 1 + random.below(24));
         std::vector<double> lambda;
-        Projection projection(p.rows, p.bodies);
+        ActiveSet projection(p.rows, p.bodies);
         // The demands come from a velocity: standing still meets them all.
         ASSERT_TRUE(projection.solve(p.demands, lambda)) << trial;
         expect_optimal(p, lambda, 1e-11);
@@ -88,21 +88,21 @@ TEST(Projection, MeetsTheOptimalityConditions) {
 }
 
 // One projection serves for one set after another.
-TEST(Projection, LeavesNothingBehind) {
+TEST(ActiveSet, LeavesNothingBehind) {
     Random random(72);
     const Problem p = random_problem(random, 6, 20);
-    Projection used(p.rows, p.bodies);
+    ActiveSet used(p.rows, p.bodies);
     std::vector<double> lambda, fresh;
     for (std::size_t first = 0; first < 15; ++first) {
-        const std::vector<Projection::Demand> part(p.demands.begin() + std::ptrdiff_t(first), p.demands.begin() + std::ptrdiff_t(first) + 5);
+        const std::vector<ActiveSet::Demand> part(p.demands.begin() + std::ptrdiff_t(first), p.demands.begin() + std::ptrdiff_t(first) + 5);
         used.solve(part, lambda);
-        Projection(p.rows, p.bodies).solve(part, fresh);
+        ActiveSet(p.rows, p.bodies).solve(part, fresh);
         EXPECT_EQ(lambda, fresh);
     }
 }
 
 // The four corners of a flat box: rank three, and each carries a quarter.
-TEST(Projection, SpreadsOverDependentRows) {
+TEST(ActiveSet, SpreadsOverDependentRows) {
     Problem p;
     p.bodies = 1;
     for (int i = 0; i < 4; ++i) {
@@ -112,13 +112,13 @@ TEST(Projection, SpreadsOverDependentRows) {
         p.add(row, -1.0);
     }
     std::vector<double> lambda;
-    ASSERT_TRUE(Projection(p.rows, p.bodies).solve(p.demands, lambda));
+    ASSERT_TRUE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
     const double expected = 0.25 * (1.0 + 0.49 + 0.16);   // of rows of length sqrt(1.65): 4 lambda / 1.65 = 1
     for (const double l : lambda) EXPECT_NEAR(l, expected, 1e-15);
     expect_optimal(p, lambda, 1e-15);
 }
 
-TEST(Projection, TellsWhenDemandsContradict) {
+TEST(ActiveSet, TellsWhenDemandsContradict) {
     Problem p;
     p.bodies = 1;
     VelocityRow row;
@@ -130,13 +130,13 @@ TEST(Projection, TellsWhenDemandsContradict) {
     row.on_a << 0, 1, 0, 0, 0, 0;
     p.add(row, -2.0);
     std::vector<double> lambda;
-    EXPECT_FALSE(Projection(p.rows, p.bodies).solve(p.demands, lambda));
+    EXPECT_FALSE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
     EXPECT_NEAR(p.demands[2].value + p.rows[2].dot(change(p, lambda)), 0.0, 1e-15);   // what can be met is
     for (const double l : lambda) EXPECT_LT(l, 10.0);
 }
 
 // Heavy and light bodies in a row: rows all but opposite, 1e-4 apart.
-TEST(Projection, NearlyOppositeRows) {
+TEST(ActiveSet, NearlyOppositeRows) {
     Problem p;
     p.bodies = 2;
     VelocityRow floor, heavy;
@@ -149,22 +149,22 @@ TEST(Projection, NearlyOppositeRows) {
     p.add(floor, 0.0);
     p.add(heavy, -1.0);
     std::vector<double> lambda;
-    ASSERT_TRUE(Projection(p.rows, p.bodies).solve(p.demands, lambda));
+    ASSERT_TRUE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
     expect_optimal(p, lambda, 1e-12);
     EXPECT_NEAR(lambda[1] * 1e-8, 1.0, 1e-7);
 }
 
 // Sets too large for the exact solution: approximately the same.
-TEST(Projection, SweepsComeNear) {
+TEST(ActiveSet, SweepsComeNear) {
     Random random(73);
     Problem p = random_problem(random, 200, 100);
     std::vector<double> lambda;
-    Projection(p.rows, p.bodies, 99).solve(p.demands, lambda);
+    ActiveSet(p.rows, p.bodies, 99).solve(p.demands, lambda);
     expect_optimal(p, lambda, 1e-6);
 }
 
 // What no body connects is solved apart: the cost is that of the parts, and each gets what it gets alone.
-TEST(Projection, PartsAreSolvedApart) {
+TEST(ActiveSet, PartsAreSolvedApart) {
     Random random(7);
     Problem all;
     std::vector<Problem> parts;
@@ -184,12 +184,12 @@ TEST(Projection, PartsAreSolvedApart) {
         parts.push_back(part);
     }
     std::vector<double> lambda, alone;
-    Projection together(all.rows, all.bodies, 8);
+    ActiveSet together(all.rows, all.bodies, 8);
     together.solve(all.demands, lambda);
     EXPECT_EQ(together.work(), squares);
     std::size_t next = 0;
     for (const Problem& part : parts) {
-        Projection(part.rows, part.bodies, 8).solve(part.demands, alone);
+        ActiveSet(part.rows, part.bodies, 8).solve(part.demands, alone);
         for (const double expected : alone) EXPECT_EQ(lambda[next++], expected);
     }
     expect_optimal(all, lambda, 1e-11);

@@ -21,7 +21,7 @@ Body body_of(Random& random, int kind) {
         body.collider = HalfSpace{random.direction(), random(-4.0, -2.0)};
     } else if (kind < 4) {
         body.type = BodyType::fixed;
-        body.collider = kind == 1 ? Collider(Ball{random(0.2, 2.0)}) : box_of(random.vector(2.0).cwiseAbs() + Vec3::Constant(0.1));
+        body.collider = kind == 1 ? CollisionShape(Ball{random(0.2, 2.0)}) : box_of(random.vector(2.0).cwiseAbs() + Vec3::Constant(0.1));
     } else {
         if (kind % 3 == 0) body.collider = Ball{random(0.1, 0.5)};
         else body.collider = box_of(random.vector(0.8).cwiseAbs() + Vec3::Constant(0.05));

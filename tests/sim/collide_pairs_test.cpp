@@ -12,7 +12,7 @@ namespace {
 
 struct NamedShape {
     std::string name;
-    Collider collider;
+    CollisionShape collider;
     bool movable;
 };
 

@@ -123,16 +123,16 @@ TEST(CompoundContact, IsThatOfItsParts) {
     for (int trial = 0; trial < 400; ++trial) {
         const Body a = built(random_compound(random));
         const Body others[] = {built(random_compound(random)), built(BoxShape{Vec3(0.5, 0.3, 0.8)}), built(SphereShape{0.4})};
-        std::vector<Collider> colliders{HalfSpace{random.direction(), random(-0.5, 0.5)}, surface_of(grid_mesh(4, 1.0, 0.2))};
+        std::vector<CollisionShape> colliders{HalfSpace{random.direction(), random(-0.5, 0.5)}, surface_of(grid_mesh(4, 1.0, 0.2))};
         for (const Body& other : others) colliders.push_back(other.collider);
         const Pose pose_a = random.pose(0.5), pose_b = random.pose(0.5);
-        for (const Collider& b : colliders) {
+        for (const CollisionShape& b : colliders) {
             for (const bool swapped : {false, true}) {
                 std::vector<Manifold> found, expected;
                 if (swapped) collide(b, pose_b, a.collider, pose_a, 0.05, scratch, found);
                 else collide(a.collider, pose_a, b, pose_b, 0.05, scratch, found);
                 for (const Compound::Part& p : compound_in(a).parts) {
-                    std::vector<std::pair<Collider, Pose>> pieces{{b, pose_b}};
+                    std::vector<std::pair<CollisionShape, Pose>> pieces{{b, pose_b}};
                     if (const auto* whole = std::get_if<std::shared_ptr<const Compound>>(&b)) {
                         pieces.clear();
                         for (const Compound::Part& q : (*whole)->parts) pieces.push_back({q.collider, part_pose(pose_b, q)});
@@ -161,7 +161,7 @@ TEST(CompoundContact, IsThatOfItsParts) {
                 }
                 std::sort(parts.begin(), parts.end());
                 // A body may rest on one triangle with several normals; else the numbers are distinct.
-                if (!std::holds_alternative<std::shared_ptr<const TriangleSurface>>(b)) {
+                if (!std::holds_alternative<std::shared_ptr<const CollisionMesh>>(b)) {
                     EXPECT_EQ(std::adjacent_find(parts.begin(), parts.end()), parts.end());
                 }
                 manifolds += int(found.size());
@@ -192,12 +192,12 @@ namespace {
 
 struct Flying {
     Body body;
-    Path path;
-    explicit Flying(const Body& b, const Vec3& acceleration = {0.0, -9.81, 0.0}) : body(b), path(Path::flight(b, acceleration)) {}
+    Trajectory path;
+    explicit Flying(const Body& b, const Vec3& acceleration = {0.0, -9.81, 0.0}) : body(b), path(Trajectory::flight(b, acceleration)) {}
     Traveller traveller() const { return {&body, &path, 0.0}; }
 };
 
-Body standing(const Collider& collider) {
+Body standing(const CollisionShape& collider) {
     Body body;
     body.type = BodyType::fixed;
     body.collider = collider;

@@ -47,7 +47,7 @@ TEST(MakeContacts, RowsHaveTheBracketOfEquation20) {
         ASSERT_EQ(contacts.size(), 3u);
         Island island{{0}, {0, 1, 2}};
         if (bodies[1].dynamic()) island.bodies.push_back(1);
-        const ContactCluster cluster(island, contacts, bodies);
+        const ImpactSystem cluster(island, contacts, bodies);
         for (std::size_t i = 0; i < 3; ++i) {
             const Contact& c = contacts[i];
             EXPECT_DOUBLE_EQ(c.friction, std::sqrt(0.21));

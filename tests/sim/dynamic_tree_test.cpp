@@ -51,7 +51,7 @@ TEST(DynamicTree, FindsWhatOverlaps) {
 TEST(EventQueue, GivesTheEarliestAndTheLowestBody) {
     Random random(7);
     EventQueue queue(50);
-    std::map<std::uint32_t, Moment> moments;
+    std::map<std::uint32_t, EventTime> moments;
     for (int turn = 0; turn < 5000; ++turn) {
         const auto body = std::uint32_t(random(0.0, 50.0));
         if (random(0.0, 1.0) < 0.2) {
@@ -72,9 +72,9 @@ TEST(EventQueue, GivesTheEarliestAndTheLowestBody) {
     }
 }
 
-TEST(Moment, KeepsItsDigitsFarFromTheBeginning) {
+TEST(EventTime, KeepsItsDigitsFarFromTheBeginning) {
     const StepClock clock{60.0, 16};
-    const Moment a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};   // a thousand hours in
+    const EventTime a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};   // a thousand hours in
     EXPECT_NEAR(clock.between(a, b), 1.0 / 960.0 + 2e-4, 1e-18);
     EXPECT_LT(a, b);
 }

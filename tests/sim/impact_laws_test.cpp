@@ -314,7 +314,7 @@ TEST(Large, SweepsKeepTheEnergy) {
     const double before = s.kinetic();
     make_contacts(s.manifolds, s.bodies, s.contacts);
     const Island island = islands_of(s.contacts, s.bodies).front();
-    ContactCluster cluster(island, s.contacts, s.bodies);
+    ImpactSystem cluster(island, s.contacts, s.bodies);
     std::size_t approaching = 0;
     for (std::size_t i = 0; i < cluster.size(); ++i) approaching += cluster.approaching(i);
     ASSERT_GT(approaching, tuning::pass_contacts);

@@ -21,7 +21,7 @@ const Vec3 gravity(0.0, -9.81, 0.0);
 Body at_time(const Body& body, double t) {
     Body there = body;
     if (!body.dynamic()) return there;
-    const Motion motion = Path::flight(body, gravity).at(t);
+    const Motion motion = Trajectory::flight(body, gravity).at(t);
     there.position = motion.position;
     there.orientation = motion.orientation;
     there.rotation = motion.rotation;

@@ -10,7 +10,7 @@ using namespace tumble::testing;
 namespace {
 
 /// Body 0 is fixed, the others have these masses; only who touches whom counts.
-PileLoad pile(const std::vector<double>& masses, const std::vector<Manifold>& manifolds) {
+LoadEstimate pile(const std::vector<double>& masses, const std::vector<Manifold>& manifolds) {
     std::vector<Body> bodies(masses.size() + 1);
     bodies[0].type = BodyType::fixed;
     std::vector<std::uint32_t> members, all(manifolds.size());
@@ -19,9 +19,9 @@ PileLoad pile(const std::vector<double>& masses, const std::vector<Manifold>& ma
         members.push_back(std::uint32_t(i + 1));
     }
     std::iota(all.begin(), all.end(), 0u);
-    PileLoads loads(bodies.size());
+    LoadEstimates loads(bodies.size());
     // A second look finds the same: nothing is left over from the first.
-    const PileLoad first = loads.find(bodies, manifolds, members, all), second = loads.find(bodies, manifolds, members, all);
+    const LoadEstimate first = loads.find(bodies, manifolds, members, all), second = loads.find(bodies, manifolds, members, all);
     EXPECT_EQ(first.ratio, second.ratio);
     EXPECT_EQ(first.levels, second.levels);
     return first;
@@ -29,17 +29,17 @@ PileLoad pile(const std::vector<double>& masses, const std::vector<Manifold>& ma
 
 }  // namespace
 
-TEST(PileLoad, AStackRestsOnItsLowest) {
+TEST(LoadEstimate, AStackRestsOnItsLowest) {
     for (const int n : {1, 2, 7, 100}) {
         std::vector<Manifold> manifolds;
         for (int i = 0; i < n; ++i) manifolds.push_back(touch(std::uint32_t(i), std::uint32_t(i + 1)));
-        const PileLoad load = pile(std::vector<double>(std::size_t(n), 2.0), manifolds);
+        const LoadEstimate load = pile(std::vector<double>(std::size_t(n), 2.0), manifolds);
         EXPECT_DOUBLE_EQ(load.ratio, n);
         EXPECT_EQ(load.levels, n);
     }
 }
 
-TEST(PileLoad, HeavyOnLightAndLightOnHeavy) {
+TEST(LoadEstimate, HeavyOnLightAndLightOnHeavy) {
     EXPECT_DOUBLE_EQ(pile({1.0, 1e6}, {touch(0, 1), touch(1, 2)}).ratio, 1e6 + 1.0);
     EXPECT_DOUBLE_EQ(pile({1e6, 1.0}, {touch(0, 1), touch(1, 2)}).ratio, 1.0 + 1e-6);
     // Beside each other they do not load one another.
@@ -48,16 +48,16 @@ TEST(PileLoad, HeavyOnLightAndLightOnHeavy) {
 
 // Rows of n, n-1, ... 1, each on two of the row below. The two at the row's ends hand all they carry to two, too: half
 // each. The largest load is in the middle of the lowest row; three rows: (1/2 (1 + 1/2) twice) + 1 = 2.5.
-TEST(PileLoad, APyramidOfThreeRows) {
+TEST(LoadEstimate, APyramidOfThreeRows) {
     const std::vector<Manifold> manifolds = {touch(0, 1), touch(0, 2), touch(0, 3), touch(1, 4), touch(2, 4),
                                              touch(2, 5), touch(3, 5), touch(4, 6), touch(5, 6)};
-    const PileLoad load = pile(std::vector<double>(6, 1.0), manifolds);
+    const LoadEstimate load = pile(std::vector<double>(6, 1.0), manifolds);
     EXPECT_DOUBLE_EQ(load.ratio, 2.5);
     EXPECT_EQ(load.levels, 3);
 }
 
 // Loads go to the neighbours nearer to what is fixed and to no others; what is fixed ends them.
-TEST(PileLoad, ABeamOnTwoPostsAndManyContactsOfOnePair) {
+TEST(LoadEstimate, ABeamOnTwoPostsAndManyContactsOfOnePair) {
     const std::vector<Manifold> beam = {touch(0, 1), touch(0, 2), touch(1, 3), touch(2, 3)};
     EXPECT_DOUBLE_EQ(pile({1.0, 1.0, 10.0}, beam).ratio, 6.0);
     EXPECT_DOUBLE_EQ(pile({1.0, 1.0, 30.0}, beam).ratio, 16.0);
@@ -68,8 +68,8 @@ TEST(PileLoad, ABeamOnTwoPostsAndManyContactsOfOnePair) {
     EXPECT_DOUBLE_EQ(pile({1.0, 0.1, 40.0}, parts).ratio, 101.0);
 }
 
-TEST(PileLoad, WhatLeansOnNothingCarriesNothing) {
-    const PileLoad load = pile({1.0, 5.0, 100.0}, {touch(1, 2), touch(2, 3)});
+TEST(LoadEstimate, WhatLeansOnNothingCarriesNothing) {
+    const LoadEstimate load = pile({1.0, 5.0, 100.0}, {touch(1, 2), touch(2, 3)});
     EXPECT_EQ(load.ratio, 1.0);
     EXPECT_EQ(load.levels, 1);
 }

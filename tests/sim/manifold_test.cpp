@@ -20,7 +20,7 @@ TEST(Manifold, APlateStandsOnItsFourCorners) {
             for (int trial = 0; trial < 20; ++trial) {
                 const Vec3 size(1.0, thick, width);
                 const Pose pose{{0.0, 0.5 * thick, 0.0}, turn_about_y(random(-3.0, 3.0))};
-                const Collider floors[] = {HalfSpace{Vec3::UnitY(), 0.0}, box_of({3.0, 1.0, 3.0})};
+                const CollisionShape floors[] = {HalfSpace{Vec3::UnitY(), 0.0}, box_of({3.0, 1.0, 3.0})};
                 for (const bool box : {false, true}) {
                     const Pose floor{box ? Vec3(0.0, -0.5, 0.0) : Vec3(Vec3::Zero()), Mat3::Identity()};
                     const auto manifolds = collide_all(floors[box], floor, box_of(size), pose, 3.0 * thick);

@@ -25,7 +25,7 @@ Vec3 nearest_of(const Vec3& p, const Vec3 (&t)[3]) {
     return inside ? foot : best;
 }
 
-double least_distance(const TriangleSurface& s, const Vec3& p) {
+double least_distance(const CollisionMesh& s, const Vec3& p) {
     double least = 1e300;
     for (std::uint32_t i = 0; i < s.triangles.size(); ++i) {
         const Vec3 t[3] = {s.corner(i, 0), s.corner(i, 1), s.corner(i, 2)};

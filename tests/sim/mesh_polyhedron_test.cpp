@@ -48,8 +48,8 @@ double lowest(const Polyhedron& b, const Pose& pose) {
     return y;
 }
 
-Cloud cloud_of(std::vector<Vec3> points) {
-    Cloud cloud;
+SupportPoints cloud_of(std::vector<Vec3> points) {
+    SupportPoints cloud;
     cloud.center = mean(points);
     for (Vec3& p : points) {
         p -= cloud.center;
@@ -60,11 +60,11 @@ Cloud cloud_of(std::vector<Vec3> points) {
 }
 
 // Whether a body and some triangle overlap, by their Minkowski difference: without the routine that is tested.
-bool overlap(const TriangleSurface& s, const Polyhedron& b, const Pose& pose) {
+bool overlap(const CollisionMesh& s, const Polyhedron& b, const Pose& pose) {
     std::vector<Vec3> points;
     Bounds bounds;
     for (const Vec3& v : b.vertices) bounds.add(points.emplace_back(pose.to_world(v)));
-    const Cloud cloud = cloud_of(std::move(points));
+    const SupportPoints cloud = cloud_of(std::move(points));
     bool found = false;
     s.tree.query(bounds, [&](std::uint32_t t) {
         found = found || !closest_vector(cloud_of({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}), cloud, Vec3::UnitY());

@@ -14,7 +14,7 @@ using namespace tumble::testing;
 namespace {
 
 // For each triangle whether the point is behind it: asked for those within `reach`, by bounds.
-std::vector<std::pair<std::uint32_t, bool>> sides(const TriangleSurface& s, const Vec3& point, double reach) {
+std::vector<std::pair<std::uint32_t, bool>> sides(const CollisionMesh& s, const Vec3& point, double reach) {
     std::vector<std::uint32_t> near;
     s.tree.query(Bounds{point, point}.grown(reach), [&](std::uint32_t t) { near.push_back(t); });
     std::sort(near.begin(), near.end());
@@ -25,7 +25,7 @@ std::vector<std::pair<std::uint32_t, bool>> sides(const TriangleSurface& s, cons
     return found;
 }
 
-bool behind_plane(const TriangleSurface& s, std::uint32_t t, const Vec3& point) {
+bool behind_plane(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     return s.triangles[t].normal.dot(point - s.corner(t, 0)) < 0.0;
 }
 
@@ -104,7 +104,7 @@ TEST(SurfaceSide, SheetsAreWoundAlike) {
         for (auto& t : mesh.triangles)
             if (random.below(2) == 0) std::swap(t[0], t[1]);
         const auto s = surface_of(mesh);
-        for (const auto& t : s->triangles) EXPECT_EQ(t.sheet == TriangleSurface::none, half_turns == 1);
+        for (const auto& t : s->triangles) EXPECT_EQ(t.sheet == CollisionMesh::none, half_turns == 1);
         if (half_turns != 1) {
             for (std::size_t t = 1; t < s->triangles.size(); ++t)
                 EXPECT_GT(s->triangles[t].normal.dot(s->triangles[t - 1].normal), 0.5) << half_turns;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double h = 1.0 / 60.0;
 
-Body body_at(const Collider& collider, const Vec3& position, BodyType type = BodyType::dynamic) {
+Body body_at(const CollisionShape& collider, const Vec3& position, BodyType type = BodyType::dynamic) {
     Body body;
     body.type = type;
     body.collider = collider;
@@ -57,7 +57,7 @@ void mark(Manifold& m) {
 
 }  // namespace
 
-TEST(PersistentManifold, KeepsItsImpulses) {
+TEST(NarrowPhaseManifold, KeepsItsImpulses) {
     Scene scene = box_on_box();
     ASSERT_EQ(scene.find().size(), 1u);
     Manifold& first = scene.find()[0];
@@ -83,7 +83,7 @@ TEST(PersistentManifold, KeepsItsImpulses) {
     }
 }
 
-TEST(PersistentManifold, StartsAnewAfterParting) {
+TEST(NarrowPhaseManifold, StartsAnewAfterParting) {
     Scene scene = box_on_box();
     mark(scene.find()[0]);
     scene.bodies[1].position.y() = 2.0;
@@ -97,7 +97,7 @@ TEST(PersistentManifold, StartsAnewAfterParting) {
 }
 
 // Other features, the same place: a box turned upside down lies on the same four corners.
-TEST(PersistentManifold, TakesTheNearestPointWhenFeaturesChange) {
+TEST(NarrowPhaseManifold, TakesTheNearestPointWhenFeaturesChange) {
     Scene scene = box_on_box();
     mark(scene.find()[0]);
     const Manifold before = scene.find()[0];
@@ -122,8 +122,8 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
                              body_at(surface_of(grid_mesh(8, 10.0, 0.2)), {0.0, -0.2, 0.0}, BodyType::fixed),
                              body_at(HalfSpace{Vec3::UnitY(), 0.0}, Vec3::Zero(), BodyType::fixed)};
     for (int i = 0; i < 60; ++i) {
-        const Collider shape = i % 3 == 2 ? Collider(random_hull(random, 12, Vec3::Constant(0.6)))
-                                          : Collider(box_of(random.vector(0.3) + Vec3::Constant(0.9)));
+        const CollisionShape shape = i % 3 == 2 ? CollisionShape(random_hull(random, 12, Vec3::Constant(0.6)))
+                                          : CollisionShape(box_of(random.vector(0.3) + Vec3::Constant(0.9)));
         bodies.push_back(body_at(shape, random.vector(1.8) + Vec3(0.0, 1.8, 0.0)));
         if (i % 3 != 1) turn(bodies.back(), random.turn());
     }
@@ -290,7 +290,7 @@ TEST(PairMemory, OnePartOfACompoundDoesNotSpeakForTheOthers) {
 TEST(PairMemory, SeamsAreFlat) {
     for (const bool sphere : {false, true}) {
         for (const double speed : {0.02, 0.7, 5.0}) {
-            const Collider shape = sphere ? Collider(Ball{0.3}) : Collider(box_of({0.6, 0.6, 0.6}));
+            const CollisionShape shape = sphere ? CollisionShape(Ball{0.3}) : CollisionShape(box_of({0.6, 0.6, 0.6}));
             Scene scene({body_at(surface_of(grid_mesh(20, 5.0, 0.0)), Vec3::Zero(), BodyType::fixed),
                          body_at(shape, {-1.0, 0.3 - 1e-5, 0.13})});
             Body& body = scene.bodies[1];

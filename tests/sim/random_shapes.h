@@ -78,11 +78,11 @@ inline PolyhedronRef random_hull(Random& random, int points, const Vec3& stretch
     return std::make_shared<const Polyhedron>(make_hull(cloud, mean(cloud)));
 }
 
-inline std::shared_ptr<const TriangleSurface> surface_of(const TriangleMesh& mesh, const Vec3& origin = Vec3::Zero()) {
-    return std::make_shared<const TriangleSurface>(make_surface(mesh, origin));
+inline std::shared_ptr<const CollisionMesh> surface_of(const TriangleMesh& mesh, const Vec3& origin = Vec3::Zero()) {
+    return std::make_shared<const CollisionMesh>(make_surface(mesh, origin));
 }
 
-inline std::vector<Manifold> collide_all(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b,
+inline std::vector<Manifold> collide_all(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b,
                                          double margin) {
     CollisionScratch scratch;
     std::vector<Manifold> out;

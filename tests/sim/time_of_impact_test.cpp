@@ -19,8 +19,8 @@ const Vec3 gravity(0.0, -9.81, 0.0);
 
 struct Flying {
     Body body;
-    Path path;
-    explicit Flying(const Body& b, const Vec3& acceleration = gravity) : body(b), path(Path::flight(b, acceleration)) {}
+    Trajectory path;
+    explicit Flying(const Body& b, const Vec3& acceleration = gravity) : body(b), path(Trajectory::flight(b, acceleration)) {}
     Traveller traveller(double since = 0.0) const { return {&body, &path, since}; }
 };
 
@@ -44,12 +44,12 @@ double gap(const Flying& a, const Flying& b, double t) {
 
 struct Ground {
     Body body;
-    Path path;
+    Trajectory path;
     Ground() {
         body.type = BodyType::fixed;
         body.collider = HalfSpace{Vec3::UnitY(), 0.0};
         body.radius = std::numeric_limits<double>::infinity();
-        path = Path::uniform(body, Vec3::Zero(), Vec3::Zero());
+        path = Trajectory::uniform(body, Vec3::Zero(), Vec3::Zero());
     }
     Traveller traveller() const { return {&body, &path, 0.0}; }
 };
@@ -280,9 +280,9 @@ TEST(TimeOfImpact, OneSearchDoesNotTouchTheNext) {
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
     Body sheet;
     sheet.type = BodyType::fixed;
-    sheet.collider = std::make_shared<const TriangleSurface>(make_surface(mesh, Vec3::Zero()));
+    sheet.collider = std::make_shared<const CollisionMesh>(make_surface(mesh, Vec3::Zero()));
     sheet.radius = bounding_radius(sheet.collider);
-    const Path still = Path::uniform(sheet, Vec3::Zero(), Vec3::Zero());
+    const Trajectory still = Trajectory::uniform(sheet, Vec3::Zero(), Vec3::Zero());
     const Flying ball(free_ball(0.25, 1.0, {0.3, 0.25 + 1e-6, 0.2}, {0.0, 0.01, 0.0}));
     const Flying fast(free_ball(0.25, 1.0, {0.3, 3.0, 0.2}, {0.0, -50.0, 3.0}));
     const double exact = (0.01 + std::sqrt(1e-4 + 2.0 * 9.81 * 1e-6)) / 9.81;

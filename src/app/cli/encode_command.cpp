@@ -71,7 +71,7 @@ std::uint64_t pictures_on_their_way(const PictureSize& size, const VideoFormat& 
 void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Interrupt& interrupt, Progress& progress) {
     BoundedQueue<Image> images(waiting_frames);
     std::atomic<std::int64_t> done{0};
-    StageGroup stages;
+    TaskGroup stages;
     stages.on_stop([&] {
         images.cancel();
         video.abandon();

@@ -31,7 +31,7 @@ struct Summary {
     const FrameFolder* folder;
     const AovFolder* aovs;
     const VideoWriter* video;
-    const Drawer& drawer;
+    const RenderPool& drawer;
     ProcessEnd workers_end;
     std::optional<fs::path> clip;
     double clip_fps;
@@ -127,7 +127,7 @@ void run_render(const RenderCommand& command) {
 
     // What can be wrong with the outputs is found out before anything is simulated or written.
     PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
-    const FrameForms& forms = work.forms;
+    const FrameOutputs& forms = work.forms;
     if (clip) {
         const VideoFormat format = video_format(*clip, clip_fps);
         work.forms.video = format.pixels;
@@ -141,7 +141,7 @@ void run_render(const RenderCommand& command) {
         say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. They open OpenGL while the bodies are built.
-    Drawer drawer(scene, command.drawing, forms, workers, shutter.moments);
+    RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
         SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies

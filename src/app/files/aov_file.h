@@ -23,7 +23,7 @@ public:
     std::span<const std::byte> make(const AovPoses& poses);
 
 private:
-    AovMaker maker_;
+    AovRenderer maker_;
     NpzArchive archive_;
 };
 

@@ -33,7 +33,7 @@ auto timed(StageTime& time, const Work& work) {
 
 }  // namespace
 
-void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
+void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
     while (!stages.wait(supervision_period)) {
         report();
         if (interrupt.pending()) stages.stop(std::make_exception_ptr(RunError("interrupted")));
@@ -41,7 +41,7 @@ void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<voi
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder, VideoWriter* video,
                    AovFolder* aovs, Shutter shutter)
     : world_(world),
       frames_(frames),
@@ -56,7 +56,7 @@ Pipeline::Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const
       for_video_(waiting_frames) {}
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
-    StageGroup stages;
+    TaskGroup stages;
     stages.on_stop([this] {
         poses_.cancel();
         for_png_.cancel();
@@ -94,9 +94,9 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 
 void Pipeline::simulate() {
     const bool ahead = aovs_ != nullptr && aovs_->aovs().has(Aov::motion);
-    std::optional<Exposure> waiting;   // where motion is wanted: for the poses of the next frame
+    std::optional<MotionBlurFrame> waiting;   // where motion is wanted: for the poses of the next frame
     for (std::int64_t n = 0; n < frames_.end; ++n) {
-        Exposure exposure = expose(n);
+        MotionBlurFrame exposure = expose(n);
         if (waiting) waiting->aovs->next = exposure.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
         waiting.reset();
@@ -110,9 +110,9 @@ void Pipeline::simulate() {
     poses_.close();
 }
 
-Exposure Pipeline::expose(std::int64_t frame) {
+MotionBlurFrame Pipeline::expose(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
-    Exposure exposure;
+    MotionBlurFrame exposure;
     exposure.frame = frame;
     // What the shutter of the last frame does not see needs not be simulated.
     const int parts = frame + 1 < frames_.end ? shutter_.parts : shutter_.moments;

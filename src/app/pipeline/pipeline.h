@@ -26,7 +26,7 @@
 namespace tumble {
 
 class Interrupt;
-class StageGroup;
+class TaskGroup;
 
 /// What the stages used; they overlap, so that the sum is more than the run.
 struct PipelineTimes {
@@ -41,7 +41,7 @@ public:
     /// asked for).
     /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
     /// the outputs want.
-    Pipeline(World& world, const FrameRange& frames, Drawer& drawer, const FrameFolder* folder, VideoWriter* video,
+    Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder, VideoWriter* video,
              AovFolder* aovs = nullptr, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
@@ -52,7 +52,7 @@ public:
 
 private:
     void simulate();
-    Exposure expose(std::int64_t frame);
+    MotionBlurFrame expose(std::int64_t frame);
     Snapshot after_the_last();
     void write_frames();
     void write_aovs();
@@ -62,12 +62,12 @@ private:
 
     World& world_;
     FrameRange frames_;
-    Drawer& drawer_;
+    RenderPool& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;
     AovFolder* aovs_;
     Shutter shutter_;
-    BoundedQueue<Exposure> poses_;
+    BoundedQueue<MotionBlurFrame> poses_;
     BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
     PublishQueue frame_files_, aov_files_;
     std::atomic<std::int64_t> filmed_{0};
@@ -75,6 +75,6 @@ private:
 };
 
 /// Waits for the stages of a run: reports, and stops them when the user interrupts. Throws their first error.
-void supervise(StageGroup& stages, Interrupt& interrupt, const std::function<void()>& report);
+void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report);
 
 }  // namespace tumble

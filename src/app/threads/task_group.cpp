@@ -7,14 +7,14 @@
 
 namespace tumble {
 
-StageGroup::~StageGroup() {
+TaskGroup::~TaskGroup() {
     if (!wait(std::chrono::milliseconds(0))) stop(std::make_exception_ptr(RunError("stopped")));
     join();
 }
 
-void StageGroup::on_stop(std::function<void()> action) { stop_actions_.push_back(std::move(action)); }
+void TaskGroup::on_stop(std::function<void()> action) { stop_actions_.push_back(std::move(action)); }
 
-void StageGroup::start(std::function<void()> stage) {
+void TaskGroup::start(std::function<void()> stage) {
     {
         const std::lock_guard lock(mutex_);
         ++running_;
@@ -38,7 +38,7 @@ void StageGroup::start(std::function<void()> stage) {
     }
 }
 
-void StageGroup::stop(std::exception_ptr why) {
+void TaskGroup::stop(std::exception_ptr why) {
     {
         const std::lock_guard lock(mutex_);
         if (error_) return;
@@ -47,17 +47,17 @@ void StageGroup::stop(std::exception_ptr why) {
     for (const auto& action : stop_actions_) action();
 }
 
-bool StageGroup::wait(std::chrono::milliseconds at_most) {
+bool TaskGroup::wait(std::chrono::milliseconds at_most) {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, at_most, [&] { return running_ == 0; });
 }
 
-void StageGroup::finish() {
+void TaskGroup::finish() {
     join();
     if (error_) std::rethrow_exception(error_);
 }
 
-void StageGroup::join() {
+void TaskGroup::join() {
     for (std::thread& thread : threads_)
         if (thread.joinable()) thread.join();
 }

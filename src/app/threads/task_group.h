@@ -12,13 +12,13 @@
 
 namespace tumble {
 
-class StageGroup {
+class TaskGroup {
 public:
-    StageGroup() = default;
+    TaskGroup() = default;
     /// Stops what still runs and waits for it.
-    ~StageGroup();
-    StageGroup(const StageGroup&) = delete;
-    StageGroup& operator=(const StageGroup&) = delete;
+    ~TaskGroup();
+    TaskGroup(const TaskGroup&) = delete;
+    TaskGroup& operator=(const TaskGroup&) = delete;
 
     /// What to do, once, to make the stages come to an end: cancel a queue, stop a program. Say so before start().
     void on_stop(std::function<void()> action);

@@ -12,7 +12,7 @@ namespace tumble {
 
 /// What one frame shows: its moments, in order; a single one without motion blur. What is not asked for, or is the same
 /// as in the frame before, is left out.
-struct Exposure {
+struct MotionBlurFrame {
     std::int64_t frame = 0;
     std::vector<Snapshot> moments;
     std::optional<AovPoses> aovs;   // the true poses at the frame's own time, where the shutter opens

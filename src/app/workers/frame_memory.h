@@ -15,7 +15,7 @@ namespace tumble {
 
 /// What is made of how many pictures.
 struct PictureWork {
-    FrameForms forms;
+    FrameOutputs forms;
     std::optional<VideoKind> clip;   // what the encoder makes
     std::int64_t frames = 1;
     int moments = 1;                 // of a frame: more with motion blur

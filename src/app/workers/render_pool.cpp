@@ -21,19 +21,19 @@ namespace {
 constexpr int slots_of_worker = 4;
 
 /// In memory that all processes see. Null where there is only one.
-std::shared_ptr<CompilationTurns> make_turns(int workers) {
+std::shared_ptr<ShaderCompileSchedule> make_turns(int workers) {
     if (workers < 2) return nullptr;
-    void* const memory = mmap(nullptr, sizeof(CompilationTurns), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    void* const memory = mmap(nullptr, sizeof(ShaderCompileSchedule), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) return nullptr;   // then each compiles everything
-    return {new (memory) CompilationTurns, [](CompilationTurns* turns) { munmap(turns, sizeof *turns); }};
+    return {new (memory) ShaderCompileSchedule, [](ShaderCompileSchedule* turns) { munmap(turns, sizeof *turns); }};
 }
 
 }  // namespace
 
 /// The free slots of a worker. They come back from the outputs, whenever the last of those lets go.
-class Drawer::Slots : public std::enable_shared_from_this<Slots> {
+class RenderPool::Slots : public std::enable_shared_from_this<Slots> {
 public:
-    explicit Slots(std::shared_ptr<WorkerMemory> memory) : memory_(std::move(memory)) {
+    explicit Slots(std::shared_ptr<SharedFrames> memory) : memory_(std::move(memory)) {
         for (int i = 0; i < slots_of_worker; ++i) free_.push_back(i);
     }
 
@@ -53,7 +53,7 @@ public:
         changed_.notify_all();
     }
 
-    const WorkerMemory& memory() const { return *memory_; }
+    const SharedFrames& memory() const { return *memory_; }
 
 private:
     void put_back(const int* slot) {
@@ -67,27 +67,27 @@ private:
     std::condition_variable changed_;
     std::vector<int> free_;
     bool stopped_ = false;
-    std::shared_ptr<WorkerMemory> memory_;   // lives as long as a slot of it is read
+    std::shared_ptr<SharedFrames> memory_;   // lives as long as a slot of it is read
 };
 
-Drawer::Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
                int most_moments)
     : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
     RenderOptions in_turns = options;
     in_turns.turns = turns_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(std::make_unique<DrawWorker>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
+        workers_.push_back(std::make_unique<RenderProcess>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
         sockets.push_back(workers_.back()->socket());
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
 }
 
-Drawer::~Drawer() = default;
+RenderPool::~RenderPool() = default;
 
-void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
+void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
                  std::int64_t first) {
-    FrameOrder order(workers_.size(), first);
+    ReorderBuffer order(workers_.size(), first);
     std::vector<std::thread> threads;
     const auto stop = [&] {
         poses.cancel();
@@ -115,7 +115,7 @@ void Drawer::run(BoundedQueue<Exposure>& poses, const std::function<bool(const F
 }
 
 /// What to draw; false: the frame shows what the one before shows, which it may not where it is the first (`anew`).
-bool Drawer::follow(Exposure& exposure, bool anew) {
+bool RenderPool::follow(MotionBlurFrame& exposure, bool anew) {
     if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
     if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
     return !exposure.moments.empty() || exposure.aovs;
@@ -123,7 +123,7 @@ bool Drawer::follow(Exposure& exposure, bool anew) {
 
 /// The poses to draw of the picture; false: it is that of the frame before. Where nothing moves while the shutter is
 /// open, one moment is left.
-bool Drawer::follow_picture(Exposure& exposure) {
+bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
     bool first = false, later = false;
     for (std::size_t i = 0; i < exposure.moments.size(); ++i)
         if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
@@ -133,12 +133,12 @@ bool Drawer::follow_picture(Exposure& exposure) {
 }
 
 /// The life of the thread that looks after one worker.
-void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times,
+void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
                   std::int64_t first) {
     Slots& slots = *slots_[worker];
-    const auto next_pose = [&]() -> std::optional<Exposure> {
+    const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);
-        while (std::optional<Exposure> pose = poses.pop()) {
+        while (std::optional<MotionBlurFrame> pose = poses.pop()) {
             const bool wanted = follow(*pose, pose->frame == first);
             if (pose->frame < first) continue;
             if (wanted) {
@@ -151,7 +151,7 @@ void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder&
     };
     // The slot comes first: who has a pose can always finish it, and the frames behind it wait for no one else.
     while (const std::shared_ptr<const int> slot = slots.take()) {
-        const std::optional<Exposure> pose = next_pose();
+        const std::optional<MotionBlurFrame> pose = next_pose();
         if (!pose) return;
         const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
         times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
@@ -175,11 +175,11 @@ void Drawer::tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder&
     }
 }
 
-void Drawer::abandon() {
+void RenderPool::abandon() {
     for (const auto& worker : workers_) worker->kill();
 }
 
-ProcessEnd Drawer::finish() {
+ProcessEnd RenderPool::finish() {
     ProcessEnd sum;
     for (const auto& worker : workers_) {
         const ProcessEnd end = worker->finish();
@@ -189,7 +189,7 @@ ProcessEnd Drawer::finish() {
     return sum;
 }
 
-std::vector<pid_t> Drawer::processes() const {
+std::vector<pid_t> RenderPool::processes() const {
     std::vector<pid_t> ids;
     for (const auto& worker : workers_) ids.push_back(worker->id());
     return ids;

@@ -40,20 +40,20 @@ struct DrawingTimes {
     StageTime drawing, conversion, png, aovs;
 };
 
-class FrameOrder;
+class ReorderBuffer;
 
-class Drawer {
+class RenderPool {
 public:
     /// Starts the processes: call it before the program has any other thread. Frames have so many moments at most.
     /// The scene must outlive it. Throws RunError.
-    Drawer(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int workers,
+    RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
            int most_moments = 1);
-    ~Drawer();
+    ~RenderPool();
 
     /// Takes poses until their queue ends, and hands each finished frame on, in the order of the poses. Stops early
     /// when `hand_on` says false. Of the frames before `first` only the poses are followed: what rests by then is drawn as if
     /// all had been. Throws RunError naming the frame where drawing fails or a process dies.
-    void run(BoundedQueue<Exposure>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
+    void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
              std::int64_t first = 0);
 
     /// Ends the processes at once, from any thread; run() then comes back.
@@ -67,17 +67,17 @@ public:
 
 private:
     class Slots;
-    bool follow(Exposure& exposure, bool anew);
-    bool follow_picture(Exposure& exposure);
-    void tend(std::size_t worker, BoundedQueue<Exposure>& poses, FrameOrder& order, DrawingTimes& times, std::int64_t first);
+    bool follow(MotionBlurFrame& exposure, bool anew);
+    bool follow_picture(MotionBlurFrame& exposure);
+    void tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times, std::int64_t first);
 
-    std::shared_ptr<CompilationTurns> turns_;
-    std::vector<std::unique_ptr<DrawWorker>> workers_;
+    std::shared_ptr<ShaderCompileSchedule> turns_;
+    std::vector<std::unique_ptr<RenderProcess>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
     std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time
-    DrawnPoses drawn_poses_;
+    PoseFilter drawn_poses_;
     AovChanges aov_changes_;
-    FrameForms forms_;
+    FrameOutputs forms_;
     bool moves_ = false;                          // while the shutter was open for the frame before
     std::int64_t drawn_ = 0;
 };

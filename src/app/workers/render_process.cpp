@@ -68,7 +68,7 @@ WorkTime timed(const Work& work) {
 /// The child's whole life: its OpenGL, and its last frame in all forms.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, WorkerMemory& memory)
+    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, SharedFrames& memory)
         : memory_(memory) {
         if (forms.picture()) renderer_.emplace(scene, options);
         if (!forms.aovs.empty()) aovs_.emplace(scene, forms.aovs);
@@ -121,7 +121,7 @@ private:
         if (job.moments > 1) mean_.take(blurred_);
     }
 
-    WorkerMemory& memory_;
+    SharedFrames& memory_;
     std::optional<Renderer> renderer_;
     Snapshot snapshot_;
     Image image_;          // the last moment that was drawn
@@ -143,8 +143,8 @@ std::string reason(const std::exception& error) {
     return std::string(text);
 }
 
-[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms,
-                       WorkerMemory& memory, int socket) {
+[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+                       SharedFrames& memory, int socket) {
     ::setpgid(0, 0);   // Ctrl-C reaches it only through us
     sigset_t none;
     sigemptyset(&none);
@@ -175,9 +175,9 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
                        int most_moments, std::span<const int> other_sockets)
-    : memory_(std::make_shared<WorkerMemory>(scene, forms, slots, most_moments)) {
+    : memory_(std::make_shared<SharedFrames>(scene, forms, slots, most_moments)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
@@ -201,12 +201,12 @@ DrawWorker::DrawWorker(const SceneDescription& scene, const RenderOptions& optio
     }
 }
 
-DrawWorker::~DrawWorker() {
+RenderProcess::~RenderProcess() {
     kill();
     finish();
 }
 
-DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
+DrawnFrame RenderProcess::draw(const MotionBlurFrame& exposure, int slot) {
     for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
     if (exposure.aovs) memory_->write_aov_poses(*exposure.aovs);
     DrawnFrame drawn;
@@ -216,16 +216,16 @@ DrawnFrame DrawWorker::draw(const Exposure& exposure, int slot) {
     return drawn;
 }
 
-void DrawWorker::died(std::int64_t frame) {
+void RenderProcess::died(std::int64_t frame) {
     throw RunError(fmt::format("cannot draw frame {}: its process {}{}", frame, finish().describe(), memory_limit_note()));
 }
 
-void DrawWorker::kill() {
+void RenderProcess::kill() {
     const std::lock_guard lock(id_mutex_);
     if (id_ >= 0) ::kill(id_, SIGKILL);
 }
 
-ProcessEnd DrawWorker::finish() {
+ProcessEnd RenderProcess::finish() {
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes it for its last job
     if (id_ < 0) return {};
     if (!ends_within(id_, longest_end)) kill();

@@ -32,20 +32,20 @@ struct DrawnFrame {
     WorkTime drawing, conversion, png, aovs;
 };
 
-class DrawWorker {
+class RenderProcess {
 public:
     /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it. The calling
     /// program must have no other thread. Throws RunError when there are no more processes or no memory to be had.
-    DrawWorker(const SceneDescription& scene, const RenderOptions& options, const FrameForms& forms, int slots,
+    RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
                int most_moments, std::span<const int> other_sockets = {});
     /// Ends it, whatever it does.
-    ~DrawWorker();
-    DrawWorker(const DrawWorker&) = delete;
-    DrawWorker& operator=(const DrawWorker&) = delete;
+    ~RenderProcess();
+    RenderProcess(const RenderProcess&) = delete;
+    RenderProcess& operator=(const RenderProcess&) = delete;
 
     /// Draws one frame into the slot and waits for it: the picture where it has moments, the AOVs where it has their poses.
     /// Throws RunError naming the frame where drawing fails, or the process has died.
-    DrawnFrame draw(const Exposure& exposure, int slot);
+    DrawnFrame draw(const MotionBlurFrame& exposure, int slot);
 
     /// Asks it to end at once; from any thread. A draw() that waits then fails.
     void kill();
@@ -53,14 +53,14 @@ public:
     /// Ends it and tells what it used. One that does not end within a second is killed.
     ProcessEnd finish();
 
-    const std::shared_ptr<WorkerMemory>& memory() const { return memory_; }
+    const std::shared_ptr<SharedFrames>& memory() const { return memory_; }
     pid_t id() const { return id_; }
     int socket() const { return socket_; }
 
 private:
     [[noreturn]] void died(std::int64_t frame);
 
-    std::shared_ptr<WorkerMemory> memory_;
+    std::shared_ptr<SharedFrames> memory_;
     pid_t id_ = -1;
     std::mutex id_mutex_;   // kill() against the end of finish(), after which another process may have that number
     int socket_ = -1;

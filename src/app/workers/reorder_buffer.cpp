@@ -11,24 +11,24 @@ constexpr std::int64_t most_ahead = 4096;   // repeated frames that wait for a d
 
 }  // namespace
 
-FrameOrder::FrameOrder(std::size_t workers, std::int64_t first)
+ReorderBuffer::ReorderBuffer(std::size_t workers, std::int64_t first)
     : first_(first), next_(first), working_(workers), picture_of_worker_(workers, -1) {}
 
-void FrameOrder::add(Frame frame, std::size_t worker, bool unchanged) {
+void ReorderBuffer::add(Frame frame, std::size_t worker, bool unchanged) {
     const std::lock_guard lock(mutex_);
     const std::int64_t number = frame.number;
     waiting_.emplace(number, Waiting{std::move(frame), worker, unchanged});
     changed_.notify_all();
 }
 
-void FrameOrder::add_with_last_picture(Frame frame) {
+void ReorderBuffer::add_with_last_picture(Frame frame) {
     const std::lock_guard lock(mutex_);
     const std::int64_t number = frame.number;
     waiting_.emplace(number, Waiting{std::move(frame), std::nullopt, true});
     changed_.notify_all();
 }
 
-bool FrameOrder::add_repeated(std::int64_t number) {
+bool ReorderBuffer::add_repeated(std::int64_t number) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return stopped_ || number < next_ + most_ahead; });
     if (stopped_) return false;
@@ -39,22 +39,22 @@ bool FrameOrder::add_repeated(std::int64_t number) {
     return true;
 }
 
-void FrameOrder::leave() {
+void ReorderBuffer::leave() {
     const std::lock_guard lock(mutex_);
     --working_;
     changed_.notify_all();
 }
 
-void FrameOrder::fail(std::exception_ptr error) {
+void ReorderBuffer::fail(std::exception_ptr error) {
     const std::lock_guard lock(mutex_);
     if (!stopped_) error_ = std::move(error);
     stopped_ = true;
     changed_.notify_all();
 }
 
-void FrameOrder::stop() { fail(nullptr); }
+void ReorderBuffer::stop() { fail(nullptr); }
 
-std::optional<Frame> FrameOrder::next() {
+std::optional<Frame> ReorderBuffer::next() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return stopped_ || waiting_.contains(next_) || working_ == 0; });
     if (error_) std::rethrow_exception(error_);
@@ -68,7 +68,7 @@ std::optional<Frame> FrameOrder::next() {
 }
 
 /// Frames come here in order, so that "the worker's frame before" is known by now.
-Frame FrameOrder::told_apart(Waiting waiting) {
+Frame ReorderBuffer::told_apart(Waiting waiting) {
     Frame& frame = waiting.frame;
     TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);
     if (!frame.aov_slot) {

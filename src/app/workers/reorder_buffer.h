@@ -13,10 +13,10 @@
 
 namespace tumble {
 
-class FrameOrder {
+class ReorderBuffer {
 public:
     /// Of so many workers, from a frame on, which must have all that is asked for.
-    explicit FrameOrder(std::size_t workers, std::int64_t first = 0);
+    explicit ReorderBuffer(std::size_t workers, std::int64_t first = 0);
 
     /// A frame that a worker has drawn; `unchanged`: it is the same picture as the frame it drew before.
     void add(Frame frame, std::size_t worker, bool unchanged);

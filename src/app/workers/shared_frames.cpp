@@ -25,7 +25,7 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 
 }  // namespace
 
-WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments)
+SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& forms, int slots, int most_moments)
     : followed_(scene.camera.follow),
       motion_(forms.aovs.has(Aov::motion)),
       bodies_(scene.bodies.size()),
@@ -48,9 +48,9 @@ WorkerMemory::WorkerMemory(const SceneDescription& scene, const FrameForms& form
     memory_ = static_cast<std::byte*>(memory);
 }
 
-WorkerMemory::~WorkerMemory() { munmap(memory_, size_); }
+SharedFrames::~SharedFrames() { munmap(memory_, size_); }
 
-void WorkerMemory::write_poses(std::size_t moment, const Snapshot& snapshot) {
+void SharedFrames::write_poses(std::size_t moment, const Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
     double* to = poses(moment).data();
     *to++ = snapshot.time;
@@ -63,7 +63,7 @@ void WorkerMemory::write_poses(std::size_t moment, const Snapshot& snapshot) {
     }
 }
 
-void WorkerMemory::read_poses(std::size_t moment, Snapshot& snapshot) const {
+void SharedFrames::read_poses(std::size_t moment, Snapshot& snapshot) const {
     snapshot.bodies.resize(bodies_);
     const double* from = poses(moment).data();
     snapshot.time = *from++;
@@ -76,23 +76,23 @@ void WorkerMemory::read_poses(std::size_t moment, Snapshot& snapshot) const {
     }
 }
 
-void WorkerMemory::write_aov_poses(const AovPoses& poses) {
+void SharedFrames::write_aov_poses(const AovPoses& poses) {
     write_poses(most_moments_, poses.now);
     TUMBLE_CHECK_EQ(poses.next.has_value(), motion_);
     if (motion_) write_poses(most_moments_ + 1, *poses.next);
 }
 
-void WorkerMemory::read_aov_poses(AovPoses& poses) const {
+void SharedFrames::read_aov_poses(AovPoses& poses) const {
     read_poses(most_moments_, poses.now);
     if (motion_) read_poses(most_moments_ + 1, poses.next.emplace());
 }
 
-void WorkerMemory::write_words(const std::string& words) {
+void SharedFrames::write_words(const std::string& words) {
     const std::size_t size = std::min(words.size(), words_size - 1);
     std::memcpy(memory_, words.data(), size);
     memory_[size] = std::byte{0};
 }
 
-std::string WorkerMemory::words() const { return reinterpret_cast<const char*>(memory_); }
+std::string SharedFrames::words() const { return reinterpret_cast<const char*>(memory_); }
 
 }  // namespace tumble

@@ -16,7 +16,7 @@
 namespace tumble {
 
 /// What is made of every frame.
-struct FrameForms {
+struct FrameOutputs {
     std::optional<PixelForm> video;
     bool png = false;
     AovSet aovs;
@@ -24,13 +24,13 @@ struct FrameForms {
     bool picture() const { return video.has_value() || png; }
 };
 
-class WorkerMemory {
+class SharedFrames {
 public:
     /// Before the fork, for frames of so many moments. Throws RunError when there is not enough memory.
-    WorkerMemory(const SceneDescription& scene, const FrameForms& forms, int slots, int most_moments);
-    ~WorkerMemory();
-    WorkerMemory(const WorkerMemory&) = delete;
-    WorkerMemory& operator=(const WorkerMemory&) = delete;
+    SharedFrames(const SceneDescription& scene, const FrameOutputs& forms, int slots, int most_moments);
+    ~SharedFrames();
+    SharedFrames(const SharedFrames&) = delete;
+    SharedFrames& operator=(const SharedFrames&) = delete;
 
     /// Of one moment of the frame to draw next: its time, origins and orientations, and the centre of mass of the body that
     /// the camera follows, which is all that drawing needs. There is room for one frame's.

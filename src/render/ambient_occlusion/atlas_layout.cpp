@@ -19,7 +19,7 @@ struct Fineness {
 constexpr Fineness ladder[] = {{OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 5, 16}, {1.0, 5, 12}, {0.5, 4, 8},
                                {0.25, 3, 6}, {0.125, 2, 4}};
 
-int box_tile(const BodyLook& look, const SceneLooks& looks, const Fineness& fineness) {
+int box_tile(const RenderBody& look, const RenderScene& looks, const Fineness& fineness) {
     const double edge = 2.0 * look.half_size.maxCoeff();
     const double reach = look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;   // of what darkens it
     const double texels = std::min(std::ceil(fineness.texels_per_reach * edge / reach) + 1.0, double(most_ground_tile));
@@ -27,18 +27,18 @@ int box_tile(const BodyLook& look, const SceneLooks& looks, const Fineness& fine
 }
 
 // What finds no room any more stays open.
-bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& atlas) {
-    AtlasShelves shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is open, for whoever has no place
+bool lay_out(const RenderScene& looks, const Fineness& fineness, OcclusionAtlas& atlas) {
+    ShelfPacker shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is open, for whoever has no place
     bool all = true;
     atlas.places.assign(looks.bodies.size(), {});
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         OcclusionPlace place;
         bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.undarkened;
         if (fits) {
             // stays open
         } else if (look.fine_surface >= 0) {
-            const FineSurface& surface = looks.fine_surfaces[std::size_t(look.fine_surface)];
+            const OcclusionLightmap& surface = looks.fine_surfaces[std::size_t(look.fine_surface)];
             place.size = look.kind == DrawKind::ball ? surface.width : 1;
             fits = shelves.take(surface.width, surface.height, place.x, place.y);
         } else if (look.kind == DrawKind::box) {
@@ -62,7 +62,7 @@ bool lay_out(const SceneLooks& looks, const Fineness& fineness, OcclusionAtlas& 
 
 }  // namespace
 
-void lay_out_places(const SceneLooks& looks, OcclusionAtlas& atlas) {
+void lay_out_places(const RenderScene& looks, OcclusionAtlas& atlas) {
     for (const Fineness& fineness : ladder)
         if (lay_out(looks, fineness, atlas)) break;
 }

@@ -7,6 +7,6 @@
 namespace tumble {
 
 /// Fills in the atlas' places, and its height so far.
-void lay_out_places(const SceneLooks& looks, OcclusionAtlas& atlas);
+void lay_out_places(const RenderScene& looks, OcclusionAtlas& atlas);
 
 }  // namespace tumble

@@ -28,13 +28,13 @@ void stretch(const std::vector<float>& values, int from, int to, std::vector<flo
 
 }  // namespace
 
-void BodyDarkening::darken_points(const Surroundings& around, double reach) {
+void BodyOcclusion::darken_points(const Surroundings& around, double reach) {
     for (const std::size_t i : around.near) darken(points_, around.occluders[i], float(reach));
     for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
 }
 
 // As face_.darken() does, but only the texels that it can reach are looked at: of a ground they are few.
-void BodyDarkening::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
                                 const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
     const Eigen::Vector3f from = occluder.center - corner;
     const float far = occluder.bound_radius + std::min(reach, occluder.reach);
@@ -54,7 +54,7 @@ void BodyDarkening::darken_part(const Occluder& occluder, const Eigen::Vector3f&
         for (int i = i0; i < i0 + columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
 }
 
-std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                                      const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
     const int size = place.size;
     // What stands on a ground darkens it as far as a plane, however thin it is.
@@ -89,7 +89,7 @@ std::uint8_t BodyDarkening::make_box(const BodyLook& look, const OcclusionPlace&
     return faces;
 }
 
-bool BodyDarkening::make_ball(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                               const Surroundings& around, float detail, const Store& store) {
     const Eigen::Matrix3f axes = body.axes.cast<float>();
     const Eigen::Vector3f center = body.center.cast<float>();
@@ -116,12 +116,12 @@ bool BodyDarkening::make_ball(const BodyLook& look, const OcclusionPlace& place,
 }
 
 // A run of texels, row after row over the atlas' whole width.
-bool BodyDarkening::make_mesh(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+bool BodyOcclusion::make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                               const Surroundings& around, float detail, const Store& store) {
-    const MeshLook& mesh = looks_->meshes[look.mesh];
+    const RenderMesh& mesh = looks_->meshes[look.mesh];
     const auto make = [&](const auto& probes) {
         points_.clear();
-        for (const MeshProbe& probe : probes)
+        for (const VertexSample& probe : probes)
             points_.add((body.origin + body.axes * probe.position).cast<float>(), (body.axes * probe.normal).cast<float>());
         darken_points(around, look.reach);
     };

@@ -22,23 +22,23 @@ struct Surroundings {
     const std::vector<PlaneInView>& planes;
 };
 
-class BodyDarkening {
+class BodyOcclusion {
 public:
     /// Takes shares for the texels from (x, y) on, row after row; true when that changes any.
     using Store = std::function<bool(int x, int y, int width, int height, const float* open)>;
 
     /// `detail`: from 0, a value a face, a few for a ball or mesh, to 1, all texels.
-    explicit BodyDarkening(const SceneLooks& looks) : looks_(&looks) {}
+    explicit BodyOcclusion(const RenderScene& looks) : looks_(&looks) {}
 
     /// Makes the wanted faces (bits as in Visibility), tiles in the order of make_box()'s faces, with a texel's centre at
     /// each corner of a face. Returns those that changed.
-    std::uint8_t make_box(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body,
+    std::uint8_t make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                           const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);
 
     /// Have any texels changed?
-    bool make_ball(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
+    bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
                    float detail, const Store& store);
-    bool make_mesh(const BodyLook& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
+    bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
                    float detail, const Store& store);
 
 private:
@@ -46,8 +46,8 @@ private:
                      const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach);
     void darken_points(const Surroundings& around, double reach);
 
-    const SceneLooks* looks_;
-    SurfaceLattice face_, part_;
+    const RenderScene* looks_;
+    TexelGrid face_, part_;
     SurfacePoints points_;
     std::vector<float> coarse_, stretched_;
 };

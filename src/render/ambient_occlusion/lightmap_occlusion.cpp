@@ -5,11 +5,11 @@
 
 namespace tumble {
 
-void FineDarkening::place(const FineBody& body) {
+void LightmapOcclusion::place(const LightmapBody& body) {
     if (body_.surface == body.surface && body_.origin == body.origin && body_.axes == body.axes) return;
     body_ = body;
     all_.clear();
-    const FineSurface& surface = *body.surface;
+    const OcclusionLightmap& surface = *body.surface;
     const Eigen::Matrix3f axes = body.axes.cast<float>();
     const auto vector = [](const std::array<float, 3>& v) { return Eigen::Vector3f(v[0], v[1], v[2]); };
     for (std::size_t i = 0; i < surface.positions.size(); ++i)
@@ -18,27 +18,27 @@ void FineDarkening::place(const FineBody& body) {
     touched_.resize(surface.blocks.size(), 0);
 }
 
-FineDarkening::Ball FineDarkening::ball_around(const Bounds& bounds) const {
+LightmapOcclusion::Ball LightmapOcclusion::ball_around(const Bounds& bounds) const {
     return {Vec3(body_.origin + body_.axes * bounds.center()).cast<float>(), float(0.5 * bounds.extent().norm())};
 }
 
-bool FineDarkening::reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const {
+bool LightmapOcclusion::reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const {
     return std::any_of(planes.begin(), planes.end(), [&](const PlaneInView& plane) {
         return plane.normal.dot(ball.center) + plane.height < ball.radius + 2.0f * float(body_.reach);
     });
 }
 
 // Texels that nothing is near to, nor was, are open as they are from the start.
-void FineDarkening::update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
+void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
                            const std::vector<PlaneInView>& planes, const Store& store) {
-    const FineSurface& surface = *body_.surface;
-    for (const FineSurface::Group& group : surface.groups) {
+    const OcclusionLightmap& surface = *body_.surface;
+    for (const OcclusionLightmap::Group& group : surface.groups) {
         const Ball whole = ball_around(group.bounds);
         if (moved != nullptr && !moved->any(whole.center, whole.radius)) continue;
         const bool alone = !near.any(whole.center, whole.radius) && !reached_by_plane(whole, planes);
         for (std::uint32_t i = group.first; i < group.end; ++i) {
             if (alone && touched_[i] == 0) continue;
-            const FineSurface::Block& block = surface.blocks[i];
+            const OcclusionLightmap::Block& block = surface.blocks[i];
             const Ball ball = ball_around(block.bounds);
             if (moved != nullptr && !moved->any(ball.center, ball.radius)) continue;
             near.find(ball.center, ball.radius, found_);

@@ -12,21 +12,21 @@
 namespace tumble {
 
 /// A body with a fine surface, and where it is: relative to the same point as occluders.
-struct FineBody {
+struct LightmapBody {
     std::size_t body = 0;
-    const FineSurface* surface = nullptr;
+    const OcclusionLightmap* surface = nullptr;
     Vec3 origin;   // m
     Mat3 axes;
     double reach = 0.0;  // its own: how far planes darken it, m
 };
 
-class FineDarkening {
+class LightmapOcclusion {
 public:
     /// Where it is now.
-    void place(const FineBody& body);
+    void place(const LightmapBody& body);
 
     /// Takes shares for a block's texels, row after row.
-    using Store = std::function<void(const FineSurface::Block& block, const float* open)>;
+    using Store = std::function<void(const OcclusionLightmap::Block& block, const float* open)>;
 
     /// Brings all blocks up to date. `moved`: finds those that moved since the last time, as they were and as they are; null:
     /// any may have. `near`: finds all.
@@ -41,7 +41,7 @@ private:
     Ball ball_around(const Bounds& bounds) const;
     bool reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const;
 
-    FineBody body_{};
+    LightmapBody body_{};
     SurfacePoints all_, points_;   // of the whole surface; of a block
     std::vector<char> touched_;    // blocks that something was near to
     std::vector<std::size_t> found_;

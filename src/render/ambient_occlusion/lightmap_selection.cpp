@@ -22,7 +22,7 @@ constexpr double fewest_per_reach = 1.0;
 constexpr int most_ball_texels = 512;   // to a side; a region of the atlas must not take all of it
 
 // The median of what may move. 0: nothing does.
-double movers_reach(const SceneDescription& scene, const SceneLooks& looks) {
+double movers_reach(const SceneDescription& scene, const RenderScene& looks) {
     std::vector<double> reaches;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
         if (scene.bodies[i].type != BodyType::fixed && looks.bodies[i].reach > 0.0) reaches.push_back(looks.bodies[i].reach);
@@ -39,7 +39,7 @@ struct Charted {
     std::ptrdiff_t surface;
 };
 
-bool chart(SceneLooks& looks, const BodyLook& look, double cell, double coarsest, std::vector<Charted>& charted) {
+bool chart(RenderScene& looks, const RenderBody& look, double cell, double coarsest, std::vector<Charted>& charted) {
     const MeshAsset* asset = looks.meshes[look.mesh].asset;
     for (; cell <= coarsest; cell *= 2.0)
         if (auto charts = make_mesh_charts(*asset, cell, most_texels)) {
@@ -54,7 +54,7 @@ bool chart(SceneLooks& looks, const BodyLook& look, double cell, double coarsest
 
 }  // namespace
 
-void choose_fine_surfaces(const SceneDescription& scene, SceneLooks& looks) {
+void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks) {
     const double reach = movers_reach(scene, looks);
     if (!(reach > 0.0)) return;
     const double cell = std::exp2(std::floor(std::log2(reach / OcclusionAtlas::texels_per_reach)));
@@ -67,7 +67,7 @@ void choose_fine_surfaces(const SceneDescription& scene, SceneLooks& looks) {
         return true;
     };
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        BodyLook& look = looks.bodies[i];
+        RenderBody& look = looks.bodies[i];
         if (scene.bodies[i].type != BodyType::fixed || look.bound_radius < large_of_reach * reach) continue;
         if (look.kind == DrawKind::mesh) {
             const MeshAsset* asset = looks.meshes[look.mesh].asset;

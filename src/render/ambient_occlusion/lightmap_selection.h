@@ -6,6 +6,6 @@
 namespace tumble {
 
 /// Gives one to fixed meshes and balls that are large beside what moves. Reaches and grounds must be known.
-void choose_fine_surfaces(const SceneDescription& scene, SceneLooks& looks);
+void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks);
 
 }  // namespace tumble

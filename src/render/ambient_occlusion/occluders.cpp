@@ -24,9 +24,9 @@ Eigen::Array3i cell_of(const Eigen::Array3f& at, float cell) {
 
 }  // namespace
 
-void add_occluders(const SceneLooks& looks, std::size_t body, const BodyState& state, const Vec3& reference,
+void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& state, const Vec3& reference,
                    std::vector<Occluder>& occluders) {
-    const BodyLook& look = looks.bodies[body];
+    const RenderBody& look = looks.bodies[body];
     if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) return;
     const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
     const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {

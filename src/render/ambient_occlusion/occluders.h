@@ -23,7 +23,7 @@ struct Occluder {
 
 /// The boxes and balls of one body, appended. `reference`: a point by the scene that all positions are relative to, m. It
 /// stays where it is when the camera moves, so that what the bodies take from each other is then the same to the bit.
-void add_occluders(const SceneLooks& looks, std::size_t body, const BodyState& state, const Vec3& reference,
+void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& state, const Vec3& reference,
                    std::vector<Occluder>& occluders);
 
 /// Finds what is near a place: a lattice of cells for each power of two of the occluders' sizes, each occluder in the one

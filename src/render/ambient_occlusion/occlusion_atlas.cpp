@@ -35,7 +35,7 @@ double darkening_detail(double pixels, double few, double all) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-struct OcclusionMaker::State {
+struct AmbientOcclusion::State {
     struct Pose {
         Vec3 origin;
         Quat orientation;
@@ -46,7 +46,7 @@ struct OcclusionMaker::State {
         float detail = 0.0f;
     };
 
-    State(const SceneLooks& l, const Vec3& r) : looks(l), reference(r), made(l.bodies.size()) {
+    State(const RenderScene& l, const Vec3& r) : looks(l), reference(r), made(l.bodies.size()) {
         lay_out_places(looks, atlas);
         body_rows = atlas.height;
         atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
@@ -54,10 +54,10 @@ struct OcclusionMaker::State {
     }
 
     void follow(const Snapshot& snapshot);
-    void find_planes(const Snapshot& snapshot, const CameraView& view);
+    void find_planes(const Snapshot& snapshot, const Camera& view);
     void forget_touched(const Visibility& visibility, const OccluderFinder& movers);
     void update_windows(const Snapshot& snapshot);
-    void update_body(std::size_t body, std::uint8_t visible, const CameraView& view);
+    void update_body(std::size_t body, std::uint8_t visible, const Camera& view);
     void update_fine(std::size_t body, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
     void store_ground(std::size_t body, int x, int y, int size, const float* open);
@@ -65,7 +65,7 @@ struct OcclusionMaker::State {
         return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
     }
 
-    const SceneLooks& looks;
+    const RenderScene& looks;
     const Vec3 reference;
     OcclusionAtlas atlas;
     int body_rows = 1;                       // of the atlas; the windows come below
@@ -78,14 +78,14 @@ struct OcclusionMaker::State {
     bool moved_much = false;
     std::vector<Made> made;
     std::vector<PlaneInView> planes, near_planes;
-    PlaneDarkening plane_darkening;
-    BodyDarkening body_darkening{looks};
+    PlaneOcclusion plane_darkening;
+    BodyOcclusion body_darkening{looks};
     std::vector<std::size_t> found;          // what may darken the body at hand
-    std::vector<std::optional<FineDarkening>> fine;   // of fine surfaces, when first seen
+    std::vector<std::optional<LightmapOcclusion>> fine;   // of fine surfaces, when first seen
 };
 
 // Takes in the new poses: the occluders, and which of them moved.
-void OcclusionMaker::State::follow(const Snapshot& snapshot) {
+void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
     const std::size_t bodies = looks.bodies.size();
     moved.clear();
     moved_much = false;
@@ -126,7 +126,7 @@ void OcclusionMaker::State::follow(const Snapshot& snapshot) {
     finder = OccluderFinder(occluders);
 }
 
-void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraView& view) {
+void AmbientOcclusion::State::find_planes(const Snapshot& snapshot, const Camera& view) {
     std::vector<PlaneInView> now;
     for (const std::size_t i : looks.planes) {
         const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
@@ -138,7 +138,7 @@ void OcclusionMaker::State::find_planes(const Snapshot& snapshot, const CameraVi
 }
 
 // Those that something has moved near to or away from.
-void OcclusionMaker::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
+void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
     if (anew || moved_much) {
         for (Made& body : made) body.faces = 0;
         return;
@@ -150,13 +150,13 @@ void OcclusionMaker::State::forget_touched(const Visibility& visibility, const O
             made[i].faces = 0;
 }
 
-void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
-    AtlasShelves shelves(body_rows, OcclusionAtlas::most_rows);
-    std::vector<OcclusionWindow> windows;
+void AmbientOcclusion::State::update_windows(const Snapshot& snapshot) {
+    ShelfPacker shelves(body_rows, OcclusionAtlas::most_rows);
+    std::vector<PlaneOcclusionTile> windows;
     for (const PlaneInView& plane : planes) {
         const auto known = std::find_if(atlas.windows.begin(), atlas.windows.end(),
-                                        [&](const OcclusionWindow& w) { return w.body == plane.body; });
-        OcclusionWindow window;
+                                        [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
+        PlaneOcclusionTile window;
         const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
             const int needed = y + height;
             if (needed > atlas.height) {
@@ -174,7 +174,7 @@ void OcclusionMaker::State::update_windows(const Snapshot& snapshot) {
 }
 
 // `stride`: of the shares' rows.
-bool OcclusionMaker::State::store(int x, int y, int width, int height, int stride, const float* open) {
+bool AmbientOcclusion::State::store(int x, int y, int width, int height, int stride, const float* open) {
     bool any = false;
     for (int row = y; row < y + height; ++row, open += stride) {
         std::uint8_t* to = &atlas.texels[std::size_t(row) * OcclusionAtlas::width + std::size_t(x)];
@@ -193,7 +193,7 @@ bool OcclusionMaker::State::store(int x, int y, int width, int height, int strid
 }
 
 // A face of a box, part by part.
-void OcclusionMaker::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
+void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
     const int face = (x - atlas.places[body].x) / size;
     const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
     for (int j = 0; j < size; j += ground_part)
@@ -214,8 +214,8 @@ void OcclusionMaker::State::store_ground(std::size_t body, int x, int y, int siz
         }
 }
 
-void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, const CameraView& view) {
-    const BodyLook& look = looks.bodies[body];
+void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible, const Camera& view) {
+    const RenderBody& look = looks.bodies[body];
     const Sizes& sizes = look.kind == DrawKind::box ? box_sizes : look.kind == DrawKind::ball ? ball_sizes : mesh_sizes;
     const Vec3 middle = center_of(body);
     const double size = 2.0 * (look.kind == DrawKind::mesh ? look.bound_radius : look.half_size.maxCoeff());
@@ -248,7 +248,7 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
     switch (look.kind) {
         case DrawKind::box:
             faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
-                                            look.ground ? BodyDarkening::Store(keep_ground) : BodyDarkening::Store(keep));
+                                            look.ground ? BodyOcclusion::Store(keep_ground) : BodyOcclusion::Store(keep));
             changed = faces != 0;
             break;
         case DrawKind::ball:
@@ -261,33 +261,33 @@ void OcclusionMaker::State::update_body(std::size_t body, std::uint8_t visible, 
 }
 
 // Only what moved, or all where much did, has been said so by forget_touched().
-void OcclusionMaker::State::update_fine(std::size_t body, const OccluderFinder& movers) {
-    const BodyLook& look = looks.bodies[body];
+void AmbientOcclusion::State::update_fine(std::size_t body, const OccluderFinder& movers) {
+    const RenderBody& look = looks.bodies[body];
     Made& known = made[body];
     if (known.faces != 0 && moved.empty()) return;
-    std::optional<FineDarkening>& darkening = fine[body];
+    std::optional<LightmapOcclusion>& darkening = fine[body];
     const bool all = known.faces == 0;
     if (!darkening || all) {
-        const FineBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)], poses[body].origin - reference,
+        const LightmapBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)], poses[body].origin - reference,
                              poses[body].orientation.toRotationMatrix(), look.reach};
         if (!darkening) darkening.emplace();
         darkening->place(place);
     }
     known.faces = 1;
     const OcclusionPlace& at = atlas.places[body];
-    darkening->update(occluders, finder, all ? nullptr : &movers, planes, [&](const FineSurface::Block& block, const float* open) {
+    darkening->update(occluders, finder, all ? nullptr : &movers, planes, [&](const OcclusionLightmap::Block& block, const float* open) {
         if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
             changes.patches.push_back({body, block.bounds});
     });
 }
 
-OcclusionMaker::OcclusionMaker(const SceneLooks& looks, const Vec3& reference)
+AmbientOcclusion::AmbientOcclusion(const RenderScene& looks, const Vec3& reference)
     : state_(std::make_unique<State>(looks, reference)) {}
-OcclusionMaker::~OcclusionMaker() = default;
+AmbientOcclusion::~AmbientOcclusion() = default;
 
-const OcclusionAtlas& OcclusionMaker::atlas() const { return state_->atlas; }
+const OcclusionAtlas& AmbientOcclusion::atlas() const { return state_->atlas; }
 
-const OcclusionChanges& OcclusionMaker::update(const Snapshot& snapshot, const CameraView& view,
+const OcclusionChanges& AmbientOcclusion::update(const Snapshot& snapshot, const Camera& view,
                                                const Visibility& visibility) {
     State& s = *state_;
     s.changes = {};

@@ -28,12 +28,12 @@ struct OcclusionPlace {
 
 /// The part of a plane around the bodies. A point at the coordinates (a, b) on the plane's axes, in m from the plane
 /// body's origin, has the texel (x + a / cell - low_a, y + b / cell - low_b).
-struct OcclusionWindow {
+struct PlaneOcclusionTile {
     std::size_t body = 0;
     int x = 0, y = 0, width = 0, height = 0;  // texels; the outermost are open
     double cell = 1.0;                        // m
     double low_a = 0.0, low_b = 0.0;          // in cells
-    friend bool operator==(const OcclusionWindow&, const OcclusionWindow&) = default;
+    friend bool operator==(const PlaneOcclusionTile&, const PlaneOcclusionTile&) = default;
 };
 
 struct OcclusionAtlas {
@@ -45,7 +45,7 @@ struct OcclusionAtlas {
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height, 255: open
     std::vector<OcclusionPlace> places;  // of each body
-    std::vector<OcclusionWindow> windows;
+    std::vector<PlaneOcclusionTile> windows;
 };
 
 /// What an update changed.
@@ -72,14 +72,14 @@ struct OcclusionChanges {
     int first_row = 0, end_row = 0;   // of the texels
 };
 
-class OcclusionMaker {
+class AmbientOcclusion {
 public:
     /// Gives every body its place. The looks must outlive it. `reference`: as in add_occluders().
-    OcclusionMaker(const SceneLooks& looks, const Vec3& reference);
-    ~OcclusionMaker();
+    AmbientOcclusion(const RenderScene& looks, const Vec3& reference);
+    ~AmbientOcclusion();
 
     /// Brings the places of visible bodies and the windows up to date; the others keep what they had.
-    const OcclusionChanges& update(const Snapshot& snapshot, const CameraView& view, const Visibility& visibility);
+    const OcclusionChanges& update(const Snapshot& snapshot, const Camera& view, const Visibility& visibility);
 
     const OcclusionAtlas& atlas() const;
 

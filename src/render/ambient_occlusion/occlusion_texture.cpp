@@ -29,7 +29,7 @@ void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int en
     }
     // The bodies' tiles fill their rows; below them only the windows are ever read.
     int first_of_windows = atlas.height, columns = 0;
-    for (const OcclusionWindow& window : atlas.windows) {
+    for (const PlaneOcclusionTile& window : atlas.windows) {
         first_of_windows = std::min(first_of_windows, window.y);
         columns = std::max(columns, window.x + window.width);
     }

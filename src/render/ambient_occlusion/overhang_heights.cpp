@@ -16,20 +16,20 @@ std::pair<int, int> texels(double low, double high, int count) {
 
 }  // namespace
 
-Vec3 PlaneRoof::on_frame(const Vec3& point) const {
+Vec3 OverhangHeights::on_frame(const Vec3& point) const {
     const Vec3 from = point - frame_.corner;
     return {frame_.u.dot(from) / frame_.cell, frame_.v.dot(from) / frame_.cell, frame_.normal.dot(from)};
 }
 
 // What the plane cuts off is below it.
-void PlaneRoof::lower(int i, int j, double height) {
+void OverhangHeights::lower(int i, int j, double height) {
     if (!(height >= 0.0)) return;
     if (height_.empty()) height_.assign(std::size_t(frame_.width) * std::size_t(frame_.height), none);
     float& known = height_[std::size_t(j) * std::size_t(frame_.width) + std::size_t(i)];
     known = std::min(known, float(height));
 }
 
-void PlaneRoof::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+void OverhangHeights::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 p = on_frame(a), pq = on_frame(b) - p, pr = on_frame(c) - p;
     const double area = pq.x() * pr.y() - pq.y() * pr.x();
     if (area == 0.0) return;   // upright
@@ -44,7 +44,7 @@ void PlaneRoof::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
         }
 }
 
-void PlaneRoof::add_ball(const Vec3& center, double radius) {
+void OverhangHeights::add_ball(const Vec3& center, double radius) {
     const Vec3 c = on_frame(center);
     const double reach = radius / frame_.cell;
     const auto [i0, i1] = texels(c.x() - reach, c.x() + reach, frame_.width);
@@ -58,12 +58,12 @@ void PlaneRoof::add_ball(const Vec3& center, double radius) {
         }
 }
 
-void PlaneRoof::update(const PlaneFrame& frame, const SceneLooks& looks, const Snapshot& snapshot) {
+void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& looks, const Snapshot& snapshot) {
     if (frame == frame_) return;
     frame_ = frame;
     height_.clear();
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (!look.fixed) continue;
         const BodyState& state = snapshot.bodies[i];
         const auto in_world = [&](const Vec3& point) { return Vec3(state.origin + state.orientation * point); };
@@ -88,7 +88,7 @@ void PlaneRoof::update(const PlaneFrame& frame, const SceneLooks& looks, const S
     }
 }
 
-float PlaneRoof::open_share(double a, double b, double radius, double height) const {
+float OverhangHeights::open_share(double a, double b, double radius, double height) const {
     if (height_.empty()) return 1.0f;
     const double reach = std::max(radius / frame_.cell, 1.0);
     const auto [i0, i1] = texels(a - reach, a + reach, frame_.width);

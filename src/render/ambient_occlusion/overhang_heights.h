@@ -19,10 +19,10 @@ struct PlaneFrame {
     friend bool operator==(const PlaneFrame&, const PlaneFrame&) = default;
 };
 
-class PlaneRoof {
+class OverhangHeights {
 public:
     /// Builds it anew where the frame is another one. Fixed bodies stay where they are, in every snapshot.
-    void update(const PlaneFrame& frame, const SceneLooks& looks, const Snapshot& snapshot);
+    void update(const PlaneFrame& frame, const RenderScene& looks, const Snapshot& snapshot);
 
     /// The share (0 to 1) of a disc that has no roof below `height` (m, of its middle above the plane). (a, b): its middle, in texels
     /// from the corner; `radius`: m, at least a texel.

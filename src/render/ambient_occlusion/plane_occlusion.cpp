@@ -14,7 +14,7 @@ constexpr int block = 16;             // texels; what one moved body darkens is 
 
 }  // namespace
 
-PlaneDarkening::Texels PlaneDarkening::touched(const Foot& foot, const OcclusionWindow& window) {
+PlaneOcclusion::Texels PlaneOcclusion::touched(const Foot& foot, const PlaneOcclusionTile& window) {
     const auto first = [&](double at, double low) {
         return std::max(1.0, std::floor((at - foot.radius) / window.cell - low));
     };
@@ -29,7 +29,7 @@ PlaneDarkening::Texels PlaneDarkening::touched(const Foot& foot, const Occlusion
 }
 
 // Around all feet; where they do not fit, around those that are not lost, or where most of these are.
-bool PlaneDarkening::place(OcclusionWindow& window, AtlasShelves& shelves) const {
+bool PlaneOcclusion::place(PlaneOcclusionTile& window, ShelfPacker& shelves) const {
     constexpr int largest = OcclusionAtlas::largest_window;
     const auto distance = [](const Foot& foot) { return double(foot.occluder->center.norm()); };   // from the eye's first place
     const auto limit_of_near = [&] {
@@ -68,11 +68,11 @@ bool PlaneDarkening::place(OcclusionWindow& window, AtlasShelves& shelves) const
     return shelves.take(window.width, window.height, window.x, window.y);
 }
 
-bool PlaneDarkening::update(const PlaneInView& plane, const SceneLooks& looks, const Snapshot& snapshot, const Vec3& reference,
+bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
                             const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved,
-                            bool everything, const OcclusionWindow* known, AtlasShelves& shelves, OcclusionWindow& window,
+                            bool everything, const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& window,
                             const Store& store) {
-    const BodyLook& look = looks.bodies[plane.body];
+    const RenderBody& look = looks.bodies[plane.body];
     const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(look.plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
@@ -109,7 +109,7 @@ bool PlaneDarkening::update(const PlaneInView& plane, const SceneLooks& looks, c
     }
     open_.assign(std::size_t(window.width) * std::size_t(window.height), 1.0f);
     const Vec3 on_plane = origin + look.plane.offset * plane.normal.cast<double>();
-    PlaneRoof& roof = roofs_[plane.body];
+    OverhangHeights& roof = roofs_[plane.body];
     roof.update({reference + on_plane + u * (window.low_a * cell) + v * (window.low_b * cell), u, v, plane.normal.cast<double>(), cell,
                  window.width, window.height},
                 looks, snapshot);

@@ -23,15 +23,15 @@ struct PlaneInView {
     friend bool operator==(const PlaneInView&, const PlaneInView&) = default;
 };
 
-class PlaneDarkening {
+class PlaneOcclusion {
 public:
     /// Brings a plane's window up to date: `known` is the one it had, if the plane has not moved. `moved`: the occluders
     /// that have moved since, as they were and as they are; none for `everything`. `store` takes shares for the texels
     /// from (x, y) on, whose rows are `stride` apart. False: nothing is near the plane, or there is no room.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
-    bool update(const PlaneInView& plane, const SceneLooks& looks, const Snapshot& snapshot, const Vec3& reference,
+    bool update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
                 const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
-                const OcclusionWindow* known, AtlasShelves& shelves, OcclusionWindow& window, const Store& store);
+                const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& window, const Store& store);
 
 private:
     struct Foot {
@@ -43,14 +43,14 @@ private:
         int i0, i1, j0, j1;    // of the window, both ends included
         bool empty() const { return i0 > i1 || j0 > j1; }
     };
-    static Texels touched(const Foot& foot, const OcclusionWindow& window);
-    bool place(OcclusionWindow& window, AtlasShelves& shelves) const;
+    static Texels touched(const Foot& foot, const PlaneOcclusionTile& window);
+    bool place(PlaneOcclusionTile& window, ShelfPacker& shelves) const;
 
-    std::map<std::size_t, PlaneRoof> roofs_;   // by plane
+    std::map<std::size_t, OverhangHeights> roofs_;   // by plane
     std::vector<Foot> feet_;
     std::vector<float> open_;
     std::vector<char> dirty_;   // blocks
-    SurfaceLattice around_foot_;
+    TexelGrid around_foot_;
 };
 
 }  // namespace tumble

@@ -6,9 +6,9 @@
 namespace tumble {
 
 /// A rectangle goes to the right of the last one where it fits under the same roof, else on a new shelf.
-class AtlasShelves {
+class ShelfPacker {
 public:
-    AtlasShelves(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}
+    ShelfPacker(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}
 
     /// False where there is no room.
     bool take(int width, int height, int& x, int& y) {

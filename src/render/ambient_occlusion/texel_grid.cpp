@@ -50,7 +50,7 @@ void put(const Eigen::Vector3f& from, float (&to)[3]) { std::copy_n(from.data(),
 
 }  // namespace
 
-void SurfaceLattice::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
+void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
                          const Eigen::Vector3f& normal, int columns, int rows) {
     corner_ = corner;
     across_ = across;
@@ -70,7 +70,7 @@ void SurfaceLattice::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& a
         }
 }
 
-void SurfaceLattice::darken(const Occluder& occluder, float reach) {
+void TexelGrid::darken(const Occluder& occluder, float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
     constexpr float spare = 1.0001f;   // for rounding: what is skipped would have been multiplied by 1
     const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center), outward = occluder.to_local * normal_;
@@ -92,7 +92,7 @@ void SurfaceLattice::darken(const Occluder& occluder, float reach) {
     darken_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
 }
 
-void SurfaceLattice::darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach) {
+void TexelGrid::darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach) {
     const float near_step = near_probe * reach, rise = plane_normal.dot(normal_);
     const float height = plane_normal.dot(corner_) + plane_height;
     const float across = plane_normal.dot(across_), along = plane_normal.dot(along_);

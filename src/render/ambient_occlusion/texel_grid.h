@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-class SurfaceLattice {
+class TexelGrid {
 public:
     /// columns x rows points corner + i across + j along, row after row (m, relative to the same point as occluders), in
     /// place of those before. All are open.

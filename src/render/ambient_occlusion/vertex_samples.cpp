@@ -17,19 +17,19 @@ Vec3 vec3(const float (&v)[3]) { return {double(v[0]), double(v[1]), double(v[2]
 // Lattice cell and octant of a point.
 using Group = std::array<int, 4>;
 
-Group group_of(const MeshProbe& point, const Vec3& low, double cell) {
+Group group_of(const VertexSample& point, const Vec3& low, double cell) {
     const Vec3 at = (point.position - low) / cell;
     const int octant = (point.normal[0] < 0.0) + 2 * (point.normal[1] < 0.0) + 4 * (point.normal[2] < 0.0);
     return {int(std::floor(at.x())), int(std::floor(at.y())), int(std::floor(at.z())), octant};
 }
 
-bool share(const MeshLook& look, const std::vector<MeshProbe>& points, double cell, std::size_t most,
-           std::vector<MeshProbe>& shared, std::vector<std::uint32_t>& of_point) {
+bool share(const RenderMesh& look, const std::vector<VertexSample>& points, double cell, std::size_t most,
+           std::vector<VertexSample>& shared, std::vector<std::uint32_t>& of_point) {
     shared.clear();
     of_point.clear();
     std::map<Group, std::uint32_t> groups;
     const Vec3 low = look.bound_center - look.half_extent;
-    for (const MeshProbe& point : points) {
+    for (const VertexSample& point : points) {
         const auto [place, is_new] = groups.try_emplace(group_of(point, low, cell), std::uint32_t(shared.size()));
         if (is_new) shared.push_back(point);
         of_point.push_back(place->second);
@@ -39,7 +39,7 @@ bool share(const MeshLook& look, const std::vector<MeshProbe>& points, double ce
 }
 
 // As finely as `most` allow.
-void share(const MeshLook& look, const std::vector<MeshProbe>& points, std::size_t most, std::vector<MeshProbe>& shared,
+void share(const RenderMesh& look, const std::vector<VertexSample>& points, std::size_t most, std::vector<VertexSample>& shared,
            std::vector<std::uint32_t>& of_point) {
     if (points.size() <= most) {
         shared = points;
@@ -53,8 +53,8 @@ void share(const MeshLook& look, const std::vector<MeshProbe>& points, std::size
 
 }  // namespace
 
-void set_mesh_probes(MeshLook& look) {
-    std::vector<MeshProbe> vertices;
+void set_mesh_probes(RenderMesh& look) {
+    std::vector<VertexSample> vertices;
     for (const MeshAsset::Vertex& vertex : look.asset->vertices)
         vertices.push_back({vec3(vertex.position), vec3(vertex.normal)});
     share(look, vertices, most_probes, look.probes, look.probe_of_vertex);

@@ -7,6 +7,6 @@ namespace tumble {
 
 /// Fills in the probes of look.asset and each vertex's. At most about 2000 probes: vertices in one cell of a lattice
 /// whose normals lie in one octant share one.
-void set_mesh_probes(MeshLook& look);
+void set_mesh_probes(RenderMesh& look);
 
 }  // namespace tumble

@@ -37,7 +37,7 @@ int below(double x) { return int(x + 2.0) - 2; }
 template <bool whole_box>
 class Walk {
 public:
-    Walk(const Image& drawn, const TileMarks& marks, Image& frame) : drawn_(drawn), marks_(marks), frame_(frame) {}
+    Walk(const Image& drawn, const DirtyTiles& marks, Image& frame) : drawn_(drawn), marks_(marks), frame_(frame) {}
 
     void blend(ScreenEdge e) {
         const double dx = e.x1 - e.x0, dy = e.y1 - e.y0;
@@ -103,7 +103,7 @@ private:
         }
         if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
         const int x = across_ ? n : m, y = across_ ? m : n;
-        if (!marks_.at(int(unsigned(x) / TileMarks::tile), int(unsigned(y) / TileMarks::tile))) return;
+        if (!marks_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
         const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip, where n is greater
         // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
         const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
@@ -124,7 +124,7 @@ private:
     }
 
     const Image& drawn_;
-    const TileMarks& marks_;
+    const DirtyTiles& marks_;
     Image& frame_;
     bool across_ = false;   // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
@@ -152,7 +152,7 @@ void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, I
     }
 }
 
-void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const TileMarks& marks, Image& frame) {
+void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks, Image& frame) {
     Walk<false> one_face(drawn, marks, frame);
     Walk<true> whole_box(drawn, marks, frame);
     for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);

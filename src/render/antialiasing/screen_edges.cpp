@@ -28,7 +28,7 @@ bool within(double distance, const ScreenPoint& a, const ScreenPoint& b, const S
     return area * area < distance * distance * (b - a).squaredNorm();
 }
 
-bool before_eye(const Vec3& point, const CameraView& view) { return point.dot(view.forward()) > 1e-3 * point.norm(); }
+bool before_eye(const Vec3& point, const Camera& view) { return point.dot(view.forward()) > 1e-3 * point.norm(); }
 
 // With `inside` on the inner side.
 ScreenEdge directed(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& inside, std::uint8_t inner,
@@ -70,10 +70,10 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
     }
 }
 
-EdgeFinder::EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details)
+EdgeFinder::EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details)
     : looks_(&looks), view_(&view), details_(&details) {}
 
-const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
+const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
                                                 const std::vector<char>& wanted, const Visibility& visibility,
                                                 const std::vector<PlanePatch>& planes) {
     found_.clear();
@@ -82,7 +82,7 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
         for (std::size_t j = i + 1; j < planes.size(); ++j) add_corner(planes[i], planes[j]);
     for (std::size_t i = 0; i < looks_->bodies.size(); ++i) {
         if (wanted[i] == 0 || !visibility.bodies[i]) continue;
-        const BodyLook& look = looks_->bodies[i];
+        const RenderBody& look = looks_->bodies[i];
         if (look.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
         if (look.kind == DrawKind::ball) add_ball(i, items[i]);
         if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
@@ -90,7 +90,7 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
     return found_;
 }
 
-void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces) {
+void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint8_t faces) {
     const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
     bool before = true;   // all of it
@@ -141,7 +141,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawnItem& item, std::uint8_t f
 }
 
 // Its longest axis, and at both ends how far the others reach square to that on the screen.
-void EdgeFinder::add_rod(std::size_t body, const DrawnItem& item) {
+void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     Eigen::Index longest = 0;
     looks_->bodies[body].half_size.maxCoeff(&longest);
     const Vec3 axis = item.half_axes.col(longest);
@@ -164,7 +164,7 @@ void EdgeFinder::add_rod(std::size_t body, const DrawnItem& item) {
 }
 
 // The outline of a ball is a circle in space: where rays from the eye graze it.
-void EdgeFinder::add_ball(std::size_t body, const DrawnItem& item) {
+void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
     const double radius = looks_->bodies[body].half_size.x(), distance = item.center.norm();
     if (distance < 1.001 * radius) return;
     const Vec3 axis = item.center / distance;
@@ -188,8 +188,8 @@ void EdgeFinder::add_ball(std::size_t body, const DrawnItem& item) {
 }
 
 // Of the level that is drawn.
-void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item) {
-    const BodyLook& look = looks_->bodies[body];
+void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item) {
+    const RenderBody& look = looks_->bodies[body];
     const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
     const TriangleMesh& surface =
         level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;

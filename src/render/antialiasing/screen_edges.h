@@ -37,10 +37,10 @@ struct MeshEdges {
 class EdgeFinder {
 public:
     /// All of them must outlive it.
-    EdgeFinder(const SceneLooks& looks, const CameraView& view, MeshDetails& details);
+    EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details);
 
     /// Of the items that are wanted, in scene order. Valid until the next call.
-    const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawnItem>& items,
+    const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
                                         const std::vector<char>& wanted, const Visibility& visibility,
                                         const std::vector<PlanePatch>& planes);
 
@@ -48,18 +48,18 @@ public:
     const std::vector<ScreenRod>& rods() const { return rods_; }
 
 private:
-    void add_rod(std::size_t body, const DrawnItem& item);
-    void add_box(std::size_t body, const DrawnItem& item, std::uint8_t faces);
-    void add_ball(std::size_t body, const DrawnItem& item);
-    void add_mesh(std::size_t body, const BodyState& state, const DrawnItem& item);
+    void add_rod(std::size_t body, const DrawableBounds& item);
+    void add_box(std::size_t body, const DrawableBounds& item, std::uint8_t faces);
+    void add_ball(std::size_t body, const DrawableBounds& item);
+    void add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item);
     void add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges);
     void add_corner(const PlanePatch& a, const PlanePatch& b);
     /// What is in view of the edge from a to b of a body that comes beside the eye, all relative to it; c lies on the inner side.
     void add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer);
 
-    const SceneLooks* looks_;
-    const CameraView* view_;
-    MeshDetails* details_;
+    const RenderScene* looks_;
+    const Camera* view_;
+    MeshLods* details_;
     /// A mesh's edges in the picture, and from where it was seen so.
     struct Seen {
         Vec3 origin, eye, forward, right;

@@ -56,7 +56,7 @@ public:
     }
 
     /// Puts there what shows beside the rods.
-    void clear(const RodPixels& rods, const TileMarks& marks, Image& frame) const {
+    void clear(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
         for_each([&](int m, int n, double, double) {
             if (!of_rod(m, n) || !marked(m, n, marks)) return;
             Mean beside;
@@ -73,7 +73,7 @@ public:
     }
 
     /// Covers each pixel as far as the rod does, where nothing but other rods hides it.
-    void cover(const RodPixels& rods, const TileMarks& marks, Image& frame) const {
+    void cover(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
         for_each([&](int m, int n, double middle, double half) {
             const double share = std::min(covered(m, n, middle, half), 1.0);
             if (share <= 0.0 || !marked(m, n, marks)) return;
@@ -111,8 +111,8 @@ private:
     const std::uint8_t* at(int m, int n) const { return &drawn_.pixels[4 * index(m, n)]; }
     bool in_picture(int m, int n) const { return m >= 0 && n >= 0 && m < count_m_ && n < count_n_; }
     bool of_rod(int m, int n) const { return in_picture(m, n) && of_same_box(at(m, n)[3], first_face_, 0); }
-    bool marked(int m, int n, const TileMarks& marks) const {
-        return marks.at((steep_ ? n : m) / TileMarks::tile, (steep_ ? m : n) / TileMarks::tile);
+    bool marked(int m, int n, const DirtyTiles& marks) const {
+        return marks.at((steep_ ? n : m) / DirtyTiles::tile, (steep_ ? m : n) / DirtyTiles::tile);
     }
 
     /// The share of the pixel that the rod covers: what lies before its far side and not before its near one.
@@ -138,7 +138,7 @@ bool is_rod(const Vec3& half_pixels) {
     return half_pixels.sum() - least - most < widest_rod_pixels && most > shortest_rod_pixels;
 }
 
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const TileMarks& marks, Image& frame) {
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& marks, Image& frame) {
     if (rods.empty()) return;
     RodPixels pixels(drawn.pixels.size() / 4, 0);
     for (const ScreenRod& rod : rods) RodWalk(drawn, rod).mark(pixels);

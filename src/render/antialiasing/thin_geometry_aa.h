@@ -24,7 +24,7 @@ struct ScreenRod {
     std::uint8_t first_face;     // the number of its face 0 (surface_ids.h)
 };
 
-/// Gives the pixels of the marked tiles their shares of the rods. After blend_edges().
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const TileMarks& marks, Image& frame);
+/// Gives the pixels of the marked tiles their shares of the rods. After blend_analytic_edges().
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& marks, Image& frame);
 
 }  // namespace tumble

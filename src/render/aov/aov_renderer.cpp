@@ -12,46 +12,46 @@ namespace {
 
 /// Calls back with the index, column and row of every pixel.
 template <class Visit>
-void for_each_pixel(const SurfaceMap& map, const Visit& visit) {
+void for_each_pixel(const VisibilityBuffer& map, const Visit& visit) {
     std::size_t pixel = 0;
     for (int row = 0; row < map.height; ++row)
         for (int column = 0; column < map.width; ++column, ++pixel) visit(pixel, column, row);
 }
 
-void fill_depth(const SurfaceMap& map, std::vector<float>& values) { values.assign(map.depth.begin(), map.depth.end()); }
+void fill_depth(const VisibilityBuffer& map, std::vector<float>& values) { values.assign(map.depth.begin(), map.depth.end()); }
 
 /// What a surface has one value of, everywhere the same.
 template <class Value>
-void fill_by_surface(const SurfaceMap& map, const std::vector<Value>& of_surface, const Value& of_nothing,
+void fill_by_surface(const VisibilityBuffer& map, const std::vector<Value>& of_surface, const Value& of_nothing,
                      std::vector<Value>& values) {
     values.resize(map.surface.size());
     for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = map.surface[i] == SurfaceMap::nothing ? of_nothing : of_surface[map.surface[i]];
+        values[i] = map.surface[i] == VisibilityBuffer::nothing ? of_nothing : of_surface[map.surface[i]];
 }
 
-std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vector<SurfacePart>& parts) {
+std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vector<ShapeInstance>& parts) {
     std::vector<std::int32_t> ids;
-    for (const SurfacePart& part : parts) ids.push_back(std::int32_t(body_id(part.body)));
+    for (const ShapeInstance& part : parts) ids.push_back(std::int32_t(body_id(part.body)));
     for (std::size_t i = 0; i < scene.cords.size(); ++i) ids.push_back(std::int32_t(cord_id(scene, i)));
     return ids;
 }
 
-void fill_albedo(const SurfaceMap& map, const SceneDescription& scene, const std::vector<SurfacePart>& parts,
+void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, const std::vector<ShapeInstance>& parts,
                  std::vector<std::uint8_t>& values) {
     std::vector<Color> colors;
-    for (const SurfacePart& part : parts) colors.push_back(part.color);
+    for (const ShapeInstance& part : parts) colors.push_back(part.color);
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
     values.resize(3 * map.surface.size());
     std::uint8_t* to = values.data();
     for (const std::uint32_t surface : map.surface) {
-        const Color color = surface == SurfaceMap::nothing ? Color{} : colors[surface];
+        const Color color = surface == VisibilityBuffer::nothing ? Color{} : colors[surface];
         *to++ = color.r;
         *to++ = color.g;
         *to++ = color.b;
     }
 }
 
-void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, const ScenePlaces& places,
+void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& parts, const ScenePlaces& places,
                  const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
     std::vector<Mat3> turns;               // of each part, to the world
     std::vector<const float*> everywhere;  // of planes: their one normal
@@ -67,7 +67,7 @@ void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, c
     float* to = values.data();
     for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
-        const float* known = surface == SurfaceMap::nothing ? zero.data()
+        const float* known = surface == VisibilityBuffer::nothing ? zero.data()
                              : surface < parts.size()       ? everywhere[surface]
                                                             : nullptr;
         if (known != nullptr) {
@@ -85,18 +85,18 @@ void fill_normal(const SurfaceMap& map, const std::vector<SurfacePart>& parts, c
     });
 }
 
-void fill_motion(const SurfaceMap& map, const SurfaceMotion& motion, const PinholeCamera& camera,
+void fill_motion(const VisibilityBuffer& map, const SurfaceMotion& motion, const PinholeCamera& camera,
                  std::vector<float>& values) {
     values.resize(2 * map.surface.size());
     float* to = values.data();
     for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
-        if (surface == SurfaceMap::nothing ? motion.background_rests() : motion.rests(surface)) {
+        if (surface == VisibilityBuffer::nothing ? motion.background_rests() : motion.rests(surface)) {
             to[2 * pixel] = to[2 * pixel + 1] = 0.0f;
             return;
         }
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
-        const Eigen::Vector2d way = surface == SurfaceMap::nothing
+        const Eigen::Vector2d way = surface == VisibilityBuffer::nothing
                                         ? motion.of_nothing(ray, column, row)
                                         : motion.of_surface(surface, map.depth[pixel] * ray, column, row);
         to[2 * pixel] = float(way.x());
@@ -112,23 +112,23 @@ bool same_poses(const Snapshot& a, const Snapshot& b) {
 
 }  // namespace
 
-AovMaker::AovMaker(const SceneDescription& scene, const AovSet& aovs)
+AovRenderer::AovRenderer(const SceneDescription& scene, const AovSet& aovs)
     : scene_(scene),
       aovs_(aovs),
       path_(scene.camera),
-      frame_{PinholeCamera(CameraView(scene.camera, scene.output.width, scene.output.height)), {}, {}, {}, {}, {}},
+      frame_{PinholeCamera(Camera(scene.camera, scene.output.width, scene.output.height)), {}, {}, {}, {}, {}},
       parts_(surface_parts(scene)),
       finder_(parts_, scene.cords) {}
 
-PinholeCamera AovMaker::camera_at(const Snapshot& snapshot) const {
-    return PinholeCamera(CameraView(path_.at(snapshot), scene_.output.width, scene_.output.height));
+PinholeCamera AovRenderer::camera_at(const Snapshot& snapshot) const {
+    return PinholeCamera(Camera(path_.at(snapshot), scene_.output.width, scene_.output.height));
 }
 
-const AovFrame& AovMaker::make(const AovPoses& poses) {
+const AovFrame& AovRenderer::make(const AovPoses& poses) {
     TUMBLE_CHECK_EQ(poses.now.bodies.size(), scene_.bodies.size());
     const PinholeCamera camera = camera_at(poses.now);
     const ScenePlaces places = make_places(parts_, scene_.cords, poses.now, camera);
-    const SurfaceMap& map = finder_.find(places, camera);
+    const VisibilityBuffer& map = finder_.find(places, camera);
 
     AovFrame& frame = frame_;
     frame.camera = camera;

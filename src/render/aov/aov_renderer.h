@@ -32,12 +32,12 @@ struct AovFrame {
     std::vector<std::uint8_t> albedo;          // 3: red, green, blue
 };
 
-class AovMaker {
+class AovRenderer {
 public:
     /// The scene must outlive it.
-    AovMaker(const SceneDescription& scene, const AovSet& aovs);
-    AovMaker(const AovMaker&) = delete;
-    AovMaker& operator=(const AovMaker&) = delete;
+    AovRenderer(const SceneDescription& scene, const AovSet& aovs);
+    AovRenderer(const AovRenderer&) = delete;
+    AovRenderer& operator=(const AovRenderer&) = delete;
 
     /// Valid until the next call.
     const AovFrame& make(const AovPoses& poses);
@@ -47,10 +47,10 @@ private:
 
     const SceneDescription& scene_;
     AovSet aovs_;
-    CameraPath path_;
+    CameraAnimation path_;
     AovFrame frame_;
-    std::vector<SurfacePart> parts_;
-    SurfaceFinder finder_;
+    std::vector<ShapeInstance> parts_;
+    VisibilityBufferRenderer finder_;
 };
 
 /// Tells frames whose values are those of the frame before, to the bit.
@@ -63,7 +63,7 @@ public:
     bool follow(const AovPoses& poses);
 
 private:
-    CameraPath path_;
+    CameraAnimation path_;
     std::optional<AovPoses> before_;
 };
 

@@ -37,7 +37,7 @@ struct Row {
 }  // namespace
 
 void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
-                    std::span<const double> ray_x, SurfaceMap& map) {
+                    std::span<const double> ray_x, VisibilityBuffer& map) {
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         const std::array<Vec3, 3> corners = {mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]],
                                              mesh.vertices[mesh.indices[t + 2]]};

@@ -19,7 +19,7 @@ struct MeshTriangles {
 
 /// Those that are nearer than what is in the map already. `ray_x` is of each column.
 void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
-                    std::span<const double> ray_x, SurfaceMap& map);
+                    std::span<const double> ray_x, VisibilityBuffer& map);
 
 /// The share of each corner in the point where a ray meets the triangle (barycentric; they add up to 1).
 std::array<double, 3> corner_shares(const std::array<Vec3, 3>& corners, const Vec3& ray);

@@ -2,7 +2,7 @@
 
 namespace tumble {
 
-PinholeCamera::PinholeCamera(const CameraView& view)
+PinholeCamera::PinholeCamera(const Camera& view)
     : width(view.width()),
       height(view.height()),
       focal(1.0 / view.pixel_size()),

@@ -9,7 +9,7 @@
 namespace tumble {
 
 struct PinholeCamera {
-    explicit PinholeCamera(const CameraView& view);
+    explicit PinholeCamera(const Camera& view);
 
     int width, height;            // pixels
     double focal;                 // pixels, for both axes: pixels are square

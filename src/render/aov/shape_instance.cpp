@@ -15,9 +15,9 @@ bool is_closed(const Shape& shape) {
 
 }  // namespace
 
-std::vector<SurfacePart> surface_parts(const SceneDescription& scene) {
-    std::vector<SurfacePart> parts;
-    const auto add = [&](SurfacePart part) {
+std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
+    std::vector<ShapeInstance> parts;
+    const auto add = [&](ShapeInstance part) {
         if (const auto* mesh = std::get_if<MeshShape>(&part.shape); mesh != nullptr && !mesh->asset) return;
         // Copies share their mesh, and stand next to each other.
         const auto* mesh = std::get_if<MeshShape>(&part.shape);
@@ -46,7 +46,7 @@ std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord) {
     return body_id(scene.bodies.size() + cord);
 }
 
-PartPlace place_of(const SurfacePart& part, const Snapshot& snapshot, const PinholeCamera& camera) {
+PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera) {
     const BodyState& body = snapshot.bodies.at(part.body);
     const Mat3 turn = camera.axes.transpose() * body.orientation.toRotationMatrix();
     return {turn * part.rotation.toRotationMatrix(), camera.from_world(body.origin) + turn * part.position};

@@ -12,7 +12,7 @@
 namespace tumble {
 
 /// One shape of a visible body.
-struct SurfacePart {
+struct ShapeInstance {
     std::size_t body = 0;               // of the scene
     Shape shape;                        // no compound
     Vec3 position = Vec3::Zero();       // of the part, body frame, m
@@ -22,7 +22,7 @@ struct SurfacePart {
 };
 
 /// In scene order. The meshes' assets must outlive them, as the scene does.
-std::vector<SurfacePart> surface_parts(const SceneDescription& scene);
+std::vector<ShapeInstance> surface_parts(const SceneDescription& scene);
 
 /// What segmentation calls a body, all its parts alike, and a cord. 0 is the background.
 std::uint32_t body_id(std::size_t body);
@@ -35,7 +35,7 @@ struct PartPlace {
 
     friend bool operator==(const PartPlace&, const PartPlace&) = default;
 };
-PartPlace place_of(const SurfacePart& part, const Snapshot& snapshot, const PinholeCamera& camera);
+PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera);
 
 /// A cord's two ends in the camera's frame: its anchor and its place on the body.
 struct CordPlace {

@@ -22,7 +22,7 @@ std::array<Vec3, 8> corners_of(const PartPlace& place, const Vec3& middle, const
 
 }  // namespace
 
-void SurfaceMap::clear(int new_width, int new_height) {
+void VisibilityBuffer::clear(int new_width, int new_height) {
     width = new_width;
     height = new_height;
     const std::size_t pixels = std::size_t(width) * std::size_t(height);
@@ -31,19 +31,19 @@ void SurfaceMap::clear(int new_width, int new_height) {
     triangle.resize(pixels);
 }
 
-ScenePlaces make_places(std::span<const SurfacePart> parts, std::span<const CordDescription> cords,
+ScenePlaces make_places(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords,
                         const Snapshot& snapshot, const PinholeCamera& camera) {
     ScenePlaces places;
     places.parts.reserve(parts.size());
-    for (const SurfacePart& part : parts) places.parts.push_back(place_of(part, snapshot, camera));
+    for (const ShapeInstance& part : parts) places.parts.push_back(place_of(part, snapshot, camera));
     for (const CordDescription& cord : cords) places.cords.push_back(place_of(cord, snapshot, camera));
     return places;
 }
 
-SurfaceFinder::SurfaceFinder(std::span<const SurfacePart> parts, std::span<const CordDescription> cords)
+VisibilityBufferRenderer::VisibilityBufferRenderer(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords)
     : parts_(parts), cords_(cords) {}
 
-const SurfaceMap& SurfaceFinder::find(const ScenePlaces& places, const PinholeCamera& camera) {
+const VisibilityBuffer& VisibilityBufferRenderer::find(const ScenePlaces& places, const PinholeCamera& camera) {
     map_.clear(camera.width, camera.height);
     ray_x_.clear();
     for (int column = 0; column < camera.width; ++column) ray_x_.push_back(camera.ray_x(column));
@@ -55,7 +55,7 @@ const SurfaceMap& SurfaceFinder::find(const ScenePlaces& places, const PinholeCa
 }
 
 template <class Depths>
-void SurfaceFinder::find_rows(std::span<const Vec3> hull, std::size_t index, const PinholeCamera& camera,
+void VisibilityBufferRenderer::find_rows(std::span<const Vec3> hull, std::size_t index, const PinholeCamera& camera,
                               const Depths& depths_of) {
     const PixelBounds bounds = pixel_bounds(hull, camera);
     for (int row = bounds.top; !bounds.empty() && row <= bounds.bottom; ++row) {
@@ -71,7 +71,7 @@ void SurfaceFinder::find_rows(std::span<const Vec3> hull, std::size_t index, con
     }
 }
 
-void SurfaceFinder::find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place,
+void VisibilityBufferRenderer::find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place,
                                const PinholeCamera& camera) {
     const Vec3 normal = place.axes * plane.normal;
     const double height = -normal.dot(place.origin) - plane.offset;
@@ -81,21 +81,21 @@ void SurfaceFinder::find_shape(const PlaneShape& plane, std::size_t index, const
               [&](const RayRow& rays, double* depths) { plane_depths(normal, height, rays, depths); });
 }
 
-void SurfaceFinder::find_shape(const BoxShape& box, std::size_t index, const PartPlace& place,
+void VisibilityBufferRenderer::find_shape(const BoxShape& box, std::size_t index, const PartPlace& place,
                                const PinholeCamera& camera) {
     const Vec3 half_size = 0.5 * box.size;
     find_rows(corners_of(place, Vec3::Zero(), half_size), index, camera,
               [&](const RayRow& rays, double* depths) { box_depths(place, half_size, rays, depths); });
 }
 
-void SurfaceFinder::find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place,
+void VisibilityBufferRenderer::find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place,
                                const PinholeCamera& camera) {
     const PartPlace upright{Mat3::Identity(), place.origin};
     find_rows(corners_of(upright, Vec3::Zero(), Vec3::Constant(ball.radius)), index, camera,
               [&](const RayRow& rays, double* depths) { ball_depths(place.origin, ball.radius, rays, depths); });
 }
 
-void SurfaceFinder::find_shape(const MeshShape& mesh, std::size_t index, const PartPlace& place,
+void VisibilityBufferRenderer::find_shape(const MeshShape& mesh, std::size_t index, const PartPlace& place,
                                const PinholeCamera& camera) {
     vertices_.clear();
     for (const MeshAsset::Vertex& v : mesh.asset->vertices)
@@ -105,7 +105,7 @@ void SurfaceFinder::find_shape(const MeshShape& mesh, std::size_t index, const P
     find_triangles(triangles, std::uint32_t(index), camera, ray_x_, map_);
 }
 
-void SurfaceFinder::find_cord(std::size_t index, const CordPlace& place, const PinholeCamera& camera) {
+void VisibilityBufferRenderer::find_cord(std::size_t index, const CordPlace& place, const PinholeCamera& camera) {
     const double radius = cords_[index].radius;
     const Vec3 axis = place.to - place.from;
     const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), axis);

@@ -14,7 +14,7 @@
 namespace tumble {
 
 /// One value a pixel, top row first.
-struct SurfaceMap {
+struct VisibilityBuffer {
     static constexpr std::uint32_t nothing = ~0u;
 
     int width = 0, height = 0;
@@ -31,16 +31,16 @@ struct ScenePlaces {
     std::vector<PartPlace> parts;
     std::vector<CordPlace> cords;
 };
-ScenePlaces make_places(std::span<const SurfacePart> parts, std::span<const CordDescription> cords,
+ScenePlaces make_places(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords,
                         const Snapshot& snapshot, const PinholeCamera& camera);
 
-class SurfaceFinder {
+class VisibilityBufferRenderer {
 public:
     /// Both must outlive it.
-    SurfaceFinder(std::span<const SurfacePart> parts, std::span<const CordDescription> cords);
+    VisibilityBufferRenderer(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords);
 
     /// Of two surfaces at the same depth the first in order is taken.
-    const SurfaceMap& find(const ScenePlaces& places, const PinholeCamera& camera);
+    const VisibilityBuffer& find(const ScenePlaces& places, const PinholeCamera& camera);
 
 private:
     void find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
@@ -54,9 +54,9 @@ private:
     template <class Depths>
     void find_rows(std::span<const Vec3> hull, std::size_t index, const PinholeCamera& camera, const Depths& depths_of);
 
-    std::span<const SurfacePart> parts_;
+    std::span<const ShapeInstance> parts_;
     std::span<const CordDescription> cords_;
-    SurfaceMap map_;
+    VisibilityBuffer map_;
     std::vector<double> ray_x_;      // of each column
     std::vector<double> depths_;     // of one row
     std::vector<Vec3> vertices_;     // of one mesh, in the camera's frame

@@ -16,7 +16,7 @@ Vec3 most_across(const Vec3& direction) {
 
 }  // namespace
 
-CameraView::CameraView(const CameraDescription& camera, int width, int height, const Eigen::Vector2d& shift)
+Camera::Camera(const CameraDescription& camera, int width, int height, const Eigen::Vector2d& shift)
     : eye_(camera.eye), width_(width), height_(height), shift_(shift) {
     const Vec3 to_target = camera.target - camera.eye;
     target_distance_ = to_target.norm();
@@ -36,45 +36,45 @@ CameraView::CameraView(const CameraDescription& camera, int width, int height, c
               (up_ + tan_y_ * forward_).normalized(), (-up_ + tan_y_ * forward_).normalized()};
 }
 
-CameraView CameraView::from(const CameraDescription& camera) const {
-    CameraView view(camera, width_, height_, shift_);
+Camera Camera::from(const CameraDescription& camera) const {
+    Camera view(camera, width_, height_, shift_);
     view.viewing_distance_ = viewing_distance_;
     view.haze_distance_ = haze_distance_;
     return view;
 }
 
-CameraView CameraView::with_distances(double viewing, double haze) const {
-    CameraView view = *this;
+Camera Camera::with_distances(double viewing, double haze) const {
+    Camera view = *this;
     view.viewing_distance_ = viewing;
     view.haze_distance_ = haze;
     return view;
 }
 
-Eigen::Vector2d CameraView::pixel(const Vec3& relative) const {
+Eigen::Vector2d Camera::pixel(const Vec3& relative) const {
     const double depth = relative.dot(forward_);
     return {0.5 * width_ * (1.0 + relative.dot(right_) / (tan_x_ * depth)) + shift_.x(),
             0.5 * height_ * (1.0 - relative.dot(up_) / (tan_y_ * depth)) + shift_.y()};
 }
 
-Vec3 CameraView::ray(double x, double y) const {
+Vec3 Camera::ray(double x, double y) const {
     return forward_ + right_ * (tan_x_ * (2.0 * (x - shift_.x()) / width_ - 1.0)) +
            up_ * (tan_y_ * (1.0 - 2.0 * (y - shift_.y()) / height_));
 }
 
-bool CameraView::sees(const Vec3& center, double radius) const {
+bool Camera::sees(const Vec3& center, double radius) const {
     if (center.dot(forward_) < -radius) return false;
     for (const Vec3& side : sides_)
         if (center.dot(side) < -radius) return false;
     return true;
 }
 
-bool CameraView::sees_swept(const Vec3& center, double radius, const Vec3& direction) const {
+bool Camera::sees_swept(const Vec3& center, double radius, const Vec3& direction) const {
     for (const Vec3& side : sides_)
         if (center.dot(side) < -radius && direction.dot(side) <= 0.0) return false;
     return true;
 }
 
-glm::mat4 CameraView::clip_from_relative(double near_distance) const {
+glm::mat4 Camera::clip_from_relative(double near_distance) const {
     // rows: r / tan_x, -u / tan_y, f w/ z = w - 2 near, f
     glm::mat4 m(0.0f);
     for (int i = 0; i < 3; ++i) {

@@ -15,14 +15,14 @@
 
 namespace tumble {
 
-class CameraView {
+class Camera {
 public:
     /// `shift`, in pixels, moves the whole picture: averages of many small ones have smooth edges.
-    CameraView(const CameraDescription& camera, int width, int height,
+    Camera(const CameraDescription& camera, int width, int height,
                const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
     /// The same picture's view from another place. Patterns and haze keep theirs.
-    CameraView from(const CameraDescription& camera) const;
+    Camera from(const CameraDescription& camera) const;
 
     const Vec3& eye() const { return eye_; }
     const Vec3& right() const { return right_; }
@@ -37,8 +37,8 @@ public:
     /// What patterns fit, and where half of a thing's light is haze, m: the same for a whole clip. Until told otherwise the
     /// distance to the target and no haze.
     double viewing_distance() const { return viewing_distance_; }
-    double haze_distance() const { return haze_distance_; }
-    CameraView with_distances(double viewing, double haze) const;
+    double fog_distance() const { return haze_distance_; }
+    Camera with_distances(double viewing, double haze) const;
 
     /// The width of a pixel at distance 1 along the axis.
     double pixel_size() const { return 2.0 * tan_y_ / height_; }

@@ -16,7 +16,7 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
 
 }  // namespace
 
-std::optional<CameraPath::Tracks> CameraPath::tracks_of(const CameraDescription& camera) {
+std::optional<CameraAnimation::Tracks> CameraAnimation::tracks_of(const CameraDescription& camera) {
     if (camera.keyframes.empty()) return std::nullopt;
     const auto track = [&](const auto& value_of) {
         std::vector<double> times;
@@ -25,17 +25,17 @@ std::optional<CameraPath::Tracks> CameraPath::tracks_of(const CameraDescription&
             times.push_back(key.time);
             values.push_back(value_of(key));
         }
-        return NumberTrack(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
+        return KeyframeCurve(std::move(times), std::move(values), camera.interpolation == Interpolation::smooth);
     };
     return Tracks{track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.eye; }),
                   track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.target; }),
                   track([](const CameraKeyframe& key) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, key.vertical_fov); })};
 }
 
-CameraPath::CameraPath(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
+CameraAnimation::CameraAnimation(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
 
-Vec3 CameraPath::up_at(double time) const {
-    constexpr double parallel = 1e-9;   // rad: as for CameraView
+Vec3 CameraAnimation::up_at(double time) const {
+    constexpr double parallel = 1e-9;   // rad: as for Camera
     constexpr double back = 1e-4;       // of the time since the last key: near enough, and far above rounding
     const Vec3& up = camera_.up;
     const auto view_at = [&](double t) -> Vec3 { return tracks_->target.at(t) - tracks_->eye.at(t); };
@@ -50,7 +50,7 @@ Vec3 CameraPath::up_at(double time) const {
     return in_passing.norm() > 0.0 ? in_passing : up;
 }
 
-Vec3 CameraPath::carried(const Snapshot& snapshot) const {
+Vec3 CameraAnimation::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
     const BodyState& body = snapshot.bodies.at(*camera_.follow);
     // The scene does not know where the centre of mass is; but the body is rigid, so it is where it was, body frame.
@@ -58,7 +58,7 @@ Vec3 CameraPath::carried(const Snapshot& snapshot) const {
     return body.center_of_mass - (camera_.follow_start + camera_.follow_start_rotation * center);
 }
 
-CameraDescription CameraPath::at(const Snapshot& snapshot) const {
+CameraDescription CameraAnimation::at(const Snapshot& snapshot) const {
     CameraDescription now;
     now.eye = camera_.eye;
     now.target = camera_.target;

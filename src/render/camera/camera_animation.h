@@ -13,9 +13,9 @@
 
 namespace tumble {
 
-class CameraPath {
+class CameraAnimation {
 public:
-    explicit CameraPath(const CameraDescription& camera);
+    explicit CameraAnimation(const CameraDescription& camera);
 
     /// Eye, target, up and field of view at the snapshot's time. A whole turn comes back to the last bit.
     CameraDescription at(const Snapshot& snapshot) const;
@@ -26,7 +26,7 @@ public:
 private:
     CameraDescription camera_;
     struct Tracks {
-        NumberTrack eye, target, vertical_fov;
+        KeyframeCurve eye, target, vertical_fov;
     };
     static std::optional<Tracks> tracks_of(const CameraDescription& camera);
     /// The way that is up in the picture, by the keyframes alone.

@@ -24,7 +24,7 @@ struct Projected {
 };
 
 // False when a corner is beside or behind the eye.
-bool project(std::span<const Vec3> corners, const CameraView& view, Projected& result) {
+bool project(std::span<const Vec3> corners, const Camera& view, Projected& result) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const double depth = corners[i].dot(view.forward());
         if (!(depth > 1e-2 * corners[i].norm())) return false;
@@ -40,13 +40,13 @@ bool project(std::span<const Vec3> corners, const CameraView& view, Projected& r
     return true;
 }
 
-int first_cell(double pixel) { return int(std::floor(std::max(pixel, 0.0) / ScreenCover::cell)); }
+int first_cell(double pixel) { return int(std::floor(std::max(pixel, 0.0) / CoarseDepthBuffer::cell)); }
 int last_cell(double pixel, int count) {
-    return int(std::floor(std::min(pixel, double(count * ScreenCover::cell) - 1.0) / ScreenCover::cell));
+    return int(std::floor(std::min(pixel, double(count * CoarseDepthBuffer::cell) - 1.0) / CoarseDepthBuffer::cell));
 }
 
 // Those turned to the eye and not hidden.
-std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCover& cover) {
+std::uint8_t visible_faces(const CoarseDepthBuffer::Corners& corners, const CoarseDepthBuffer& cover) {
     std::uint8_t faces = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t side = 0; side < 2; ++side) {
@@ -63,13 +63,13 @@ std::uint8_t visible_faces(const ScreenCover::Corners& corners, const ScreenCove
 
 }  // namespace
 
-ScreenCover::ScreenCover(const CameraView& view)
+CoarseDepthBuffer::CoarseDepthBuffer(const Camera& view)
     : view_(&view),
       columns_((view.width() + cell - 1) / cell),
       rows_((view.height() + cell - 1) / cell),
       depths_(std::size_t(columns_) * std::size_t(rows_), std::numeric_limits<double>::infinity()) {}
 
-void ScreenCover::add(const Corners& corners) {
+void CoarseDepthBuffer::add(const Corners& corners) {
     Projected box;
     if (!project(corners, *view_, box)) return;
     FewPoints points;
@@ -103,7 +103,7 @@ void ScreenCover::add(const Corners& corners) {
     }
 }
 
-bool ScreenCover::hides(std::span<const Vec3> corners) const {
+bool CoarseDepthBuffer::hides(std::span<const Vec3> corners) const {
     Projected body;
     if (!project(corners, *view_, body)) return false;
     for (int row = first_cell(body.y0 - margin); row <= last_cell(body.y1 + margin, rows_); ++row)
@@ -122,10 +122,10 @@ struct Candidate {
     float distance;   // m; of the ball around it
 };
 
-std::vector<Candidate> find_candidates(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot& snapshot, const Camera& view) {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         if (view.sees(ball.center, ball.radius)) candidates.push_back({std::uint32_t(i), float(ball.center.norm())});
@@ -137,7 +137,7 @@ std::vector<Candidate> find_candidates(const SceneLooks& looks, const Snapshot& 
 }
 
 // Puts the faces of a small box into the cover. Which of them may be seen?
-std::uint8_t add_faces(const ScreenCover::Corners& corners, const Projected& box, const CameraView& view, PixelCover& cover) {
+std::uint8_t add_faces(const CoarseDepthBuffer::Corners& corners, const Projected& box, const Camera& view, SoftwareDepthBuffer& cover) {
     std::uint8_t faces = 0;
     std::array<double, 8> inverse_depths;
     for (std::size_t i = 0; i < 8; ++i) inverse_depths[i] = 1.0 / corners[i].dot(view.forward());
@@ -147,7 +147,7 @@ std::uint8_t add_faces(const ScreenCover::Corners& corners, const Projected& box
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t first = side == 1 ? bit : 0;
             if (!(along.dot(corners[first]) * (side == 1 ? 1.0 : -1.0) < 0.0)) continue;
-            std::array<PixelCover::Corner, 4> face;
+            std::array<SoftwareDepthBuffer::Corner, 4> face;
             std::size_t k = 0;
             for (const std::size_t i : {first, first | a, first | a | b, first | b}) face[k++] = {box.points[i], inverse_depths[i]};
             if (cover.add(face)) faces |= std::uint8_t(1u << (2 * axis + side));
@@ -158,16 +158,16 @@ std::uint8_t add_faces(const ScreenCover::Corners& corners, const Projected& box
 
 }  // namespace
 
-Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample) {
+Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view, bool one_sample) {
     Mat3 view_axes;
     view_axes << view.right(), view.up(), view.forward();
-    Visibility result{ScreenCover(view), std::vector<bool>(looks.bodies.size(), false),
+    Visibility result{CoarseDepthBuffer(view), std::vector<bool>(looks.bodies.size(), false),
                       std::vector<std::uint8_t>(looks.bodies.size(), 0)};
     const std::vector<Candidate> candidates = find_candidates(looks, snapshot, view);
     const bool by_pixel = one_sample && candidates.size() >= crowd;
     const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
     const auto corners_of = [&](const Candidate& c) {
-        const BodyLook& look = looks.bodies[c.body];
+        const RenderBody& look = looks.bodies[c.body];
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[c.body], view);
         return is_box(c) ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
                          : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
@@ -178,13 +178,13 @@ Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const
     };
     for (const Candidate& candidate : candidates) {  // nearest first: what is hidden itself need not cover anything
         if (!is_box(candidate) || is_small(candidate)) continue;
-        const ScreenCover::Corners corners = corners_of(candidate);
+        const CoarseDepthBuffer::Corners corners = corners_of(candidate);
         if (!result.cover.hides(corners)) result.cover.add(corners);
     }
-    std::optional<PixelCover> pixels;
+    std::optional<SoftwareDepthBuffer> pixels;
     if (by_pixel) pixels.emplace(view, result.cover);
     for (const Candidate& candidate : candidates) {
-        const ScreenCover::Corners corners = corners_of(candidate);
+        const CoarseDepthBuffer::Corners corners = corners_of(candidate);
         Projected seen;
         const bool small_one = is_small(candidate) && project(corners, view, seen);
         if (is_box(candidate)) {
@@ -201,9 +201,9 @@ Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const
     return result;
 }
 
-Visibility everything_visible(const SceneLooks& looks, const CameraView& view) {
-    Visibility all{ScreenCover(view), {}, {}};
-    for (const BodyLook& look : looks.bodies) {
+Visibility everything_visible(const RenderScene& looks, const Camera& view) {
+    Visibility all{CoarseDepthBuffer(view), {}, {}};
+    for (const RenderBody& look : looks.bodies) {
         all.bodies.push_back(look.kind != DrawKind::hidden && look.kind != DrawKind::plane);
         all.faces.push_back(look.kind == DrawKind::box ? 0x3f : 0);
     }

@@ -15,11 +15,11 @@
 
 namespace tumble {
 
-class ScreenCover {
+class CoarseDepthBuffer {
 public:
     static constexpr int cell = 8;  // pixels: smaller ones hide little more and cost more to fill
 
-    explicit ScreenCover(const CameraView& view);
+    explicit CoarseDepthBuffer(const Camera& view);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
@@ -35,13 +35,13 @@ public:
     bool hides(std::span<const Vec3> points) const;
 
 private:
-    const CameraView* view_;
+    const Camera* view_;
     int columns_, rows_;
     std::vector<double> depths_;
 };
 
 struct Visibility {
-    ScreenCover cover;
+    CoarseDepthBuffer cover;
     std::vector<bool> bodies;  // in scene order: may any part of it be in the picture? (false for planes)
     std::vector<std::uint8_t>
         faces;  // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high one
@@ -49,9 +49,9 @@ struct Visibility {
 
 /// `one_sample`: the picture is drawn with one sample a pixel; then many small boxes are looked at pixel by pixel
 /// (pixel_cover.h).
-Visibility find_visible(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view, bool one_sample = false);
+Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view, bool one_sample = false);
 
 /// As if nothing hid anything.
-Visibility everything_visible(const SceneLooks& looks, const CameraView& view);
+Visibility everything_visible(const RenderScene& looks, const Camera& view);
 
 }  // namespace tumble

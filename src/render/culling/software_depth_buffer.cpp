@@ -17,7 +17,7 @@ struct Span {
 };
 
 // The part of a row's middle line within a convex polygon.
-Span span(const std::array<PixelCover::Corner, 4>& face, double y) {
+Span span(const std::array<SoftwareDepthBuffer::Corner, 4>& face, double y) {
     Span s;
     for (std::size_t i = 0; i < 4; ++i) {
         const ScreenPoint &a = face[i].at, &b = face[(i + 1) % 4].at;
@@ -31,13 +31,13 @@ Span span(const std::array<PixelCover::Corner, 4>& face, double y) {
 
 }  // namespace
 
-PixelCover::PixelCover(const CameraView& view, const ScreenCover& boxes)
+SoftwareDepthBuffer::SoftwareDepthBuffer(const Camera& view, const CoarseDepthBuffer& boxes)
     : boxes_(&boxes),
       width_(view.width()),
       height_(view.height()),
       inverse_depths_(std::size_t(view.width()) * std::size_t(view.height()), 0.0f) {}
 
-bool PixelCover::add(const std::array<Corner, 4>& face) {
+bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
     double top = std::numeric_limits<double>::infinity(), bottom = -top;
     for (const Corner& c : face) {
         top = std::min(top, c.at.y());
@@ -78,7 +78,7 @@ bool PixelCover::add(const std::array<Corner, 4>& face) {
             const float here = inverse_depth(x, y);
             const bool within = !flat && x + 0.5 > within_left && x + 0.5 < within_right;
             if (!seen && here * (1.0f + depth_margin) >= row[x] &&
-                !(boxes_->depth(x / ScreenCover::cell, y / ScreenCover::cell) * double(here) < 1.0 - double(depth_margin)))
+                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) * double(here) < 1.0 - double(depth_margin)))
                 seen = true;
             if (within) row[x] = std::max(row[x], here);
         }
@@ -86,14 +86,14 @@ bool PixelCover::add(const std::array<Corner, 4>& face) {
     return seen;
 }
 
-bool PixelCover::hides(double x0, double y0, double x1, double y1, double depth) const {
+bool SoftwareDepthBuffer::hides(double x0, double y0, double x1, double y1, double depth) const {
     const float here = float(1.0 / depth) * (1.0f + depth_margin);
     const int left = std::max(0, int(std::ceil(x0 - margin - 0.5))), right = std::min(width_ - 1, int(std::floor(x1 + margin - 0.5)));
     const int top = std::max(0, int(std::ceil(y0 - margin - 0.5))), bottom = std::min(height_ - 1, int(std::floor(y1 + margin - 0.5)));
     for (int y = top; y <= bottom; ++y)
         for (int x = left; x <= right; ++x)
             if (!(here < inverse_depths_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]) &&
-                !(boxes_->depth(x / ScreenCover::cell, y / ScreenCover::cell) < depth * (1.0 - double(depth_margin))))
+                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) < depth * (1.0 - double(depth_margin))))
                 return false;
     return true;
 }

@@ -12,10 +12,10 @@
 
 namespace tumble {
 
-class PixelCover {
+class SoftwareDepthBuffer {
 public:
     /// `boxes`: what hides besides, cell by cell. Must outlive it.
-    PixelCover(const CameraView& view, const ScreenCover& boxes);
+    SoftwareDepthBuffer(const Camera& view, const CoarseDepthBuffer& boxes);
 
     /// A corner on the screen: pixels, and one over the depth along the axis, 1/m.
     struct Corner {
@@ -30,7 +30,7 @@ public:
     bool hides(double x0, double y0, double x1, double y1, double depth) const;
 
 private:
-    const ScreenCover* boxes_;
+    const CoarseDepthBuffer* boxes_;
     int width_, height_;
     std::vector<float> inverse_depths_;   // the nearest in each pixel; 0: nothing
 };

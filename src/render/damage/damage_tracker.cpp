@@ -22,11 +22,11 @@ public:
         depths_.fill(std::numeric_limits<double>::infinity());
     }
 
-    void add(const DrawnItem& caster) {
+    void add(const DrawableBounds& caster) {
         const double depth = light_.direction.dot(caster.center) - caster.radius;
         visit(caster, 0.0, [&](double& cell) { cell = std::min(cell, depth); });
     }
-    bool shadows(const DrawnItem& receiver) {
+    bool shadows(const DrawableBounds& receiver) {
         const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
         // of the map that the receiver looks into
@@ -40,7 +40,7 @@ private:
     static constexpr int count = 128;   // to a side
 
     template <class Visit>
-    void visit(const DrawnItem& item, double more, Visit see) {
+    void visit(const DrawableBounds& item, double more, Visit see) {
         const double radius = (item.radius + more) * length(light_.fit.x);
         const auto [x0, x1] = range(light_.fit.x, item.center, radius);
         const auto [y0, y1] = range(light_.fit.y, item.center, radius);
@@ -62,25 +62,25 @@ private:
 
 }  // namespace
 
-ChangeFinder::ChangeFinder(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view)
+DamageTracker::DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view)
     : scene_(&scene), looks_(&looks), view_(&view) {}
 
-bool ChangeFinder::moved(const Snapshot& snapshot, std::size_t body) const {
+bool DamageTracker::moved(const Snapshot& snapshot, std::size_t body) const {
     const BodyState& state = snapshot.bodies[body];
     return poses_[body].origin != state.origin || poses_[body].orientation.coeffs() != state.orientation.coeffs();
 }
 
-bool ChangeFinder::unmoved(const Snapshot& snapshot) const {
+bool DamageTracker::unmoved(const Snapshot& snapshot) const {
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         if (first_ || moved(snapshot, i)) return false;
     return !first_;
 }
 
-TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
-    TileMarks marks(*view_);
+DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
+    DirtyTiles marks(*view_);
     const std::size_t bodies = looks_->bodies.size();
     background_changed_ = first_ || now.near_distance != near_distance_;
-    shadow_marks_ = ShadowMarks(now.shadows);
+    shadow_marks_ = ShadowDirtyTiles(now.shadows);
     if (first_ || now.shadows != shadows_) shadow_marks_.mark_all();
     if (first_) poses_.resize(bodies);
     std::vector<char> item_moved(now.items.size(), 0);
@@ -101,14 +101,14 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
     } else {
         for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
             if (item_moved[i] == 0 || !now.items[i].exists()) continue;
-            for (const DrawnItem* item : std::array<const DrawnItem*, 2>{&items_[i], &now.items[i]}) {
+            for (const DrawableBounds* item : std::array<const DrawableBounds*, 2>{&items_[i], &now.items[i]}) {
                 marks.mark_hull(item->corners());
                 mark_on_planes(*item, i, now, marks);
             }
         }
         if (scene_->light.shadows) mark_shadowed(item_moved, now, visibility, marks);
         for (const OcclusionChanges::Body& changed : occlusion.bodies) {
-            const DrawnItem& item = now.items[changed.body];
+            const DrawableBounds& item = now.items[changed.body];
             if (item_moved[changed.body] != 0) continue;
             if (changed.faces == 0) marks.mark_hull(item.corners());
             for (int face = 0; face < 6; ++face)
@@ -116,7 +116,7 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
         }
         for (const OcclusionChanges::Part& part : occlusion.parts) {
             if (item_moved[part.body] != 0) continue;
-            const DrawnItem& item = now.items[part.body];
+            const DrawableBounds& item = now.items[part.body];
             // Of several samples the pixel's middle may lie beside the face, and takes its texel from the rim.
             marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high) : face_part(item, part.face));
         }
@@ -138,9 +138,9 @@ TileMarks ChangeFinder::find(const FrameState& now, const OcclusionChanges& occl
 }
 
 // What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
-bool ChangeFinder::too_near(const FrameState& now) const {
+bool DamageTracker::too_near(const FrameState& now) const {
     for (std::size_t i = 0; i < now.items.size(); ++i) {
-        const DrawnItem& item = now.items[i];
+        const DrawableBounds& item = now.items[i];
         if (!item.exists() || !view_->sees(item.center, item.radius)) continue;
         const double depth = i < looks_->bodies.size()
                                  ? least_depth(looks_->bodies[i], *looks_, now.snapshot.bodies[i], {item.center, item.radius}, *view_)
@@ -150,8 +150,8 @@ bool ChangeFinder::too_near(const FrameState& now) const {
     return false;
 }
 
-void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now,
-                                  TileMarks& marks) const {
+void DamageTracker::mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now,
+                                  DirtyTiles& marks) const {
     const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
     const ShadowLight light(scene_->light, now.shadows);
     const double blur = 1.5 * looks_->window_cell;
@@ -159,8 +159,8 @@ void ChangeFinder::mark_on_planes(const DrawnItem& item, std::size_t number, con
 }
 
 // Whatever stood still behind something that moved, as the sun sees it.
-void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
-                                 const Visibility& visibility, TileMarks& marks) const {
+void DamageTracker::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
+                                 const Visibility& visibility, DirtyTiles& marks) const {
     const ShadowLight light(scene_->light, now.shadows);
     LightCells cells{light};
     for (std::size_t i = 0; i < now.items.size(); ++i) {
@@ -168,15 +168,15 @@ void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const Fram
         cells.add(items_[i]);
         cells.add(now.items[i]);
     }
-    std::vector<FaceMarks> grounds;
-    std::vector<VolumeMarks> volumes;
+    std::vector<FaceDamage> grounds;
+    std::vector<VolumeDamage> volumes;
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] != 0 || !now.items[i].exists()) continue;
         if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
         if (!cells.shadows(now.items[i])) continue;
-        const BodyLook* look = i < looks_->bodies.size() ? &looks_->bodies[i] : nullptr;
+        const RenderBody* look = i < looks_->bodies.size() ? &looks_->bodies[i] : nullptr;
         const bool large = look != nullptr && (look->ground || look->fine_surface >= 0) && now.one_sample &&
-                           FaceMarks::suits(now.items[i], now.shadows);
+                           FaceDamage::suits(now.items[i], now.shadows);
         if (!large) marks.mark_hull(now.items[i].corners());
         else if (look->kind == DrawKind::box) grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
         else volumes.emplace_back(now.items[i], *look, *looks_, now.snapshot.bodies[i], light, *view_);
@@ -184,11 +184,11 @@ void ChangeFinder::mark_shadowed(const std::vector<char>& item_moved, const Fram
     if (grounds.empty() && volumes.empty()) return;
     for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
-        for (const FaceMarks& ground : grounds) {
+        for (const FaceDamage& ground : grounds) {
             ground.mark_shadow(items_[i], marks);
             ground.mark_shadow(now.items[i], marks);
         }
-        for (const VolumeMarks& ground : volumes) {
+        for (const VolumeDamage& ground : volumes) {
             ground.mark_shadow(items_[i], marks);
             ground.mark_shadow(now.items[i], marks);
         }

@@ -21,16 +21,16 @@ namespace tumble {
 /// What of a frame can change.
 struct FrameState {
     const Snapshot& snapshot;
-    std::vector<DrawnItem> items;
+    std::vector<DrawableBounds> items;
     double near_distance = 0.0;   // m
-    ShadowFit shadows;
+    ShadowCascades shadows;
     std::vector<PlanePatch> planes;
     bool one_sample = false;   // a pixel: what it shows lies at its middle
 };
 
-class ChangeFinder {
+class DamageTracker {
 public:
-    ChangeFinder(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view);
+    DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view);
 
     /// Are all poses those of the last find()? Then the picture is the same.
     bool unmoved(const Snapshot& snapshot) const;
@@ -39,10 +39,10 @@ public:
     void forget() { first_ = true; }
 
     /// Compares with the state of the call before, and remembers this one.
-    TileMarks find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
+    DirtyTiles find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
     /// What of the shadow maps the last find() found changed.
-    const ShadowMarks& shadow_marks() const { return shadow_marks_; }
+    const ShadowDirtyTiles& shadow_marks() const { return shadow_marks_; }
     /// Did the planes or the depths' range?
     bool background_changed() const { return background_changed_; }
 
@@ -52,20 +52,20 @@ private:
         Quat orientation;
     };
     bool moved(const Snapshot& snapshot, std::size_t body) const;
-    void mark_on_planes(const DrawnItem& item, std::size_t number, const FrameState& now, TileMarks& marks) const;
+    void mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now, DirtyTiles& marks) const;
     bool too_near(const FrameState& now) const;
     void mark_shadowed(const std::vector<char>& item_moved, const FrameState& now, const Visibility& visibility,
-                       TileMarks& marks) const;
+                       DirtyTiles& marks) const;
 
     const SceneDescription* scene_;
-    const SceneLooks* looks_;
-    const CameraView* view_;
+    const RenderScene* looks_;
+    const Camera* view_;
     bool first_ = true, background_changed_ = true;
-    ShadowMarks shadow_marks_{ShadowFit()};
+    ShadowDirtyTiles shadow_marks_{ShadowCascades()};
     std::vector<Pose> poses_;
-    std::vector<DrawnItem> items_;
+    std::vector<DrawableBounds> items_;
     double near_distance_ = 0.0;
-    ShadowFit shadows_;
+    ShadowCascades shadows_;
 };
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ constexpr double margin = 3.0;   // pixels
 
 enum class Place { before, beside, behind };   // of points, as the eye sees them
 
-Place place_of(std::span<const Vec3> points, const CameraView& view) {
+Place place_of(std::span<const Vec3> points, const Camera& view) {
     bool before = false, behind = false;
     for (const Vec3& p : points) {
         const double depth = p.dot(view.forward());
@@ -37,17 +37,17 @@ int tile_of(double pixel, int size, int count) {
 
 }  // namespace
 
-TileMarks::TileMarks(const CameraView& view, int size)
+DirtyTiles::DirtyTiles(const Camera& view, int size)
     : view_(&view),
       grid_{(view.width() + size - 1) / size, (view.height() + size - 1) / size, size, view.width(), view.height()},
       marks_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
 
-void TileMarks::mark_all() {
+void DirtyTiles::mark_all() {
     std::fill(marks_.begin(), marks_.end(), char(1));
     count_ = grid_.columns * grid_.rows;
 }
 
-void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
+void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
     const Place place = place_of(points, *view_);
     if (place == Place::behind || all()) return;
     if (place == Place::beside) return mark_all();
@@ -101,7 +101,7 @@ void TileMarks::mark_hull(std::span<const Vec3> points, double around) {
     }
 }
 
-bool TileMarks::all_marked(double x0, double y0, double x1, double y1) const {
+bool DirtyTiles::all_marked(double x0, double y0, double x1, double y1) const {
     for (int row = std::max(0, tile_of(y0, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(y1, grid_.cell, grid_.rows)); ++row)
         for (int column = std::max(0, tile_of(x0, grid_.cell, grid_.columns));
@@ -110,7 +110,7 @@ bool TileMarks::all_marked(double x0, double y0, double x1, double y1) const {
     return true;
 }
 
-bool TileMarks::touched_by(std::span<const Vec3> points) const {
+bool DirtyTiles::touched_by(std::span<const Vec3> points) const {
     if (none()) return false;
     const Place place = place_of(points, *view_);
     if (place == Place::behind) return false;
@@ -131,16 +131,16 @@ bool TileMarks::touched_by(std::span<const Vec3> points) const {
     return false;
 }
 
-std::vector<Rectangle> TileMarks::rectangles() const {
+std::vector<Rectangle> DirtyTiles::rectangles() const {
     if (all()) return {{0, 0, grid_.width, grid_.height}};
     return cell_rectangles(grid_, [&](int column, int row) { return at(column, row); });
 }
 
-std::vector<Rectangle> TileMarks::rectangles_outside(const TileMarks& others) const {
+std::vector<Rectangle> DirtyTiles::rectangles_outside(const DirtyTiles& others) const {
     return cell_rectangles(grid_, [&](int column, int row) { return at(column, row) && !others.at(column, row); });
 }
 
-Rectangle TileMarks::bounds() const {
+Rectangle DirtyTiles::bounds() const {
     int x0 = grid_.columns, y0 = grid_.rows, x1 = 0, y1 = 0;
     for (int row = 0; row < grid_.rows; ++row)
         for (int column = 0; column < grid_.columns; ++column) {

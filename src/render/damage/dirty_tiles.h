@@ -11,11 +11,11 @@
 
 namespace tumble {
 
-class TileMarks {
+class DirtyTiles {
 public:
     static constexpr int tile = 16;   // pixels: smaller ones follow outlines better, but make many small rectangles
 
-    explicit TileMarks(const CameraView& view, int size = tile);
+    explicit DirtyTiles(const Camera& view, int size = tile);
 
     void mark_all();
 
@@ -33,7 +33,7 @@ public:
 
     const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
-    std::vector<Rectangle> rectangles_outside(const TileMarks& others) const;   // of tiles that are not marked there
+    std::vector<Rectangle> rectangles_outside(const DirtyTiles& others) const;   // of tiles that are not marked there
 
     /// The rectangle around all that is marked.
     Rectangle bounds() const;
@@ -41,7 +41,7 @@ public:
 private:
     bool all_marked(double x0, double y0, double x1, double y1) const;   // in this part of the screen, pixels
 
-    const CameraView* view_;
+    const Camera* view_;
     CellGrid grid_;
     std::vector<char> marks_;
     int count_ = 0;   // of marked tiles

@@ -17,7 +17,7 @@ Vec3 row_of(const glm::vec4& row) { return {double(row.x), double(row.y), double
 
 }  // namespace
 
-std::array<Vec3, 4> face_part(const DrawnItem& box, int face, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
     const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
     const Vec3 middle = box.center + (face % 2 == 0 ? -1.0 : 1.0) * box.half_axes.col(axis);
     std::array<Vec3, 4> points;
@@ -28,7 +28,7 @@ std::array<Vec3, 4> face_part(const DrawnItem& box, int face, const Eigen::Vecto
 }
 
 // The points' rectangle along the face's axes is looked at; a little more of the face for what rounds.
-bool FaceMarks::Face::meets(std::span<const Vec3> points, double around) const {
+bool FaceDamage::Face::meets(std::span<const Vec3> points, double around) const {
     const auto apart = [&](const Vec3& axis, double half) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const Vec3& p : points) {
@@ -41,14 +41,14 @@ bool FaceMarks::Face::meets(std::span<const Vec3> points, double around) const {
     return !apart(u, half_u) && !apart(v, half_v);
 }
 
-std::array<Vec3, 4> FaceMarks::Face::corners() const {
+std::array<Vec3, 4> FaceDamage::Face::corners() const {
     std::array<Vec3, 4> points;
     for (std::size_t i = 0; i < 4; ++i)
         points[i] = middle + u * ((i & 1) != 0 ? half_u : -half_u) + v * ((i & 2) != 0 ? half_v : -half_v);
     return points;
 }
 
-FaceMarks::FaceMarks(const DrawnItem& box, std::uint8_t faces, const ShadowLight& light, const CameraView& view)
+FaceDamage::FaceDamage(const DrawableBounds& box, std::uint8_t faces, const ShadowLight& light, const Camera& view)
     : light_(light), view_(&view),
       two_maps_(light.fit.may_look_far(box.center, box.radius)) {
     for (int face = 0; face < 6; ++face) {
@@ -72,12 +72,12 @@ FaceMarks::FaceMarks(const DrawnItem& box, std::uint8_t faces, const ShadowLight
     }
 }
 
-bool FaceMarks::suits(const DrawnItem& box, const ShadowFit& shadows) {
+bool FaceDamage::suits(const DrawableBounds& box, const ShadowCascades& shadows) {
     return shadows.near_holds(box.center, box.radius) || shadows.spans_maps(box.center, box.radius);
 }
 
-void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
-    const ShadowFit& fit = light_.fit;
+void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
+    const ShadowCascades& fit = light_.fit;
     const double most_margin = fit.filter.reach * (two_maps_ ? fit.far_texel : fit.near_texel);
     if (!view_->sees_swept(caster.center, caster.radius + most_margin, light_.direction)) return;
     for (const Face& face : faces_) {
@@ -101,8 +101,8 @@ void FaceMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
 
 // The far map's texels are up to 64 times as wide, but it is looked into only beyond the near one. Across the light, in
 // near maps: a point looks at the place of itself moved along the normal, and at some texels around that.
-void FaceMarks::mark_in_far_map(const Face& face, const DrawnItem& caster, TileMarks& marks) const {
-    const ShadowFit& fit = light_.fit;
+void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const {
+    const ShadowCascades& fit = light_.fit;
     const double inner = 0.5 - rim_texels / fit.texels, reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
     const auto range = [&](const glm::vec4& row) {
         const Vec3 axis = row_of(row);

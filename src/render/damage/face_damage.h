@@ -10,16 +10,16 @@
 
 namespace tumble {
 
-class FaceMarks {
+class FaceDamage {
 public:
     /// `faces`: those of the box that can be seen, bits as in Visibility.
-    FaceMarks(const DrawnItem& box, std::uint8_t faces, const ShadowLight& light, const CameraView& view);
+    FaceDamage(const DrawableBounds& box, std::uint8_t faces, const ShadowLight& light, const Camera& view);
 
     /// Does each pixel of such a box find its place in the shadow maps by itself? Others look into the far map as a whole.
-    static bool suits(const DrawnItem& box, const ShadowFit& shadows);
+    static bool suits(const DrawableBounds& box, const ShadowCascades& shadows);
 
     /// Marks the caster's shadow on each face.
-    void mark_shadow(const DrawnItem& caster, TileMarks& marks) const;
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
 
 private:
     struct Face {
@@ -31,16 +31,16 @@ private:
         bool meets(std::span<const Vec3> points, double around) const;
         std::array<Vec3, 4> corners() const;
     };
-    void mark_in_far_map(const Face& face, const DrawnItem& caster, TileMarks& marks) const;
+    void mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const;
 
     ShadowLight light_;
-    const CameraView* view_;
+    const Camera* view_;
     std::vector<Face> faces_;   // those in the sun
     bool two_maps_;
 };
 
 /// The corners of a part of a box's face. `low`, `high`: on its axes (the box's next two after the face's), from -1 to 1.
-std::array<Vec3, 4> face_part(const DrawnItem& box, int face, const Eigen::Vector2d& low = {-1.0, -1.0},
+std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::Vector2d& low = {-1.0, -1.0},
                               const Eigen::Vector2d& high = {1.0, 1.0});
 
 }  // namespace tumble

@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 // The corners of the rectangle along the plane's axes around the feet of all corners, and `margin` (m) more.
-std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, double margin) {
+std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawableBounds& item, double margin) {
     const PlaneAxes axes = plane_axes(plane.normal);
     double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
     for (const Vec3& corner : item.corners()) {
@@ -29,7 +29,7 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawnItem& item, d
 
 }  // namespace
 
-ShadowLight::ShadowLight(const LightDescription& light, const ShadowFit& shadow_fit)
+ShadowLight::ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit)
     : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
 
 // The offset along the normal leads across the light the less, the steeper it falls; half a texel to spare.
@@ -37,18 +37,18 @@ double ShadowLight::filter_reach(double approach) const {
     return fit.filter.across + fit.filter.offset * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
 }
 
-double ShadowLight::margin(const DrawnItem& item) const {
+double ShadowLight::margin(const DrawableBounds& item) const {
     const double near = fit.filter.reach * fit.near_texel;
     if (!fit.may_look_far(item.center, item.radius + near)) return near;   // so is its shadow
     return fit.filter.reach * fit.far_texel;
 }
 
-double ShadowLight::margin_on_plane(const DrawnItem& item, double approach) const {
+double ShadowLight::margin_on_plane(const DrawableBounds& item, double approach) const {
     return margin(item) * std::min(filter_reach(approach) / fit.filter.reach, 1.0);
 }
 
-void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
-                   const CameraView& view, TileMarks& marks) {
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
+                   const Camera& view, DirtyTiles& marks) {
     const double height = plane.normal.dot(item.center) + plane.height;
     if (height < -item.radius) return;
     if (reach > 0.0 && height < item.radius + 2.0 * reach && view.sees(item.center, item.radius + 2.0 * reach))
@@ -61,9 +61,9 @@ void mark_on_plane(const PlanePatch& plane, const DrawnItem& item, double reach,
     marks.mark_hull(feet, light.margin_on_plane(item, approach) / approach);
 }
 
-bool may_touch(const PlanePatch& plane, const DrawnItem& item, double reach, double blur, const ShadowLight& light,
-               const CameraView& view, const Rectangle& part) {
-    constexpr double margin = 8.0;   // pixels: more than TileMarks adds
+bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
+               const Camera& view, const Rectangle& part) {
+    constexpr double margin = 8.0;   // pixels: more than DirtyTiles adds
     const double height = plane.normal.dot(item.center) + plane.height;
     const auto meets = [&](const Vec3& center, double radius) {
         const double depth = center.dot(view.forward()), nearest = depth - radius;

@@ -10,23 +10,23 @@ namespace tumble {
 namespace {
 
 // One over the depth is linear on the screen, so a cell's nearest point of the plane is at a corner.
-bool covered(int column, int row, const PlanePatch& plane, const CameraView& view, const ScreenCover& cover) {
+bool covered(int column, int row, const PlanePatch& plane, const Camera& view, const CoarseDepthBuffer& cover) {
     if (!std::isfinite(cover.depth(column, row))) return false;
     double most_fall = 0.0;  // height / depth at the nearest corner
     for (const int x : {column, column + 1})
         for (const int y : {row, row + 1})
             most_fall =
-                std::max(most_fall, -plane.normal.dot(view.ray(x * ScreenCover::cell, y * ScreenCover::cell)));
+                std::max(most_fall, -plane.normal.dot(view.ray(x * CoarseDepthBuffer::cell, y * CoarseDepthBuffer::cell)));
     return cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6);
 }
 
 constexpr int block = 4, longest_run = 32;   // texels
 
 // The runs of blocks of the plane's window in the atlas that are not open.
-void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const SceneLooks& looks, const Snapshot& snapshot,
-                    const CameraView& view, TileMarks& touched) {
+void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks, const Snapshot& snapshot,
+                    const Camera& view, DirtyTiles& touched) {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
-                                     [&](const OcclusionWindow& w) { return w.body == plane.body; });
+                                     [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (window == atlas.windows.end()) return;
     const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
@@ -59,13 +59,13 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
 
 }  // namespace
 
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
-                                          const std::vector<DrawnItem>& items, const CameraView& view,
-                                          const ShadowFit& shadows, const ScreenCover& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const TileMarks& marks) {
-    constexpr int per_tile = TileMarks::tile / ScreenCover::cell;
-    static_assert(per_tile * ScreenCover::cell == TileMarks::tile);
-    TileMarks touched(view, ScreenCover::cell);
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const RenderScene& looks,
+                                          const std::vector<DrawableBounds>& items, const Camera& view,
+                                          const ShadowCascades& shadows, const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
+                                          const Snapshot& snapshot, const DirtyTiles& marks) {
+    constexpr int per_tile = DirtyTiles::tile / CoarseDepthBuffer::cell;
+    static_assert(per_tile * CoarseDepthBuffer::cell == DirtyTiles::tile);
+    DirtyTiles touched(view, CoarseDepthBuffer::cell);
     const ShadowLight light(scene.light, shadows);
     const Rectangle marked = marks.bounds();
     for (std::size_t i = 0; i < items.size() && !touched.all(); ++i)

@@ -1,5 +1,5 @@
 // Where a plane must be drawn over the background, which shows it without shadows and the bodies' darkening: in the cells
-// that these may touch. Not where boxes cover it. Cells are those of ScreenCover, joined into rectangles.
+// that these may touch. Not where boxes cover it. Cells are those of CoarseDepthBuffer, joined into rectangles.
 #pragma once
 
 #include "core/rectangle.h"
@@ -13,9 +13,9 @@ namespace tumble {
 
 /// Within the marked tiles. `items`: what may throw shadows; `atlas`: what is darkened (most bodies' reach far beyond what a
 /// texel tells).
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const SceneLooks& looks,
-                                          const std::vector<DrawnItem>& items, const CameraView& view,
-                                          const ShadowFit& shadows, const ScreenCover& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const TileMarks& marks);
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const RenderScene& looks,
+                                          const std::vector<DrawableBounds>& items, const Camera& view,
+                                          const ShadowCascades& shadows, const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
+                                          const Snapshot& snapshot, const DirtyTiles& marks);
 
 }  // namespace tumble

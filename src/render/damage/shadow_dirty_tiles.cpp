@@ -7,16 +7,16 @@
 
 namespace tumble {
 
-ShadowMarks::ShadowMarks(const ShadowFit& fit)
+ShadowDirtyTiles::ShadowDirtyTiles(const ShadowCascades& fit)
     : fit_(fit), maps_(fit.has_far ? 2 : 1), marks_(std::size_t(maps_ * count * count), 0) {}
 
-void ShadowMarks::mark_all() { std::fill(marks_.begin(), marks_.end(), char(1)); }
+void ShadowDirtyTiles::mark_all() { std::fill(marks_.begin(), marks_.end(), char(1)); }
 
-bool ShadowMarks::none() const { return std::find(marks_.begin(), marks_.end(), char(1)) == marks_.end(); }
-bool ShadowMarks::all() const { return std::find(marks_.begin(), marks_.end(), char(0)) == marks_.end(); }
+bool ShadowDirtyTiles::none() const { return std::find(marks_.begin(), marks_.end(), char(1)) == marks_.end(); }
+bool ShadowDirtyTiles::all() const { return std::find(marks_.begin(), marks_.end(), char(0)) == marks_.end(); }
 
 // Cells from x0 to before x1; empty for what lies beside the map. A texel and a half more for rasterisation.
-ShadowMarks::Range ShadowMarks::range(const DrawnItem& item, int map) const {
+ShadowDirtyTiles::Range ShadowDirtyTiles::range(const DrawableBounds& item, int map) const {
     const double scale = map == 1 ? fit_.far.x : 1.0, shift_x = map == 1 ? fit_.far.y : 0.0;
     const double shift_y = map == 1 ? fit_.far.z : 0.0;
     const double reach = scale * item.radius / (fit_.near_texel * fit_.texels) + 1.5 / fit_.texels;
@@ -34,7 +34,7 @@ ShadowMarks::Range ShadowMarks::range(const DrawnItem& item, int map) const {
     return r;
 }
 
-void ShadowMarks::mark(const DrawnItem& item) {
+void ShadowDirtyTiles::mark(const DrawableBounds& item) {
     for (int map = 0; map < maps_; ++map) {
         const Range r = range(item, map);
         for (int y = r.y0; y < r.y1; ++y)
@@ -42,7 +42,7 @@ void ShadowMarks::mark(const DrawnItem& item) {
     }
 }
 
-bool ShadowMarks::touched_by(const DrawnItem& item) const {
+bool ShadowDirtyTiles::touched_by(const DrawableBounds& item) const {
     for (int map = 0; map < maps_; ++map) {
         const Range r = range(item, map);
         for (int y = r.y0; y < r.y1; ++y)
@@ -52,12 +52,12 @@ bool ShadowMarks::touched_by(const DrawnItem& item) const {
     return false;
 }
 
-void ShadowMarks::settle() {
+void ShadowDirtyTiles::settle() {
     const auto marked = std::count(marks_.begin(), marks_.end(), char(1));
     if (2 * marked > std::ptrdiff_t(marks_.size())) mark_all();
 }
 
-std::vector<Rectangle> ShadowMarks::rectangles() const {
+std::vector<Rectangle> ShadowDirtyTiles::rectangles() const {
     const int texels = (fit_.texels + count - 1) / count;
     std::vector<Rectangle> all;
     for (int map = 0; map < maps_; ++map)

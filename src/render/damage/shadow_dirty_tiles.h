@@ -10,15 +10,15 @@
 
 namespace tumble {
 
-class ShadowMarks {
+class ShadowDirtyTiles {
 public:
     static constexpr int count = 24;   // cells to a side: 32 texels each
 
-    explicit ShadowMarks(const ShadowFit& fit);
+    explicit ShadowDirtyTiles(const ShadowCascades& fit);
 
     void mark_all();
-    void mark(const DrawnItem& item);
-    bool touched_by(const DrawnItem& item) const;
+    void mark(const DrawableBounds& item);
+    bool touched_by(const DrawableBounds& item) const;
 
     /// Marks all where most is marked: one large rectangle is cheaper than many small ones.
     void settle();
@@ -33,9 +33,9 @@ private:
     struct Range {
         int x0, x1, y0, y1;
     };
-    Range range(const DrawnItem& item, int map) const;
+    Range range(const DrawableBounds& item, int map) const;
 
-    ShadowFit fit_;
+    ShadowCascades fit_;
     int maps_;                  // 2 with a far one
     std::vector<char> marks_;   // map by map, row by row
 };

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const SceneLooks& looks, const BodyState& state,
-                         const ShadowLight& light, const CameraView& view)
+VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
+                         const ShadowLight& light, const Camera& view)
     : light_(light), view_(&view), axes_(state.orientation.toRotationMatrix()),
       two_maps_(light.fit.may_look_far(item.center, item.radius)) {
     if (look.fine_surface < 0) {
@@ -15,7 +15,7 @@ VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const Scen
         return;
     }
     const Vec3 origin = view.relative(state.origin);
-    for (const FineSurface::Group& group : looks.fine_surfaces[std::size_t(look.fine_surface)].groups) {
+    for (const OcclusionLightmap::Group& group : looks.fine_surfaces[std::size_t(look.fine_surface)].groups) {
         const Vec3 center = origin + axes_ * group.bounds.center();
         if (view.sees(center, 0.5 * group.bounds.extent().norm())) boxes_.push_back({center, 0.5 * group.bounds.extent()});
     }
@@ -23,7 +23,7 @@ VolumeMarks::VolumeMarks(const DrawnItem& item, const BodyLook& look, const Scen
 
 // A shadow reaches by the filter and the offset along the normal beyond its outline. Near the near map's rim, or beyond, these
 // may be those of the far one.
-void VolumeMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
+void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
     const double near = light_.fit.filter.reach * light_.fit.near_texel, far = light_.fit.filter.reach * light_.fit.far_texel;
     const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
     if (!view_->sees_swept(caster.center, caster.radius + margin, light_.direction)) return;
@@ -31,7 +31,7 @@ void VolumeMarks::mark_shadow(const DrawnItem& caster, TileMarks& marks) const {
 }
 
 // From where to where on its way along the light a box around the caster meets the box (the slabs of Kay and Kajiya 1986).
-void VolumeMarks::mark_in(const Box& box, const DrawnItem& caster, double margin, TileMarks& marks) const {
+void VolumeDamage::mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const {
     double enter = -margin, leave = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
         const Vec3 axis = axes_.col(k);

@@ -8,23 +8,23 @@
 
 namespace tumble {
 
-class VolumeMarks {
+class VolumeDamage {
 public:
     /// `state`: of the body that the item is.
-    VolumeMarks(const DrawnItem& item, const BodyLook& look, const SceneLooks& looks, const BodyState& state,
-                const ShadowLight& light, const CameraView& view);
+    VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
+                const ShadowLight& light, const Camera& view);
 
     /// Marks the caster's shadow.
-    void mark_shadow(const DrawnItem& caster, TileMarks& marks) const;
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
 
 private:
     struct Box {
         Vec3 center, half_size;   // relative to the eye, m; along the axes
     };
-    void mark_in(const Box& box, const DrawnItem& caster, double margin, TileMarks& marks) const;
+    void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const;
 
     ShadowLight light_;
-    const CameraView* view_;
+    const Camera* view_;
     Mat3 axes_;                   // columns
     std::vector<Box> boxes_;
     bool two_maps_;

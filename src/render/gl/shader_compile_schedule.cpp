@@ -15,7 +15,7 @@ constexpr auto until_on_disk = 3ms;    // Mesa writes its files in a thread of i
 
 }  // namespace
 
-void CompilationTurns::run(std::span<const std::function<void()>> parts) {
+void ShaderCompileSchedule::run(std::span<const std::function<void()>> parts) {
     const std::size_t count = std::min(parts.size(), most);
     bool others = false;
     for (std::size_t i = 0; i < count; ++i) {

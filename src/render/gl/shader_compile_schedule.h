@@ -12,7 +12,7 @@
 namespace tumble {
 
 /// Lies in memory that the processes share; zeroed memory is a fresh one.
-class CompilationTurns {
+class ShaderCompileSchedule {
 public:
     static constexpr std::size_t most = 32;   // shaders beyond it are left to their first use
 

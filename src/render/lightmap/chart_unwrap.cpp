@@ -46,7 +46,7 @@ class Unfolding {
 public:
     Unfolding(const MeshAsset& asset, double cell) : asset_(asset), cell_(cell) {}
 
-    std::optional<MeshCharts> run(std::size_t most_texels) {
+    std::optional<ChartedMesh> run(std::size_t most_texels) {
         Bounds bounds;
         for (const MeshAsset::Vertex& v : asset_.vertices) bounds.add(vec3(v.position));
         if (!(bounds.extent().maxCoeff() < most_along * cell_)) return std::nullopt;
@@ -199,7 +199,7 @@ private:
         result_.width = std::max(widest, std::min(int(1.1 * std::sqrt(double(all))) + 1, int(most_along)));
         int x = 0, y = 0, shelf = 0;
         for (const std::size_t i : order) {
-            MeshCharts::Chart& c = result_.charts[i];
+            ChartedMesh::Chart& c = result_.charts[i];
             if (x + c.width > result_.width) {
                 x = 0;
                 y += shelf;
@@ -231,7 +231,7 @@ private:
             chart.push_back(t.chart);
             last = std::uint32_t(result_.vertices.size());
             result_.indices.push_back(last);
-            const MeshCharts::Chart& c = result_.charts[std::size_t(t.chart)];
+            const ChartedMesh::Chart& c = result_.charts[std::size_t(t.chart)];
             const auto& from = first_[std::size_t(t.chart)];
             result_.vertices.push_back(asset_.vertices[asset_.indices[i]]);
             result_.texels.push_back({float(t.corners[i % 3].x() - from[0] + c.x), float(t.corners[i % 3].y() - from[1] + c.y)});
@@ -247,7 +247,7 @@ private:
         std::vector<float> nearest(count, float(rim));
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
             const Triangle& t = triangles_[i];
-            const MeshCharts::Chart& c = result_.charts[std::size_t(t.chart)];
+            const ChartedMesh::Chart& c = result_.charts[std::size_t(t.chart)];
             const auto& from = first_[std::size_t(t.chart)];
             visit(t, rim, [&](int a, int b, double outside) {
                 const int x = a - from[0], y = b - from[1];
@@ -299,12 +299,12 @@ private:
     std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was seen there last
     std::vector<int> sides_;                  // of each chart
     std::vector<std::array<int, 2>> first_;   // texel of each chart, before it is laid out
-    MeshCharts result_;
+    ChartedMesh result_;
 };
 
 }  // namespace
 
-std::optional<MeshCharts> make_mesh_charts(const MeshAsset& asset, double cell, std::size_t most_texels) {
+std::optional<ChartedMesh> make_mesh_charts(const MeshAsset& asset, double cell, std::size_t most_texels) {
     return Unfolding(asset, cell).run(most_texels);
 }
 

@@ -13,7 +13,7 @@
 
 namespace tumble {
 
-struct MeshCharts {
+struct ChartedMesh {
     /// A rectangle of texels, from (x, y) of all on.
     struct Chart {
         int x, y, width, height;
@@ -34,6 +34,6 @@ struct MeshCharts {
 };
 
 /// None when more than `most_texels` are needed, or too many to a side.
-std::optional<MeshCharts> make_mesh_charts(const MeshAsset& asset, double cell, std::size_t most_texels);
+std::optional<ChartedMesh> make_mesh_charts(const MeshAsset& asset, double cell, std::size_t most_texels);
 
 }  // namespace tumble

@@ -13,7 +13,7 @@ constexpr double to_next = 1.1;
 
 constexpr double steepest_ball = 1.8;   // how far apart an octahedral map's texels are, to the average along its middle
 
-Vec3 place_of(const FineSurface& surface, std::size_t texel) {
+Vec3 place_of(const OcclusionLightmap& surface, std::size_t texel) {
     const auto& p = surface.positions[texel];
     return {double(p[0]), double(p[1]), double(p[2])};
 }
@@ -24,10 +24,10 @@ struct Region {
 
 // `used(texel)`; `add(texel, bounds)`: takes in what a texel lies at.
 template <class Used, class Add>
-void add_blocks(FineSurface& surface, const Region& region, const Used& used, const Add& add) {
+void add_blocks(OcclusionLightmap& surface, const Region& region, const Used& used, const Add& add) {
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(surface.width) + std::size_t(x); };
     const auto add_block = [&](int x, int y, int columns, int rows) {
-        FineSurface::Block b{x, y, columns, rows, {}};
+        OcclusionLightmap::Block b{x, y, columns, rows, {}};
         std::size_t any = 0;
         for (int j = y; j < y + rows; ++j)
             for (int i = x; i < x + columns; ++i) {
@@ -45,13 +45,13 @@ void add_blocks(FineSurface& surface, const Region& region, const Used& used, co
         surface.blocks.push_back(b);
         surface.groups.back().bounds.add(b.bounds);
     };
-    for (int y = 0; y < region.height; y += FineSurface::group)
-        for (int x = 0; x < region.width; x += FineSurface::group) {
+    for (int y = 0; y < region.height; y += OcclusionLightmap::group)
+        for (int x = 0; x < region.width; x += OcclusionLightmap::group) {
             surface.groups.push_back({std::uint32_t(surface.blocks.size()), 0, {}});
-            const int end_x = std::min(x + FineSurface::group, region.width), end_y = std::min(y + FineSurface::group, region.height);
-            for (int j = y; j < end_y; j += FineSurface::block)
-                for (int i = x; i < end_x; i += FineSurface::block)
-                    add_block(region.x + i, region.y + j, std::min(FineSurface::block, end_x - i), std::min(FineSurface::block, end_y - j));
+            const int end_x = std::min(x + OcclusionLightmap::group, region.width), end_y = std::min(y + OcclusionLightmap::group, region.height);
+            for (int j = y; j < end_y; j += OcclusionLightmap::block)
+                for (int i = x; i < end_x; i += OcclusionLightmap::block)
+                    add_block(region.x + i, region.y + j, std::min(OcclusionLightmap::block, end_x - i), std::min(OcclusionLightmap::block, end_y - j));
             surface.groups.back().end = std::uint32_t(surface.blocks.size());
             if (surface.groups.back().first == surface.groups.back().end) surface.groups.pop_back();
         }
@@ -67,13 +67,13 @@ Eigen::Vector3f octahedral(float x, float y) {
         .normalized();
 }
 
-FineSurface fine_surface_of_mesh(MeshCharts& charts) {
-    FineSurface surface;
+OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts) {
+    OcclusionLightmap surface;
     surface.width = charts.width;
     surface.height = charts.height;
     surface.positions = std::move(charts.positions);
     surface.normals = std::move(charts.normals);
-    for (const MeshCharts::Chart& c : charts.charts) {
+    for (const ChartedMesh::Chart& c : charts.charts) {
         Vec3 around = Vec3::Constant(to_next * charts.cell);
         around[c.axis] = 0.0;
         add_blocks(surface, {c.x, c.y, c.width, c.height}, [&](std::size_t i) { return charts.used(i); },
@@ -90,8 +90,8 @@ FineSurface fine_surface_of_mesh(MeshCharts& charts) {
     return surface;
 }
 
-FineSurface fine_surface_of_ball(double radius, int texels) {
-    FineSurface surface;
+OcclusionLightmap fine_surface_of_ball(double radius, int texels) {
+    OcclusionLightmap surface;
     surface.width = surface.height = texels;
     for (int j = 0; j < texels; ++j)
         for (int i = 0; i < texels; ++i) {

@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-struct FineSurface {
+struct OcclusionLightmap {
     static constexpr int block = 8;          // texels to a side
     static constexpr int group = 64;         // texels to a side of a group of blocks
     struct Block {
@@ -29,10 +29,10 @@ struct FineSurface {
 };
 
 /// Takes the texels from the charts.
-FineSurface fine_surface_of_mesh(MeshCharts& charts);
+OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts);
 
 /// A ball of `texels` to a side.
-FineSurface fine_surface_of_ball(double radius, int texels);
+OcclusionLightmap fine_surface_of_ball(double radius, int texels);
 
 /// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
 Eigen::Vector3f octahedral(float x, float y);

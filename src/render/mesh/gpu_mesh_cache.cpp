@@ -9,12 +9,12 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 
 }  // namespace
 
-MeshLibrary::MeshLibrary(const GlFunctions& gl, const SceneLooks& looks)
+GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& looks)
     : gl_(&gl), looks_(&looks), instances_(gl, GlKind::buffer) {
     meshes_.resize(scene_mesh(looks.meshes.size(), 0));
 }
 
-void MeshLibrary::make_primitive(std::size_t mesh) {
+void GpuMeshCache::make_primitive(std::size_t mesh) {
     const bool closed = mesh != half_box_mesh;   // that is mirrored as needed: no side of its triangles is the front
     const DrawMesh made = mesh == half_box_mesh   ? make_half_box()
                           : mesh == face_mesh     ? make_face()
@@ -23,22 +23,22 @@ void MeshLibrary::make_primitive(std::size_t mesh) {
     meshes_[mesh].emplace(*gl_, MeshData{made.vertices, made.indices, {}, {}, closed});
 }
 
-void MeshLibrary::make(std::size_t mesh, MeshDetails& details) {
+void GpuMeshCache::make(std::size_t mesh, MeshLods& details) {
     if (mesh < first_scene_mesh) return make_primitive(mesh);
     const std::size_t which = (mesh - first_scene_mesh) / mesh_levels, level = (mesh - first_scene_mesh) % mesh_levels;
-    const MeshLook& look = looks_->meshes[which];
+    const RenderMesh& look = looks_->meshes[which];
     if (look.charts && level == 0) {
-        const MeshCharts& charts = *look.charts;
+        const ChartedMesh& charts = *look.charts;
         meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, look.closed});
     } else if (level == 0) {
         meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, look.closed});
     } else {
-        const MeshDetail& detail = details.at(which, level);
+        const MeshLod& detail = details.at(which, level);
         meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, look.closed});
     }
 }
 
-void MeshLibrary::upload(const DrawList& list, MeshDetails& details) {
+void GpuMeshCache::upload(const DrawList& list, MeshLods& details) {
     for (const std::vector<Batch>* batches : {&list.visible, &list.casters})
         for (const Batch& batch : *batches)
             if (!meshes_[batch.mesh]) make(batch.mesh, details);
@@ -47,7 +47,7 @@ void MeshLibrary::upload(const DrawList& list, MeshDetails& details) {
     gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(instances.size_bytes()), instances.data(), GL_STREAM_DRAW);
 }
 
-void MeshLibrary::draw(const Batch& batch) const {
+void GpuMeshCache::draw(const Batch& batch) const {
     const MeshBuffer& mesh = *meshes_[batch.mesh];
     if (mesh.closed()) {
         gl_->Enable(GL_CULL_FACE);
@@ -57,7 +57,7 @@ void MeshLibrary::draw(const Batch& batch) const {
     mesh.draw(instances_.name(), batch.first, batch.count);
 }
 
-void MeshLibrary::draw_in_view(const Batch& batch) const {
+void GpuMeshCache::draw_in_view(const Batch& batch) const {
     const MeshBuffer& mesh = *meshes_[batch.mesh];
     gl_->Enable(GL_CULL_FACE);
     mesh.draw(instances_.name(), batch.first, batch.count);

@@ -8,12 +8,12 @@
 
 namespace tumble {
 
-class MeshLibrary {
+class GpuMeshCache {
 public:
-    MeshLibrary(const GlFunctions& gl, const SceneLooks& looks);
+    GpuMeshCache(const GlFunctions& gl, const RenderScene& looks);
 
     /// Sends the frame's instances, which the batches drawn next refer to, and meshes that they are the first to need.
-    void upload(const DrawList& list, MeshDetails& details);
+    void upload(const DrawList& list, MeshLods& details);
 
     /// Draws a batch; back faces of closed meshes are left out.
     void draw(const Batch& batch) const;
@@ -23,11 +23,11 @@ public:
     void draw_in_view(const Batch& batch) const;
 
 private:
-    void make(std::size_t mesh, MeshDetails& details);
+    void make(std::size_t mesh, MeshLods& details);
     void make_primitive(std::size_t mesh);
 
     const GlFunctions* gl_;
-    const SceneLooks* looks_;
+    const RenderScene* looks_;
     std::vector<std::optional<MeshBuffer>> meshes_;
     GlObject instances_;
 };

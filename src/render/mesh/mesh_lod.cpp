@@ -65,11 +65,11 @@ Indices fewer_triangles(const MeshAsset& asset, double deviation) {
 
 }  // namespace
 
-double deviation_of_level(const BodyLook& look, std::size_t level) {
+double deviation_of_level(const RenderBody& look, std::size_t level) {
     return level == 0 ? 0.0 : look.bound_radius * finest_deviation * std::ldexp(1.0, int(level) - 1);
 }
 
-std::size_t level_for(const BodyLook& look, const SceneLooks& looks, double deviation) {
+std::size_t level_for(const RenderBody& look, const RenderScene& looks, double deviation) {
     const std::size_t triangles = looks.meshes[look.mesh].asset->indices.size() / 3;
     if (looks.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles) return 0;
     std::size_t level = 0;
@@ -77,17 +77,17 @@ std::size_t level_for(const BodyLook& look, const SceneLooks& looks, double devi
     return level;
 }
 
-std::size_t level_in_view(const BodyLook& look, const SceneLooks& looks, const Vec3& center, const CameraView& view) {
+std::size_t level_in_view(const RenderBody& look, const RenderScene& looks, const Vec3& center, const Camera& view) {
     // Beside the picture's middle what is off by so much lies |p| / depth times as far off in it.
     const double depth = center.dot(view.forward()) - look.bound_radius, distance = center.norm() + look.bound_radius;
     if (!(depth > 0.0) || looks.meshes[look.mesh].charts) return 0;
     return level_for(look, looks, most_detail_error * view.pixel_size() * depth * depth / distance);
 }
 
-MeshDetail simplify(const MeshLook& mesh, double deviation) {
+MeshLod simplify(const RenderMesh& mesh, double deviation) {
     const MeshAsset& asset = *mesh.asset;
     const Indices indices = fewer_triangles(asset, deviation);
-    MeshDetail detail;
+    MeshLod detail;
     std::map<std::uint32_t, std::uint32_t> kept;
     std::map<std::array<float, 3>, std::uint32_t> welded;
     Indices corners;
@@ -109,12 +109,12 @@ MeshDetail simplify(const MeshLook& mesh, double deviation) {
     return detail;
 }
 
-MeshDetails::MeshDetails(const SceneLooks& looks) : looks_(&looks), details_(looks.meshes.size() * (mesh_levels - 1)) {}
+MeshLods::MeshLods(const RenderScene& looks) : looks_(&looks), details_(looks.meshes.size() * (mesh_levels - 1)) {}
 
-const MeshDetail& MeshDetails::at(std::size_t mesh, std::size_t level) {
-    std::optional<MeshDetail>& detail = details_[mesh * (mesh_levels - 1) + level - 1];
+const MeshLod& MeshLods::at(std::size_t mesh, std::size_t level) {
+    std::optional<MeshLod>& detail = details_[mesh * (mesh_levels - 1) + level - 1];
     if (!detail) {
-        const MeshLook& look = looks_->meshes[mesh];
+        const RenderMesh& look = looks_->meshes[mesh];
         detail = simplify(look, look.half_extent.norm() * finest_deviation * std::ldexp(1.0, int(level) - 1));
     }
     return *detail;

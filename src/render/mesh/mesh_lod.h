@@ -14,10 +14,10 @@
 namespace tumble {
 
 /// A simplified mesh: a choice of the asset's vertices.
-struct MeshDetail {
+struct MeshLod {
     std::vector<MeshAsset::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> probe_of_vertex;   // as in MeshLook
+    std::vector<std::uint32_t> probe_of_vertex;   // as in RenderMesh
     TriangleMesh surface;                         // the same triangles, welded: for its outline
 };
 
@@ -30,31 +30,31 @@ inline constexpr std::size_t mesh_levels = 8;
 inline constexpr std::size_t most_whole_triangles = 200'000;
 
 /// How far level `level` may be off, m: 0 for level 0, then 1/512 of the mesh's radius, doubled with each.
-double deviation_of_level(const BodyLook& look, std::size_t level);
+double deviation_of_level(const RenderBody& look, std::size_t level);
 
 /// The coarsest level that is off by no more than `deviation`, m.
-std::size_t level_for(const BodyLook& look, const SceneLooks& looks, double deviation);
+std::size_t level_for(const RenderBody& look, const RenderScene& looks, double deviation);
 
 /// The level to draw a mesh by whose ball is at `center`, relative to the eye.
-std::size_t level_in_view(const BodyLook& look, const SceneLooks& looks, const Vec3& center, const CameraView& view);
+std::size_t level_in_view(const RenderBody& look, const RenderScene& looks, const Vec3& center, const Camera& view);
 
 /// The levels that were asked for, of all meshes of a scene.
-class MeshDetails {
+class MeshLods {
 public:
     /// The looks must outlive it.
-    explicit MeshDetails(const SceneLooks& looks);
+    explicit MeshLods(const RenderScene& looks);
 
     /// Level 1 or beyond, made now if it was not yet. Every vertex of the mesh lies within deviation_of_level() of it, and
     /// its triangles' corners, middles of sides and centres within as much of the mesh. Where that cannot be had with fewer
     /// triangles it has more, all at worst. A few megabytes a level at most.
-    const MeshDetail& at(std::size_t mesh, std::size_t level);
+    const MeshLod& at(std::size_t mesh, std::size_t level);
 
 private:
-    const SceneLooks* looks_;
-    std::vector<std::optional<MeshDetail>> details_;   // mesh by mesh
+    const RenderScene* looks_;
+    std::vector<std::optional<MeshLod>> details_;   // mesh by mesh
 };
 
 /// Exposed for tests: as `at`, of a mesh by itself, with a deviation of so many metres.
-MeshDetail simplify(const MeshLook& mesh, double deviation);
+MeshLod simplify(const RenderMesh& mesh, double deviation);
 
 }  // namespace tumble

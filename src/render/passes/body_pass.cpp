@@ -22,26 +22,26 @@ void connect(const ShaderProgram& program) {
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
 }
 
-SurfacePrograms::SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                                  bool has_cords, bool shadows, const ShadowFilter& filter)
     : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
-    for (const BodyLook& look : looks.bodies)
+    for (const RenderBody& look : looks.bodies)
         if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
-    for (const BodyLook& look : looks.bodies)
+    for (const RenderBody& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
             for (const bool lit : {true, false})
                 program({look.kind, look.pattern != Pattern::plain, lit, false, look.kind == DrawKind::mesh && look.fine_surface >= 0});
     if (has_cords) program({DrawKind::mesh, false, true, false, false});
 }
 
-SurfacePrograms::Variant SurfacePrograms::variant_of(const Batch& batch) {
+BodyPass::Variant BodyPass::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
     return {kind, batch.patterned, batch.lit, batch.wide, batch.charted};
 }
 
-std::size_t SurfacePrograms::index_of(const Variant& variant) {
+std::size_t BodyPass::index_of(const Variant& variant) {
     const std::size_t which = variant.kind == DrawKind::box    ? (variant.lit ? 0 : 1)
                               : variant.kind == DrawKind::ball ? 2
                               : variant.charted                ? 4
@@ -49,7 +49,7 @@ std::size_t SurfacePrograms::index_of(const Variant& variant) {
     return 4 * which + (variant.patterned ? 2 : 0) + (variant.wide ? 1 : 0);
 }
 
-const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
+const ShaderProgram& BodyPass::program(const Variant& variant) {
     auto& made = programs_[index_of(variant)];
     if (made) return *made;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
@@ -69,14 +69,14 @@ const ShaderProgram& SurfacePrograms::program(const Variant& variant) {
     return *made;
 }
 
-void SurfacePrograms::draw(const MeshLibrary& meshes, const std::vector<Batch>& batches) {
+void BodyPass::draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches) {
     for (const Batch& batch : batches) {
         program(variant_of(batch)).use();
         meshes.draw_in_view(batch);
     }
 }
 
-std::vector<std::function<void()>> SurfacePrograms::compilations(const MeshLibrary& meshes,
+std::vector<std::function<void()>> BodyPass::compilations(const GpuMeshCache& meshes,
                                                                  const std::vector<Batch>& batches) {
     std::vector<std::function<void()>> all;
     for (std::size_t i = 0; i < programs_.size(); ++i)

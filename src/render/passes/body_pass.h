@@ -24,17 +24,17 @@ std::vector<std::string> shadow_defines(const ShadowFilter& filter);
 /// Ties a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
-class SurfacePrograms {
+class BodyPass {
 public:
     /// Compiles what the scene's bodies need; the shaders of wide ones when there first is such a one.
-    SurfacePrograms(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                     bool has_cords, bool shadows, const ShadowFilter& filter);
 
-    void draw(const MeshLibrary& meshes, const std::vector<Batch>& batches);
+    void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
     /// For each shader a draw of one instance, where there is one, that has it compiled. The caller sees to it that nothing
     /// of it lands in the picture.
-    std::vector<std::function<void()>> compilations(const MeshLibrary& meshes, const std::vector<Batch>& batches);
+    std::vector<std::function<void()>> compilations(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
 private:
     struct Variant {

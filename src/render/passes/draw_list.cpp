@@ -56,7 +56,7 @@ std::size_t ball_mesh_for(double radius, double error) {   // m
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const BodyLook& look, const BodyState& state, const CameraView& view,
+Instance instance_of(const RenderBody& look, const BodyState& state, const Camera& view,
                      const OcclusionPlace& place, std::size_t body, bool near_shadows) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
@@ -72,7 +72,7 @@ struct CordPlace {
     Quat turn;
 };
 
-CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const CameraView& view) {
+CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& view) {
     const BodyState& state = snapshot.bodies[cord.body];
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
@@ -81,7 +81,7 @@ CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, cons
             Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
 }
 
-Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place, const ShadowFit& shadows) {
+Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place, const ShadowCascades& shadows) {
     const std::array<double, 3> c = to_linear(cord.color);
     const Vec3 scale(cord.radius, std::max(0.5 * place.length, 1e-3 * cord.radius), cord.radius);
     return {to_glm(place.middle, 0.0), to_glm(place.turn), to_glm(scale, cord.radius),
@@ -97,7 +97,7 @@ void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& ligh
         if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
 }
 
-std::size_t mesh_of(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const CameraView& view) {
+std::size_t mesh_of(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view) {
     switch (look.kind) {
         case DrawKind::ball:
             return ball_mesh_for(ball.radius, outline_error * view.pixel_size() *
@@ -110,8 +110,8 @@ std::size_t mesh_of(const BodyLook& look, const SceneLooks& looks, const Boundin
 }
 
 // As fine as the shadow map that it is drawn into.
-std::size_t caster_mesh(const BodyLook& look, const SceneLooks& looks, const BoundingBall& ball, const CameraView& view,
-                        const ShadowFit& shadows) {
+std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view,
+                        const ShadowCascades& shadows) {
     const double texel = shadows.may_look_far(ball.center, ball.radius) ? std::min(shadows.near_texel, shadows.far_texel)
                                                                         : shadows.near_texel;
     if (look.kind == DrawKind::ball)
@@ -138,16 +138,16 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 
 }  // namespace
 
-DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowFit& shadows, const std::vector<char>& wanted,
+DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
+                        const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const ShadowCascades& shadows, const std::vector<char>& wanted,
                         const std::vector<char>& casting) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
     const std::size_t bodies = looks.bodies.size();
     const Vec3 light = scene.light.direction.normalized();
     std::vector<Item> visible, casters;
     for (std::size_t i = 0; i < bodies; ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         const bool in_view = visibility.bodies[i] && wanted[i] != 0;

@@ -38,9 +38,9 @@ struct DrawList {
 
 /// `wanted`, `casting`: of each item of drawn_items.h, whether it is to be drawn where it is visible, and into the shadow
 /// maps.
-DrawList make_draw_list(const SceneDescription& scene, const SceneLooks& looks, const Snapshot& snapshot,
-                        const CameraView& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowFit& shadows, const std::vector<char>& wanted,
+DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
+                        const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
+                        const ShadowCascades& shadows, const std::vector<char>& wanted,
                         const std::vector<char>& casting);
 
 }  // namespace tumble

@@ -17,8 +17,8 @@ bool sun_is_up(const SceneDescription& scene) {
     return true;
 }
 
-FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, int atlas_height, bool widen_rods) {
+FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const Camera& view, double near_distance,
+                                  const ShadowCascades& shadows, int atlas_height, bool widen_rods) {
     FrameUniforms u{};
     u.clip_from_relative = view.clip_from_relative(near_distance);
     u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
@@ -31,7 +31,7 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, co
     u.shadow_far = shadows.far;
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
                                 float(shadows.filter.offset));
-    u.haze = glm::vec4(float(1.0 / (view.haze_distance() * view.haze_distance())), float(view.pixel_size()), 0.0f, 0.0f);
+    u.haze = glm::vec4(float(1.0 / (view.fog_distance() * view.fog_distance())), float(view.pixel_size()), 0.0f, 0.0f);
     if (widen_rods) u.haze.z = float(widest_rod_pixels * view.pixel_size()), u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;

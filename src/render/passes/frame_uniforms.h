@@ -25,7 +25,7 @@ static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4
 bool sun_is_up(const SceneDescription& scene);
 
 /// `sun_up`: else there is no sunlight.
-FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const CameraView& view, double near_distance,
-                                  const ShadowFit& shadows, int atlas_height, bool widen_rods);
+FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const Camera& view, double near_distance,
+                                  const ShadowCascades& shadows, int atlas_height, bool widen_rods);
 
 }  // namespace tumble

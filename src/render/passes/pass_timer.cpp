@@ -13,11 +13,11 @@ double cpu_seconds() {
 
 }  // namespace
 
-StageClock::StageClock(const GlFunctions& gl, RenderTimes* times) : gl_(&gl), times_(times) {
+PassTimer::PassTimer(const GlFunctions& gl, PassTimes* times) : gl_(&gl), times_(times) {
     if (times_ != nullptr) last_ = cpu_seconds();
 }
 
-void StageClock::ends(RenderStage stage) {
+void PassTimer::ends(Pass stage) {
     if (times_ == nullptr) return;
     gl_->Finish();
     const double now = cpu_seconds();

@@ -9,25 +9,25 @@
 
 namespace tumble {
 
-enum class RenderStage { preparation, upload, shadow, background, bodies, planes, sky, edges, read };
+enum class Pass { preparation, upload, shadow, background, bodies, planes, sky, edges, read };
 inline constexpr std::size_t render_stages = 9;
 inline constexpr std::array<const char*, render_stages> render_stage_names = {
     "preparation", "upload", "shadow", "background", "bodies", "planes", "sky", "edges", "read"};
 
 /// CPU seconds of the process, summed over all frames.
-struct RenderTimes {
+struct PassTimes {
     std::array<double, render_stages> seconds{};
 };
 
 /// Writes down the time since the last stage ended. Does nothing, and does not wait, without a place to write to.
-class StageClock {
+class PassTimer {
 public:
-    StageClock(const GlFunctions& gl, RenderTimes* times);
-    void ends(RenderStage stage);
+    PassTimer(const GlFunctions& gl, PassTimes* times);
+    void ends(Pass stage);
 
 private:
     const GlFunctions* gl_;
-    RenderTimes* times_;
+    PassTimes* times_;
     double last_ = 0.0;
 };
 

@@ -18,9 +18,9 @@ constexpr double corner_reach = 2.0;
 
 constexpr int most_other_planes = 6;  // of a box-shaped room, and one more
 
-int other_planes(const SceneLooks& looks) {
+int other_planes(const RenderScene& looks) {
     const auto planes = std::count_if(looks.bodies.begin(), looks.bodies.end(),
-                                      [](const BodyLook& look) { return look.kind == DrawKind::plane; });
+                                      [](const RenderBody& look) { return look.kind == DrawKind::plane; });
     return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, most_other_planes));
 }
 
@@ -39,7 +39,7 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 
 }  // namespace
 
-PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                            bool shadows, const ShadowFilter& filter)
     : gl_(&gl),
       shaders_(shaders),
@@ -50,7 +50,7 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
       array_(gl, GlKind::vertex_array),
       corners_(gl, GlKind::buffer) {
     connect(sky_);
-    for (const BodyLook& look : looks.bodies) {
+    for (const RenderBody& look : looks.bodies) {
         auto& programs = planes_[std::size_t(look.pattern)];
         if (look.kind != DrawKind::plane || programs) continue;
         programs.emplace(Programs{make(look.pattern, {}), make(look.pattern, touched()), std::nullopt});
@@ -62,18 +62,18 @@ PlanePainter::PlanePainter(const GlFunctions& gl, const std::filesystem::path& s
     gl.BindVertexArray(0);
 }
 
-ShaderProgram PlanePainter::make(Pattern pattern, const std::vector<std::string>& more) const {
+ShaderProgram PlanePass::make(Pattern pattern, const std::vector<std::string>& more) const {
     ShaderProgram made(*gl_, shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
     connect(made);
     return made;
 }
 
-std::vector<std::string> PlanePainter::touched() const {
+std::vector<std::string> PlanePass::touched() const {
     std::vector<std::string> all = {"TOUCHED"};
     return shadows_ ? with(with(all, {"SHADOWED"}), shadow_defines(filter_)) : all;
 }
 
-std::vector<std::function<void()>> PlanePainter::compilations() const {
+std::vector<std::function<void()>> PlanePass::compilations() const {
     std::vector<std::function<void()>> all;
     const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles it for each such comparison
         all.emplace_back([this, &program, nearer] {
@@ -91,13 +91,13 @@ std::vector<std::function<void()>> PlanePainter::compilations() const {
     return all;
 }
 
-void PlanePainter::draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const {
+void PlanePass::draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const {
     const std::vector<glm::vec3> sky = sky_polygon(planes, view);
     sky_.use();
     if (sky.size() >= 3) draw_polygon(sky);
 }
 
-void PlanePainter::draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const {
+void PlanePass::draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
     // What is as near stays: bodies and touched areas drawn before, as they would be drawn over this. So the last of
     // planes that meet, which are drawn over each other in the touched areas, comes first here.
     gl_->DepthFunc(GL_LESS);
@@ -108,9 +108,9 @@ void PlanePainter::draw_open(const std::vector<PlanePatch>& planes, const SceneL
     gl_->DepthFunc(GL_LEQUAL);
 }
 
-void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                                const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                                const CameraView& view, bool far_shadows) {
+void PlanePass::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
+                                const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                                const Camera& view, bool far_shadows) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
@@ -132,9 +132,9 @@ void PlanePainter::draw_touched(const std::vector<PlanePatch>& planes, const std
     gl_->Disable(GL_SCISSOR_TEST);
 }
 
-void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
-                                const std::vector<PlanePatch>& planes, const SceneLooks& looks) const {
-    const BodyLook& look = looks.bodies[plane.body];
+void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
+                                const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
+    const RenderBody& look = looks.bodies[plane.body];
     program.use();
     program.set("plane_normal", to_glm(plane.normal, plane.height));
     program.set("plane_u", plane.u);
@@ -150,10 +150,10 @@ void PlanePainter::set_uniforms(const ShaderProgram& program, const PlanePatch& 
     gl_->Uniform1f(program.uniform("other_reach"), float(corner_reach * looks.typical_reach));
 }
 
-void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                              const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const {
+void PlanePass::set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                              const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
-                                     [&](const OcclusionWindow& w) { return w.body == plane.body; });
+                                     [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (window == atlas.windows.end()) {  // texel 0, 0 is open
         for (const char* name : {"window_u", "window_v", "window_rim"}) program.set(name, glm::vec4(0.0f));
         return;
@@ -168,7 +168,7 @@ void PlanePainter::set_window(const ShaderProgram& program, const PlanePatch& pl
                                         float(window->y + window->height - 1)));
 }
 
-void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
+void PlanePass::draw_polygon(const std::vector<glm::vec3>& corners) const {
     gl_->Disable(GL_CULL_FACE);
     gl_->BindVertexArray(array_.name());
     upload_polygon(corners);
@@ -176,7 +176,7 @@ void PlanePainter::draw_polygon(const std::vector<glm::vec3>& corners) const {
     gl_->BindVertexArray(0);
 }
 
-void PlanePainter::upload_polygon(const std::vector<glm::vec3>& corners) const {
+void PlanePass::upload_polygon(const std::vector<glm::vec3>& corners) const {
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners.size() * sizeof(glm::vec3)), corners.data(), GL_STREAM_DRAW);
 }

@@ -15,22 +15,22 @@
 
 namespace tumble {
 
-class PlanePainter {
+class PlanePass {
 public:
-    PlanePainter(const GlFunctions& gl, const std::filesystem::path& shaders, const SceneLooks& looks,
+    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                  bool shadows, const ShadowFilter& filter);
 
     /// The sky, where no plane is. Before anything else: at the horizon a plane's depth rounds to the sky's.
-    void draw_sky(const std::vector<PlanePatch>& planes, const CameraView& view) const;
+    void draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const;
 
     /// All planes without bodies' shadows and darkening, where nothing as near has been drawn. It does not matter whether
     /// bodies and touched areas come before or after.
-    void draw_open(const std::vector<PlanePatch>& planes, const SceneLooks& looks) const;
+    void draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const;
 
     /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
     void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                      const SceneLooks& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                      const CameraView& view, bool far_shadows);
+                      const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                      const Camera& view, bool far_shadows);
 
     /// For each shader a draw that has it compiled. The caller sees to it that nothing of it lands in the picture.
     std::vector<std::function<void()>> compilations() const;
@@ -43,9 +43,9 @@ private:
     ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
     std::vector<std::string> touched() const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
-                      const SceneLooks& looks) const;
+                      const RenderScene& looks) const;
     void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                    const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) const;
+                    const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const;
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
     void draw_polygon(const std::vector<glm::vec3>& corners) const;
 

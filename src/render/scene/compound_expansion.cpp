@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-DrawnParts::DrawnParts(const SceneDescription& scene) : scene_(scene) {
+CompoundExpansion::CompoundExpansion(const SceneDescription& scene) : scene_(scene) {
     const auto compound = [](const BodyDescription& body) { return std::holds_alternative<CompoundShape>(body.shape); };
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(), compound)) return;
     scene_.bodies.clear();
@@ -38,13 +38,13 @@ DrawnParts::DrawnParts(const SceneDescription& scene) : scene_(scene) {
     for (ForceDescription& force : scene_.forces) force.body = first[force.body];
 }
 
-void DrawnParts::forget_bodies() {
+void CompoundExpansion::forget_bodies() {
     for (const BodyDescription& body : scene_.bodies)
         if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) assets_.insert(mesh->asset);
     scene_.bodies = std::vector<BodyDescription>();
 }
 
-const Snapshot& DrawnParts::snapshot(const Snapshot& whole) {
+const Snapshot& CompoundExpansion::snapshot(const Snapshot& whole) {
     if (parts_.empty()) return whole;
     snapshot_.frame = whole.frame;
     snapshot_.time = whole.time;

@@ -11,9 +11,9 @@
 
 namespace tumble {
 
-class DrawnParts {
+class CompoundExpansion {
 public:
-    explicit DrawnParts(const SceneDescription& scene);
+    explicit CompoundExpansion(const SceneDescription& scene);
 
     /// The scene with every compound replaced by its parts, at its own place in the list; cords are hung to the first.
     const SceneDescription& scene() const { return scene_; }

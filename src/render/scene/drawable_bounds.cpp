@@ -3,8 +3,8 @@
 namespace tumble {
 namespace {
 
-DrawnItem body_item(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const CameraView& view) {
-    DrawnItem item;
+DrawableBounds body_item(const RenderBody& look, const RenderScene& looks, const BodyState& state, const Camera& view) {
+    DrawableBounds item;
     if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) return item;
     const BoundingBall ball = bounding_ball(look, state, view);
     item.center = ball.center;
@@ -14,10 +14,10 @@ DrawnItem body_item(const BodyLook& look, const SceneLooks& looks, const BodySta
     return item;
 }
 
-DrawnItem cord_item(const CordDescription& cord, const BodyState& state, const CameraView& view) {
+DrawableBounds cord_item(const CordDescription& cord, const BodyState& state, const Camera& view) {
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
-    DrawnItem item;
+    DrawableBounds item;
     item.center = 0.5 * (from + to);
     item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
     const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), to - from);
@@ -27,7 +27,7 @@ DrawnItem cord_item(const CordDescription& cord, const BodyState& state, const C
 
 }  // namespace
 
-std::array<Vec3, 8> DrawnItem::corners() const {
+std::array<Vec3, 8> DrawableBounds::corners() const {
     std::array<Vec3, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
         corners[i] = center;
@@ -47,9 +47,9 @@ std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3
     return corners;
 }
 
-std::vector<DrawnItem> make_drawn_items(const SceneDescription& scene, const SceneLooks& looks,
-                                        const Snapshot& snapshot, const CameraView& view) {
-    std::vector<DrawnItem> items;
+std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
+                                        const Snapshot& snapshot, const Camera& view) {
+    std::vector<DrawableBounds> items;
     items.reserve(looks.bodies.size() + scene.cords.size());
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
         items.push_back(body_item(looks.bodies[i], looks, snapshot.bodies[i], view));

@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-struct DrawnItem {
+struct DrawableBounds {
     Mat3 half_axes;                // of a box around it: from its middle to the middles of its high sides
     Vec3 center;                   // of that box and of a ball around it, relative to the eye
     double radius = -1.0;          // m; negative: nothing is drawn
@@ -19,8 +19,8 @@ struct DrawnItem {
     bool exists() const { return radius >= 0.0; }
 };
 
-std::vector<DrawnItem> make_drawn_items(const SceneDescription& scene, const SceneLooks& looks,
-                                        const Snapshot& snapshot, const CameraView& view);
+std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
+                                        const Snapshot& snapshot, const Camera& view);
 
 /// The corners of a box.
 std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size);

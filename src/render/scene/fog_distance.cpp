@@ -13,7 +13,7 @@ namespace {
 constexpr double about_there = 2.0;
 
 // Half of a thing's light is haze at this many viewing distances: the ground ends softly, the bodies stay clear.
-constexpr double half_haze = 5.0;
+constexpr double half_fog = 5.0;
 
 // A body counts as large in the picture from this part of its height on: 7 pixels of 720. What is lost is smaller.
 constexpr double large_part = 0.01;
@@ -22,7 +22,7 @@ constexpr double large_part = 0.01;
 constexpr double beyond_large = 2.0;
 
 // From a point to the box around a body, m; 0 within it.
-double gap_to(const Vec3& eye, const BodyLook& look, const Vec3& origin, const Quat& rotation, const SceneLooks& looks) {
+double gap_to(const Vec3& eye, const RenderBody& look, const Vec3& origin, const Quat& rotation, const RenderScene& looks) {
     const Vec3& half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
     const Vec3 from = rotation.conjugate() * (eye - origin) - look.bound_center;
     return (from.cwiseAbs() - half_size).cwiseMax(0.0).norm();
@@ -30,14 +30,14 @@ double gap_to(const Vec3& eye, const BodyLook& look, const Vec3& origin, const Q
 
 }  // namespace
 
-double viewing_distance(const SceneDescription& scene, const SceneLooks& looks) {
+double viewing_distance(const SceneDescription& scene, const RenderScene& looks) {
     double to_target = 0.0, to_bodies = 0.0;
     std::vector<double> distances;
     const auto add = [&](const Vec3& eye, const Vec3& target) {
         to_target = std::max(to_target, (target - eye).norm());
         distances.clear();
         for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            const BodyLook& look = looks.bodies[i];
+            const RenderBody& look = looks.bodies[i];
             if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
             const BodyDescription& body = scene.bodies[i];
             distances.push_back((body.position + body.rotation * look.bound_center - eye).norm());
@@ -51,19 +51,19 @@ double viewing_distance(const SceneDescription& scene, const SceneLooks& looks) 
     return to_target > 0.0 ? to_target : 1.0;
 }
 
-double haze_distance(const SceneDescription& scene, const SceneLooks& looks, double viewing_distance) {
-    double haze = half_haze * viewing_distance;
+double fog_distance(const SceneDescription& scene, const RenderScene& looks, double viewing_distance) {
+    double haze = half_fog * viewing_distance;
     const auto seen_from = [&](const CameraDescription& camera) {
-        const CameraView view(camera, scene.output.width, scene.output.height);
+        const Camera view(camera, scene.output.width, scene.output.height);
         const double least_slope = large_part * view.pixel_size() * view.height();   // of a body's width to its distance
-        const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation) {
+        const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation) {
             const Vec3 center = view.relative(origin + rotation * look.bound_center);
             const bool large = 2.0 * look.bound_radius >= least_slope * center.norm();
             if (large && (camera.moves() || view.sees(center, look.bound_radius)))
                 haze = std::max(haze, beyond_large * gap_to(camera.eye, look, origin, rotation, looks));
         };
         for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            const BodyLook& look = looks.bodies[i];
+            const RenderBody& look = looks.bodies[i];
             if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
             add(look, scene.bodies[i].position, scene.bodies[i].rotation);
             for (const Keyframe& key : scene.bodies[i].keyframes) add(look, key.position, key.rotation);

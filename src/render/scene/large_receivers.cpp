@@ -28,11 +28,11 @@ struct Extent {
     double size() const { return (high - low).maxCoeff(); }
 };
 
-bool is_solid(const BodyLook& look) { return look.kind != DrawKind::hidden && look.kind != DrawKind::plane; }
+bool is_solid(const RenderBody& look) { return look.kind != DrawKind::hidden && look.kind != DrawKind::plane; }
 
 }  // namespace
 
-void find_grounds(const SceneDescription& scene, SceneLooks& looks) {
+void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
     std::vector<std::size_t> by_size;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
         if (is_solid(looks.bodies[i])) by_size.push_back(i);
@@ -43,7 +43,7 @@ void find_grounds(const SceneDescription& scene, SceneLooks& looks) {
     Extent rest;
     double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no ground
     for (const std::size_t i : by_size) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (2.0 * look.bound_radius > ground_of_rest * std::max(rest.size(), least_rest * largest_reach)) {
             grounds.push_back(i);
             continue;
@@ -57,9 +57,9 @@ void find_grounds(const SceneDescription& scene, SceneLooks& looks) {
         for (const std::size_t i : grounds) looks.bodies[i].ground = true;
 }
 
-Landing::Landing(const SceneDescription& scene, const SceneLooks& looks) {
+RestHeightEstimate::RestHeightEstimate(const SceneDescription& scene, const RenderScene& looks) {
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         const BodyDescription& body = scene.bodies[i];
         if (look.kind == DrawKind::plane) {
             BodyState state;
@@ -74,7 +74,7 @@ Landing::Landing(const SceneDescription& scene, const SceneLooks& looks) {
     }
 }
 
-double Landing::fall(const Vec3& point, const Vec3& down) const {
+double RestHeightEstimate::fall(const Vec3& point, const Vec3& down) const {
     double fall = std::numeric_limits<double>::infinity();
     for (const PlaneShape& plane : planes_) {
         const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;

@@ -6,13 +6,13 @@
 
 namespace tumble {
 
-/// Sets BodyLook::ground of those that are much larger than all smaller bodies together, as they start.
-void find_grounds(const SceneDescription& scene, SceneLooks& looks);
+/// Sets RenderBody::ground of those that are much larger than all smaller bodies together, as they start.
+void find_large_receivers(const SceneDescription& scene, RenderScene& looks);
 
 /// How far a point falls until it meets a plane or a ground, as they start, m; 0 where there is none below. `down`: unit.
-class Landing {
+class RestHeightEstimate {
 public:
-    Landing(const SceneDescription& scene, const SceneLooks& looks);
+    RestHeightEstimate(const SceneDescription& scene, const RenderScene& looks);
     double fall(const Vec3& point, const Vec3& down) const;
 
 private:

@@ -13,8 +13,8 @@ constexpr double nearest_part = 1e-4;
 
 // The ball around a ground often holds the eye; but what is in view of the box around it is no nearer than its nearest
 // point, and along the axis less by a corner's cosine.
-double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
-                   const CameraView& view) {
+double least_depth(const RenderBody& look, const RenderScene& looks, const BodyState& state, const BoundingBall& ball,
+                   const Camera& view) {
     const double depth = ball.center.dot(view.forward()) - ball.radius;
     if (!look.ground) return depth;
     const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
@@ -26,7 +26,7 @@ double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyStat
     return std::max(depth, gap / longest);
 }
 
-double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view) {
+double near_distance_for(const RenderScene& looks, const Snapshot& snapshot, const Camera& view) {
     double nearest = view.target_distance();
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         if (looks.bodies[i].kind == DrawKind::hidden || looks.bodies[i].kind == DrawKind::plane) continue;

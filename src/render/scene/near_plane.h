@@ -7,11 +7,11 @@
 namespace tumble {
 
 /// How deep at least what is in view of a body lies, m.
-double least_depth(const BodyLook& look, const SceneLooks& looks, const BodyState& state, const BoundingBall& ball,
-                   const CameraView& view);
+double least_depth(const RenderBody& look, const RenderScene& looks, const BodyState& state, const BoundingBall& ball,
+                   const Camera& view);
 
 /// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
 /// movements do not round all depths anew.
-double near_distance_for(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view);
+double near_distance_for(const RenderScene& looks, const Snapshot& snapshot, const Camera& view);
 
 }  // namespace tumble

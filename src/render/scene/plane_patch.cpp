@@ -17,7 +17,7 @@ using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
 Polygon whole_screen() { return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}; }
 
 // How steeply the ray through a point of clip space goes down to a plane: linear in the point.
-double fall_at(const Vec3& normal, const Eigen::Vector2d& at, const CameraView& view) {
+double fall_at(const Vec3& normal, const Eigen::Vector2d& at, const Camera& view) {
     return -normal.dot(view.ray(0.5 * (at.x() + 1.0) * view.width(), 0.5 * (at.y() + 1.0) * view.height()));
 }
 
@@ -41,7 +41,7 @@ glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell) 
 
 }  // namespace
 
-PlaneShape plane_in_world(const BodyLook& look, const BodyState& state) {
+PlaneShape plane_in_world(const RenderBody& look, const BodyState& state) {
     const Vec3 normal = state.orientation * look.plane.normal;
     return {normal, look.plane.offset + normal.dot(state.origin)};
 }
@@ -60,8 +60,8 @@ double pattern_cell(double viewing_distance) {
 
 namespace {
 
-std::optional<PlanePatch> make_plane_patch(const BodyLook& look, const BodyState& state, std::size_t body,
-                                           const CameraView& view, double near_distance, double cell) {
+std::optional<PlanePatch> make_plane_patch(const RenderBody& look, const BodyState& state, std::size_t body,
+                                           const Camera& view, double near_distance, double cell) {
     const PlaneShape plane = plane_in_world(look, state);
     PlanePatch patch;
     patch.normal = plane.normal;
@@ -86,7 +86,7 @@ std::optional<PlanePatch> make_plane_patch(const BodyLook& look, const BodyState
 
 }  // namespace
 
-std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
                                            double near_distance) {
     const double cell = pattern_cell(view.viewing_distance());
     std::vector<PlanePatch> patches;
@@ -98,7 +98,7 @@ std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapsh
     return patches;
 }
 
-std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view) {
+std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const Camera& view) {
     Polygon polygon = whole_screen();
     for (const PlanePatch& plane : planes) {
         const double overlap = 2.0 * view.pixel_size();  // the change of fall over two pixels, at most

@@ -23,17 +23,17 @@ struct PlanePatch {
 };
 
 /// Those in view from their open side: one looks through walls from behind.
-std::vector<PlanePatch> make_plane_patches(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
                                            double near_distance);
 
 /// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip
 /// space.
-std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const CameraView& view);
+std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const Camera& view);
 
 /// A round length (1, 2 or 5 times a power of ten) near to a fifteenth of the viewing distance: 1 m at 15 m.
 double pattern_cell(double viewing_distance);
 
 /// The plane in the world: unit normal and offset (points p with normal . p = offset).
-PlaneShape plane_in_world(const BodyLook& look, const BodyState& state);
+PlaneShape plane_in_world(const RenderBody& look, const BodyState& state);
 
 }  // namespace tumble

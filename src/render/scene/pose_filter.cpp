@@ -34,7 +34,7 @@ double radius_of(const Shape& shape) {
 
 }  // namespace
 
-DrawnPoses::DrawnPoses(const SceneDescription& scene)
+PoseFilter::PoseFilter(const SceneDescription& scene)
     : path_(scene.camera),
       camera_(scene.camera),
       followed_(scene.camera.follow),
@@ -46,7 +46,7 @@ DrawnPoses::DrawnPoses(const SceneDescription& scene)
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
 }
 
-bool DrawnPoses::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
+bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
     const double radius = radii_[body];
     if (radius == 0.0) return true;   // not drawn at all
     const double way = (state.origin - drawn.origin).norm();
@@ -57,7 +57,7 @@ bool DrawnPoses::may_stay(std::size_t body, const Pose& drawn, const BodyState& 
     return way + 2.0 * radius * turn <= drawn_tolerance * view_.pixel_size() * nearest;
 }
 
-bool DrawnPoses::settle(std::size_t body, BodyState& state) {
+bool PoseFilter::settle(std::size_t body, BodyState& state) {
     Pose& drawn = drawn_[body];
     if (may_stay(body, drawn, state)) {
         state.origin = drawn.origin;
@@ -69,7 +69,7 @@ bool DrawnPoses::settle(std::size_t body, BodyState& state) {
     return true;
 }
 
-bool DrawnPoses::follow(Snapshot& snapshot) {
+bool PoseFilter::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
     bool moved = std::exchange(first_, false);
     if (moved)

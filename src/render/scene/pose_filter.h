@@ -7,7 +7,7 @@
 // Where the camera moves, every pose is the true one (of a body that the camera follows, too, unless it only trembles:
 // then the camera rests with it).
 //
-// Every frame of a clip goes through one DrawnPoses, in order, before any is drawn: then all workers, and a full redraw,
+// Every frame of a clip goes through one PoseFilter, in order, before any is drawn: then all workers, and a full redraw,
 // see the same drawn poses. Needs no OpenGL.
 #pragma once
 
@@ -22,9 +22,9 @@ namespace tumble {
 
 inline constexpr double drawn_tolerance = 0.02;   // pixels: far below what smooth edges show, far above rounding
 
-class DrawnPoses {
+class PoseFilter {
 public:
-    explicit DrawnPoses(const SceneDescription& scene);
+    explicit PoseFilter(const SceneDescription& scene);
 
     /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when
     /// they are those of the call before: the picture is the same to the last byte; never when the camera has moved. The
@@ -42,10 +42,10 @@ private:
     /// The pose to draw of one body; false: that of before.
     bool settle(std::size_t body, BodyState& state);
 
-    CameraPath path_;
+    CameraAnimation path_;
     CameraDescription camera_;
     std::optional<std::size_t> followed_;
-    CameraView view_;
+    Camera view_;
     std::vector<double> radii_;   // m, of each body around its origin; 0 where nothing of it is drawn; infinite: a plane
     std::vector<Pose> drawn_;     // empty before the first call
     bool first_ = true;           // no call yet; a scene may have no bodies

@@ -26,8 +26,8 @@ double reach_of(const Vec3& half_size) {
     return std::min(reach_of_half_edge * h[1], reach_of_thin_side * h[0]);
 }
 
-MeshLook make_mesh_look(const MeshAsset& asset) {
-    MeshLook look;
+RenderMesh make_mesh_look(const MeshAsset& asset) {
+    RenderMesh look;
     look.asset = &asset;
     const Closedness form = closedness(asset.surface);
     look.closed = form.closed() && form.signed_volume > 0.0;
@@ -38,12 +38,12 @@ MeshLook make_mesh_look(const MeshAsset& asset) {
     return look;
 }
 
-void set_shape(BodyLook& look, const PlaneShape& plane, SceneLooks&) {
+void set_shape(RenderBody& look, const PlaneShape& plane, RenderScene&) {
     look.kind = DrawKind::plane;
     look.plane = plane;
 }
 
-void set_shape(BodyLook& look, const BoxShape& box, SceneLooks&) {
+void set_shape(RenderBody& look, const BoxShape& box, RenderScene&) {
     look.kind = DrawKind::box;
     look.half_size = 0.5 * box.size;
     look.bound_radius = look.half_size.norm();
@@ -52,7 +52,7 @@ void set_shape(BodyLook& look, const BoxShape& box, SceneLooks&) {
     look.pattern_cell = pattern_cell_of_radius * look.half_size.minCoeff();
 }
 
-void set_shape(BodyLook& look, const SphereShape& sphere, SceneLooks&) {
+void set_shape(RenderBody& look, const SphereShape& sphere, RenderScene&) {
     look.kind = DrawKind::ball;
     look.half_size = Vec3::Constant(sphere.radius);
     look.pattern_cell = pattern_cell_of_radius * sphere.radius;
@@ -60,29 +60,29 @@ void set_shape(BodyLook& look, const SphereShape& sphere, SceneLooks&) {
     look.reach = reach_of(look.half_size);
 }
 
-void set_shape(BodyLook& look, const MeshShape& mesh, SceneLooks& looks) {
+void set_shape(RenderBody& look, const MeshShape& mesh, RenderScene& looks) {
     const MeshAsset* asset = mesh.asset.get();
     if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
     look.kind = DrawKind::mesh;
     const auto known = std::find_if(looks.meshes.begin(), looks.meshes.end(),
-                                    [&](const MeshLook& other) { return other.asset == asset; });
+                                    [&](const RenderMesh& other) { return other.asset == asset; });
     look.mesh = std::size_t(known - looks.meshes.begin());
     if (known == looks.meshes.end()) looks.meshes.push_back(make_mesh_look(*asset));
-    const MeshLook& shared = looks.meshes[look.mesh];
+    const RenderMesh& shared = looks.meshes[look.mesh];
     look.bound_center = shared.bound_center;
     look.bound_radius = shared.half_extent.norm();
     look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);  // a flat sheet has no thickness
     look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
-void set_shape(BodyLook&, const CompoundShape&, SceneLooks&) {}   // drawn_parts.h has taken them apart
+void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}   // drawn_parts.h has taken them apart
 
 }  // namespace
 
-SceneLooks describe_bodies(const SceneDescription& scene) {
-    SceneLooks looks;
+RenderScene describe_bodies(const SceneDescription& scene) {
+    RenderScene looks;
     for (const BodyDescription& body : scene.bodies) {
-        BodyLook look;
+        RenderBody look;
         look.fixed = body.type == BodyType::fixed;
         if (body.surface.visible) {
             std::visit([&](const auto& shape) { set_shape(look, shape, looks); }, body.shape);
@@ -95,21 +95,21 @@ SceneLooks describe_bodies(const SceneDescription& scene) {
         if (look.kind == DrawKind::plane) looks.planes.push_back(looks.bodies.size());
         looks.bodies.push_back(look);
     }
-    find_grounds(scene, looks);
+    find_large_receivers(scene, looks);
     std::vector<double> reaches;
-    for (const BodyLook& look : looks.bodies)
+    for (const RenderBody& look : looks.bodies)
         if (look.reach > 0.0 && !look.ground) reaches.push_back(look.reach);
     if (!reaches.empty()) {
         const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
         std::nth_element(reaches.begin(), middle, reaches.end());
         looks.typical_reach = *middle;
     }
-    for (const BodyLook& look : looks.bodies)
+    for (const RenderBody& look : looks.bodies)
         if (look.kind == DrawKind::mesh) looks.mesh_triangles += looks.meshes[look.mesh].asset->indices.size() / 3;
     return looks;
 }
 
-BoundingBall bounding_ball(const BodyLook& look, const BodyState& state, const CameraView& view) {
+BoundingBall bounding_ball(const RenderBody& look, const BodyState& state, const Camera& view) {
     return {view.relative(state.origin) + state.orientation * look.bound_center, look.bound_radius};
 }
 

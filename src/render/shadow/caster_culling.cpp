@@ -14,21 +14,21 @@ constexpr double depth_margin = 5e-4;    // of the depths' range; interpolation 
 constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Vec3 to_map(const ShadowFit& fit, const Vec3& v) {
+Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
     const auto dot = [&](const glm::vec4& row) { return row.x * v.x() + row.y * v.y() + row.z * v.z(); };
     return {fit.texels * dot(fit.x), fit.texels * dot(fit.y), dot(fit.z)};
 }
 
 }  // namespace
 
-ShadowCover::ShadowCover(const ShadowFit& fit)
+CasterCulling::CasterCulling(const ShadowCascades& fit)
     : fit_(&fit), count_((fit.texels + cell - 1) / cell), depths_(std::size_t(count_) * std::size_t(count_), infinity) {}
 
-Vec3 ShadowCover::place(const Vec3& point) const {
+Vec3 CasterCulling::place(const Vec3& point) const {
     return to_map(*fit_, point) + Vec3(fit_->texels * double(fit_->x.w), fit_->texels * double(fit_->y.w), double(fit_->z.w));
 }
 
-ShadowCover::Outline ShadowCover::outline(const DrawnItem& item) const {
+CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const {
     std::array<Vec3, 3> axes;
     for (int k = 0; k < 3; ++k) axes[std::size_t(k)] = to_map(*fit_, item.half_axes.col(k));
     const Vec3 center = place(item.center);
@@ -51,7 +51,7 @@ ShadowCover::Outline ShadowCover::outline(const DrawnItem& item) const {
 }
 
 template <class See>
-bool ShadowCover::for_each_row(const Outline& o, bool wholly, See see) {
+bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
     const int first_row = int(std::floor((o.v - o.reach_v - margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + margin) / cell));
     for (int row = first_row; row <= last_row; ++row) {
         const double y = (row + 0.5) * cell - o.v;
@@ -74,7 +74,7 @@ bool ShadowCover::for_each_row(const Outline& o, bool wholly, See see) {
     return true;
 }
 
-void ShadowCover::add(const DrawnItem& box) {
+void CasterCulling::add(const DrawableBounds& box) {
     const Outline o = outline(box);
     for_each_row(o, true, [&](int row, int first, int last) {
         if (row < 0 || row >= count_) return true;
@@ -90,7 +90,7 @@ void ShadowCover::add(const DrawnItem& box) {
     });
 }
 
-bool ShadowCover::hides(const DrawnItem& item) const {
+bool CasterCulling::hides(const DrawableBounds& item) const {
     // Most are seen at their middle.
     const Vec3 middle = place(item.center) / cell;
     if (!(middle.x() >= 0.0 && middle.x() < count_ && middle.y() >= 0.0 && middle.y() < count_)) return false;
@@ -109,7 +109,7 @@ bool ShadowCover::hides(const DrawnItem& item) const {
     });
 }
 
-void drop_hidden_casters(const SceneLooks& looks, const std::vector<DrawnItem>& items, const ShadowFit& fit,
+void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBounds>& items, const ShadowCascades& fit,
                          std::vector<char>& casting) {
     struct Caster {
         double depth;
@@ -122,7 +122,7 @@ void drop_hidden_casters(const SceneLooks& looks, const std::vector<DrawnItem>& 
     std::sort(casters.begin(), casters.end(), [](const Caster& a, const Caster& b) {
         return a.depth != b.depth ? a.depth < b.depth : a.item < b.item;
     });
-    ShadowCover cover(fit);
+    CasterCulling cover(fit);
     for (const Caster& caster : casters) {
         if (cover.hides(items[caster.item])) casting[caster.item] = 0;
         else if (caster.item < looks.bodies.size() && looks.bodies[caster.item].kind == DrawKind::box) cover.add(items[caster.item]);

@@ -12,14 +12,14 @@
 
 namespace tumble {
 
-class ShadowCover {
+class CasterCulling {
 public:
-    explicit ShadowCover(const ShadowFit& fit);
+    explicit CasterCulling(const ShadowCascades& fit);
 
-    void add(const DrawnItem& box);
+    void add(const DrawableBounds& box);
 
     /// Is the box around the item hidden by those that were added? Not where it leaves the near map.
-    bool hides(const DrawnItem& item) const;
+    bool hides(const DrawableBounds& item) const;
 
 private:
     // A box as the sun sees it: a hexagon in texels from its middle, and over it three fronts, the deepest of which counts.
@@ -36,20 +36,20 @@ private:
         std::array<Front, 3> fronts;
     };
     Vec3 place(const Vec3& point) const;   // texels, and the depth
-    Outline outline(const DrawnItem& item) const;
+    Outline outline(const DrawableBounds& item) const;
 
     // Calls see(row, first column, last column) for the cells that lie within the hexagon wholly, or at least partly, beside
     // the map as well. Stops and is false where that is false.
     template <class See>
     static bool for_each_row(const Outline& o, bool wholly, See see);
 
-    const ShadowFit* fit_;
+    const ShadowCascades* fit_;
     int count_;                        // cells to a side
     std::vector<double> depths_;
 };
 
 /// Takes those out of `casting` (of each item) that are hidden from the sun by boxes among them.
-void drop_hidden_casters(const SceneLooks& looks, const std::vector<DrawnItem>& items, const ShadowFit& fit,
+void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBounds>& items, const ShadowCascades& fit,
                          std::vector<char>& casting);
 
 }  // namespace tumble

@@ -79,11 +79,11 @@ double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log
 
 }  // namespace
 
-double ShadowFit::far_along() const {
+double ShadowCascades::far_along() const {
     return filter.by_pixel ? 0.5 * std::max(least_pixel_step, most_pixel_step * near_texel / far_texel) + 1.0 : filter.along;
 }
 
-bool ShadowFit::near_holds(const Vec3& center, double radius) const {
+bool ShadowCascades::near_holds(const Vec3& center, double radius) const {
     // the filter's margin, and the offset along the normal
     const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.reach / texels;
     for (const glm::vec4& row : {x, y})
@@ -92,11 +92,11 @@ bool ShadowFit::near_holds(const Vec3& center, double radius) const {
     return true;
 }
 
-bool ShadowFit::spans_maps(const Vec3& center, double radius) const {
+bool ShadowCascades::spans_maps(const Vec3& center, double radius) const {
     return 2.0 * radius > least_span * near_texel * texels && !near_holds(center, radius);
 }
 
-ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels)
+CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& looks, const Camera& view, int texels)
     : texels_(texels) {
     z_axis_ = scene.light.direction.normalized();
     const Vec3 across = std::abs(z_axis_.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
@@ -105,10 +105,10 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
 
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
-    const Landing landing(scene, looks);
+    const RestHeightEstimate landing(scene, looks);
     std::vector<Place> places;
     const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
-    const auto add = [&](const BodyLook& look, const Vec3& origin, const Quat& rotation, bool falls) {
+    const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
         const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
         for (const Vec3& p : {center, landed})
@@ -117,7 +117,7 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     };
     // A ground does not widen the map: what throws a shadow on it lies at the same place of the map as the shadow.
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
         const BodyDescription& body = scene.bodies[i];
         add(look, body.position, body.rotation, body.type == BodyType::dynamic);
@@ -155,14 +155,14 @@ ShadowStage::ShadowStage(const SceneDescription& scene, const SceneLooks& looks,
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }
 
-ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
                            const Vec3& carried) const {
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
     Extent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const BodyLook& look = looks.bodies[i];
+        const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
@@ -173,7 +173,7 @@ ShadowFit ShadowStage::fit(const SceneLooks& looks, const Snapshot& snapshot, co
     }
     if (x.empty()) x.add(0.5, 0.5), y.add(0.5, 0.5), z.add(0.0, size_);
 
-    ShadowFit fit;
+    ShadowCascades fit;
     fit.texels = texels_;
     fit.filter = filter_;
     fit.near_texel = size_ / texels_;

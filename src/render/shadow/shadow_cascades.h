@@ -30,7 +30,7 @@ inline constexpr double least_pixel_step = 1.5, most_pixel_step = 8.0;
 inline constexpr ShadowFilter texel_filter{false, 2.0, 2.83, 2.2, 6.0};
 inline constexpr ShadowFilter pixel_filter{true, 0.5 * most_pixel_step + 1.0, 0.5 * most_pixel_step + 1.42, 1.6, 7.5};
 
-struct ShadowFit {
+struct ShadowCascades {
     int texels = 1;  // across each map
     ShadowFilter filter = texel_filter;
     glm::vec4 x, y, z;  // rows: position relative to the eye -> [0, 1]^2 of the near map, depth in [0, 1]
@@ -46,16 +46,16 @@ struct ShadowFit {
     /// Is it so large, and not within the near map, that each of its pixels has to find out which map it lies in?
     bool spans_maps(const Vec3& center, double radius) const;
 
-    friend bool operator==(const ShadowFit&, const ShadowFit&) = default;
+    friend bool operator==(const ShadowCascades&, const ShadowCascades&) = default;
 };
 
-class ShadowStage {
+class CascadeFitter {
 public:
     /// `texels` across each map; `view` at the start.
-    ShadowStage(const SceneDescription& scene, const SceneLooks& looks, const CameraView& view, int texels);
+    CascadeFitter(const SceneDescription& scene, const RenderScene& looks, const Camera& view, int texels);
 
     /// `carried`: how far a followed body has taken the camera, m; the near map goes along, by whole texels.
-    ShadowFit fit(const SceneLooks& looks, const Snapshot& snapshot, const CameraView& view,
+    ShadowCascades fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
                   const Vec3& carried = Vec3::Zero()) const;
 
     const ShadowFilter& filter() const { return filter_; }

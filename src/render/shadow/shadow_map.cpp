@@ -43,7 +43,7 @@ void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& textu
         throw RunError("the OpenGL driver refuses a shadow map");
 }
 
-void ShadowMap::compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const {
+void ShadowMap::compile(const GpuMeshCache& meshes, const std::vector<Batch>& casters) const {
     if (casters.empty()) return;
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     program_.use();
@@ -65,7 +65,7 @@ void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     }
 }
 
-void ShadowMap::draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
+void ShadowMap::draw(const GpuMeshCache& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
                      bool with_far) const {
     empty(parts);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());

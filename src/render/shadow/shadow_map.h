@@ -18,11 +18,11 @@ public:
 
     /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map and
     /// into the far one when there is one.
-    void draw(const MeshLibrary& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
+    void draw(const GpuMeshCache& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
               bool with_far) const;
 
-    /// Has its shader compiled, as SurfacePrograms::compilations() does.
-    void compile(const MeshLibrary& meshes, const std::vector<Batch>& casters) const;
+    /// Has its shader compiled, as BodyPass::compilations() does.
+    void compile(const GpuMeshCache& meshes, const std::vector<Batch>& casters) const;
 
     GLuint texture() const { return texture_.name(); }
 

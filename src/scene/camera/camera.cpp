@@ -24,7 +24,7 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const Given
         table.origin().fail("has its eye in its target");
     }
     if (view.normalized().cross(up.normalized()).norm() >= parallel) return;
-    const Origin& origin = given.up       ? given.up->origin()
+    const SourcePosition& origin = given.up       ? given.up->origin()
                            : given.eye    ? given.eye->origin()
                            : given.target ? given.target->origin()
                                           : table.origin();

@@ -64,7 +64,7 @@ std::size_t triangles_of(const Shape& shape) {
 
 }  // namespace
 
-Sight::Sight(const SceneDescription& scene) {
+CameraVisibility::CameraVisibility(const SceneDescription& scene) {
     std::size_t triangles = 0;
     for (const BodyDescription& body : scene.bodies)
         if (body.type == BodyType::fixed && body.surface.visible) add(body.shape, body.position, body.rotation);
@@ -72,7 +72,7 @@ Sight::Sight(const SceneDescription& scene) {
     if (!pieces_.empty() && pieces_.size() <= most_pieces && triangles <= most_triangles) find_places(scene);
 }
 
-void Sight::add(const Shape& shape, const Vec3& position, const Quat& rotation) {
+void CameraVisibility::add(const Shape& shape, const Vec3& position, const Quat& rotation) {
     if (std::holds_alternative<PlaneShape>(shape)) return;
     if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
         for (const CompoundPart& part : *compound->parts) add(part.shape, position + rotation * part.position, rotation * part.rotation);
@@ -82,7 +82,7 @@ void Sight::add(const Shape& shape, const Vec3& position, const Quat& rotation) 
     pieces_.push_back({position + rotation * bounds.center(), 0.5 * bounds.extent(), position, rotation, &shape});
 }
 
-double Sight::first_hit(const Vec3& from, const Vec3& way) const {
+double CameraVisibility::first_hit(const Vec3& from, const Vec3& way) const {
     double nearest = infinity;
     for (const Piece& piece : pieces_) {
         const Quat back = piece.rotation.conjugate();
@@ -98,7 +98,7 @@ double Sight::first_hit(const Vec3& from, const Vec3& way) const {
     return nearest;
 }
 
-void Sight::find_places(const SceneDescription& scene) {
+void CameraVisibility::find_places(const SceneDescription& scene) {
     const Vec3& gravity = scene.simulation.gravity;
     const Vec3 down = gravity.norm() > 0.0 ? gravity.normalized() : Vec3(0.0, -1.0, 0.0);
     std::vector<const BodyDescription*> moving;
@@ -121,7 +121,7 @@ void Sight::find_places(const SceneDescription& scene) {
     }
 }
 
-double Sight::visible_share(const Vec3& eye) const {
+double CameraVisibility::visible_share(const Vec3& eye) const {
     if (places_.empty()) return 1.0;
     const auto seen = std::count_if(places_.begin(), places_.end(),
                                     [&](const Vec3& place) { return first_hit(eye, place - eye) > 0.999; });

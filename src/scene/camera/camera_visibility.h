@@ -5,9 +5,9 @@
 
 namespace tumble {
 
-class Sight {
+class CameraVisibility {
 public:
-    explicit Sight(const SceneDescription& scene);
+    explicit CameraVisibility(const SceneDescription& scene);
 
     /// How many of the places can be seen from the eye; all where nothing is to be asked.
     double visible_share(const Vec3& eye) const;

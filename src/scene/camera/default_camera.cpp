@@ -190,7 +190,7 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
     if (points.empty()) {   // a stage of usual size, at the origin
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }
-    const Sight sight(scene);
+    const CameraVisibility sight(scene);
     const Vec3 up = lens.up.normalized();
     CameraDescription best = fitted(scene, lens, points, view_axes(up, elevation));
     double share = sight.visible_share(best.eye);

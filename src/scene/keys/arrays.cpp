@@ -92,7 +92,7 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
             }
 }
 
-void place_scattered(const ScatterRequest& scatter, const Origin& origin, Random& place, Random& turn,
+void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& place, Random& turn,
                      std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
     std::map<const void*, BoundingSphere> known;   // found once for each mesh or compound; only looked up

@@ -29,7 +29,7 @@ struct ScatterRequest {
 
 struct CopiesRequest {
     std::variant<GridRequest, ScatterRequest> arrangement;
-    Origin origin;                       // of the arrangement, for errors
+    SourcePosition origin;                       // of the arrangement, for errors
     double min_scale = 1.0, max_scale = 1.0;
     std::vector<Color> colors;           // empty: all look like the body
 };

@@ -38,7 +38,7 @@ constexpr Choice<RotationForm> rotation_forms[] = {
 template <class Value>
 struct Given {
     Value value;
-    Origin origin;
+    SourcePosition origin;
 };
 
 /// What was asked for about time, by the file or over its head by the command line.
@@ -54,7 +54,7 @@ void read_time(const TomlTable& table, std::string_view key, std::optional<Given
 void override_number(const std::optional<double>& given, const char* option, std::optional<Given<double>>& target,
                      const Range& range) {
     if (!given) return;
-    const Origin origin{option, {}};
+    const SourcePosition origin{option, {}};
     target = {checked(*given, range, origin), origin};
 }
 
@@ -79,7 +79,7 @@ void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeR
     }
 }
 
-void check_samples(std::int64_t samples, const Origin& origin) {
+void check_samples(std::int64_t samples, const SourcePosition& origin) {
     if (samples != 1 && samples != 2 && samples != 4) origin.fail(fmt::format("must be 1, 2 or 4 (given {})", samples));
 }
 
@@ -104,13 +104,13 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
     override_number(overrides.duration, "--duration", time.duration, limits::duration);
     override_number(overrides.fps, "--fps", time.fps, limits::fps);
     if (overrides.step && overrides.steps_per_frame) {
-        Origin{"--step", {}}.fail("cannot be given together with --steps-per-frame: give one of them");
+        SourcePosition{"--step", {}}.fail("cannot be given together with --steps-per-frame: give one of them");
     }
     // Either of the two says all about the step: what the file said about it no longer counts.
     if (overrides.step || overrides.steps_per_frame) time.step.reset(), time.steps_per_frame.reset();
     override_number(overrides.step, "--step", time.step, limits::step);
     if (overrides.steps_per_frame) {
-        const Origin origin{"--steps-per-frame", {}};
+        const SourcePosition origin{"--steps-per-frame", {}};
         time.steps_per_frame = {checked(*overrides.steps_per_frame, 1, limits::steps_per_frame, origin), origin};
     }
     if (overrides.integrator) {
@@ -136,7 +136,7 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
 int steps_in_a_frame(const TimeRequest& time, double fps) {
     const double step = time.step->value;
     // When --fps came after the file's step, it is the option that does not fit.
-    const Origin& origin = time.fps && time.fps->origin.is_option() ? time.fps->origin : time.step->origin;
+    const SourcePosition& origin = time.fps && time.fps->origin.is_option() ? time.fps->origin : time.step->origin;
     const double frame = 1.0 / fps;
     const double ratio = frame / step;
     const double steps = std::max(1.0, std::nearbyint(ratio));

@@ -9,9 +9,9 @@ namespace {
 
 /// The placed spheres by cell of a lattice as wide as the largest reach, so that only the 27 cells around a place can
 /// hold neighbours. Only looked up, never walked through.
-class Neighbourhood {
+class NeighborBoxes {
 public:
-    Neighbourhood(const std::vector<BoundingSphere>& spheres, double clearance)
+    NeighborBoxes(const std::vector<BoundingSphere>& spheres, double clearance)
         : spheres_(spheres), clearance_(clearance) {
         double largest = 0.0;
         for (const BoundingSphere& sphere : spheres) largest = std::max(largest, sphere.radius);
@@ -68,7 +68,7 @@ private:
 
 ScatterPlaces scatter_places(const std::vector<BoundingSphere>& spheres, const Vec3& size, double clearance,
                              std::int64_t attempts, Random& random) {
-    Neighbourhood neighbourhood(spheres, clearance);
+    NeighborBoxes neighbourhood(spheres, clearance);
     ScatterPlaces places;
     for (std::size_t sphere = 0; sphere < spheres.size(); ++sphere) {
         for (std::int64_t attempt = 0; attempt < attempts; ++attempt) {

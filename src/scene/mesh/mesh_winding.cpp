@@ -16,10 +16,10 @@ struct Piece {
 }  // namespace
 
 std::vector<char> triangles_to_turn(const TriangleMesh& mesh) {
-    const MeshSheets sheets = find_sheets(mesh.triangles);
+    const MeshComponents sheets = find_sheets(mesh.triangles);
     std::vector<Piece> pieces(mesh.triangles.size());   // at the first triangle of each
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (sheets.sheet[t] == MeshSheets::none) continue;
+        if (sheets.sheet[t] == MeshComponents::none) continue;
         Piece& piece = pieces[sheets.sheet[t]];
         const auto& v = mesh.triangles[t];
         const Vec3& o = mesh.vertices[mesh.triangles[sheets.sheet[t]][0]];
@@ -33,7 +33,7 @@ std::vector<char> triangles_to_turn(const TriangleMesh& mesh) {
     }
     std::vector<char> result(mesh.triangles.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (sheets.sheet[t] == MeshSheets::none) continue;
+        if (sheets.sheet[t] == MeshComponents::none) continue;
         const Piece& piece = pieces[sheets.sheet[t]];
         if (piece.disagrees) result[t] = char(sheets.turned[t] ^ char(piece.to_turn()));
     }

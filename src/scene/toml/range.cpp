@@ -21,13 +21,13 @@ std::string Range::requirement() const {
     return text;
 }
 
-double checked(double value, const Range& range, const Origin& origin) {
+double checked(double value, const Range& range, const SourcePosition& origin) {
     if (!std::isfinite(value)) origin.fail(fmt::format("must be a finite number (given {})", value));
     if (!range.contains(value)) origin.fail(fmt::format("{} (given {})", range.requirement(), number_text(value)));
     return value;
 }
 
-std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const Origin& origin) {
+std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const SourcePosition& origin) {
     if (value < min || value > max) origin.fail(fmt::format("must be from {} to {} (given {})", min, max, value));
     return value;
 }

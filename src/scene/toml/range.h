@@ -27,8 +27,8 @@ struct Range {
 };
 
 /// The value itself when it is in the range; otherwise fails at its origin.
-double checked(double value, const Range& range, const Origin& origin);
-std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const Origin& origin);
+double checked(double value, const Range& range, const SourcePosition& origin);
+std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const SourcePosition& origin);
 
 /// A name in the file and what it stands for.
 template <class Value>
@@ -38,7 +38,7 @@ struct Choice {
 };
 
 template <class Value>
-Value chosen(std::string_view given, std::span<const Choice<Value>> choices, const Origin& origin) {
+Value chosen(std::string_view given, std::span<const Choice<Value>> choices, const SourcePosition& origin) {
     std::vector<std::string_view> names;
     for (const auto& choice : choices) {
         if (choice.name == given) return choice.value;

@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-void Origin::fail(std::string_view problem) const {
+void SourcePosition::fail(std::string_view problem) const {
     if (is_option()) throw InputError(fmt::format("{}: {}", safe_text(name), problem));
     throw InputError(where, fmt::format("{} {}", safe_text(name), problem));
 }

@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-struct Origin {
+struct SourcePosition {
     std::string name;       // the key ("fps") or the option ("--fps")
     SourceLocation where;   // without a file: an option
 

@@ -144,7 +144,7 @@ void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const
                                  suggestion(first->str(), known)));
 }
 
-Origin TomlTable::origin_of(std::string_view key, const toml::node& node) const {
+SourcePosition TomlTable::origin_of(std::string_view key, const toml::node& node) const {
     return {std::string(key), location_of(node.source(), origin_.where.file)};
 }
 

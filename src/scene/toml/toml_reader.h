@@ -32,9 +32,9 @@ class TomlTable;
 
 class TomlValue {
 public:
-    TomlValue(const toml::node& node, Origin origin) : node_(&node), origin_(std::move(origin)) {}
+    TomlValue(const toml::node& node, SourcePosition origin) : node_(&node), origin_(std::move(origin)) {}
 
-    const Origin& origin() const { return origin_; }
+    const SourcePosition& origin() const { return origin_; }
     bool is_number() const { return node_->is_number(); }
     bool is_table() const { return node_->is_table(); }
 
@@ -62,16 +62,16 @@ private:
     TomlValue item_of(const toml::node& item) const;
 
     const toml::node* node_;
-    Origin origin_;
+    SourcePosition origin_;
 };
 
 class TomlTable {
 public:
     /// `title` names the table in messages: "[simulation]", "a box".
-    TomlTable(const toml::table& table, Origin origin, std::string title)
+    TomlTable(const toml::table& table, SourcePosition origin, std::string title)
         : table_(&table), origin_(std::move(origin)), title_(std::move(title)) {}
 
-    const Origin& origin() const { return origin_; }
+    const SourcePosition& origin() const { return origin_; }
     void set_title(std::string title) { title_ = std::move(title); }
 
     /// Throws at the first key (in file order) that is not among these, naming the nearest that is.
@@ -100,10 +100,10 @@ public:
     }
 
 private:
-    Origin origin_of(std::string_view key, const toml::node& node) const;
+    SourcePosition origin_of(std::string_view key, const toml::node& node) const;
 
     const toml::table* table_;
-    Origin origin_;
+    SourcePosition origin_;
     std::string title_;
 };
 

@@ -15,7 +15,7 @@ double depth(const Body& body) { return depth(body.collider); }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 
-bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const TriangleSurface>>(body.collider); }
+bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const CollisionMesh>>(body.collider); }
 
 // Of a ball only the centre counts; what cannot turn may be infinite.
 double turning(double arm, const BodyVelocity& motion) {
@@ -43,7 +43,7 @@ void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share
 }
 
 // The first touch in the step, with each body standing still once its share is used up; h if there is none.
-double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
+double CcdClamp::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
     const std::uint32_t i = pair.a, j = pair.b;
     const Body &a = bodies[i], &b = bodies[j];
     const double end_a = limits_[i].share * h, end_b = limits_[j].share * h, both = std::min(end_a, end_b);
@@ -57,7 +57,7 @@ double MotionLimit::first_touch(const FastPair& pair, const std::vector<Body>& b
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
-MotionLimit::MotionLimit(const std::vector<Body>& bodies)
+CcdClamp::CcdClamp(const std::vector<Body>& bodies)
     : limits_(bodies.size()), least_thin_(std::numeric_limits<double>::infinity()) {
     const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
     for (const Body& body : bodies) {
@@ -68,11 +68,11 @@ MotionLimit::MotionLimit(const std::vector<Body>& bodies)
 }
 
 // Told without looking at any pair: two of them go no farther than the thinnest body is thin.
-bool MotionLimit::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
+bool CcdClamp::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
     return 2.0 * h * (motion.velocity.norm() + turning(arm_[body], motion)) > least_thin_;
 }
 
-StepLimit& MotionLimit::shorten(std::uint32_t body) {
+CcdFraction& CcdClamp::shorten(std::uint32_t body) {
     shortened_.push_back(body);
     return limits_[body];
 }
@@ -93,7 +93,7 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
     };
 }
 
-const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
+const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                                   const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
                                                   double h, bool any_fast, const TurnsFreely& turns_freely) {
     for (const std::uint32_t i : shortened_) limits_[i] = {};
@@ -124,8 +124,8 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     still_.resize(bodies.size());
     for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
-            paths_[k] = turns_freely && turns_freely(k) ? Path::drift(bodies[k], motions[k].velocity)
-                                        : Path::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
+            paths_[k] = turns_freely && turns_freely(k) ? Trajectory::drift(bodies[k], motions[k].velocity)
+                                        : Trajectory::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
             still_[k] = paths_[k];
         }
     }
@@ -141,7 +141,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 if (!bodies[k].dynamic() || share >= limits_[k].share) continue;
                 const std::uint32_t other = k == pair.a ? pair.b : pair.a;
-                shorten(k) = {share, bodies[other].track ? other : StepLimit::none, other};
+                shorten(k) = {share, bodies[other].track ? other : CcdFraction::none, other};
                 shorter = true;
             }
         }
@@ -153,7 +153,7 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
                 const Motion end = paths_[k].at(limits_[k].share * h);
                 there.position = end.position;
                 there.orientation = end.orientation;
-                still_[k] = Path::uniform(there, Vec3::Zero(), Vec3::Zero());
+                still_[k] = Trajectory::uniform(there, Vec3::Zero(), Vec3::Zero());
             }
         }
     }
@@ -163,9 +163,9 @@ const std::vector<StepLimit>& MotionLimit::limits(const FindPairs& find_pairs, c
     for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
             if (!bodies[k].dynamic() || limits_[k].share <= least) continue;
-            StepLimit& limit = shorten(k);
+            CcdFraction& limit = shorten(k);
             limit.share = least;
-            limit.met = StepLimit::none;
+            limit.met = CcdFraction::none;
         }
     }
     return limits_;

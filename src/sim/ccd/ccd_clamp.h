@@ -14,7 +14,7 @@
 
 namespace tumble {
 
-struct StepLimit {
+struct CcdFraction {
     static constexpr std::uint32_t none = UINT32_MAX;
     double share = 1.0;              // of the step, that the body may move
     std::uint32_t carrier = none;    // the kinematic body that takes it along from there on
@@ -38,16 +38,16 @@ using TurnsFreely = std::function<bool(std::uint32_t body)>;
 /// its fall's speed on the spot.
 void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share);
 
-class MotionLimit {
+class CcdClamp {
 public:
-    explicit MotionLimit(const std::vector<Body>& bodies);
+    explicit CcdClamp(const std::vector<Body>& bodies);
 
     /// Whether the body goes so far in h seconds that it might pass something unseen. Where none does, there are no limits.
     bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;
 
     /// By body; `motions` too, bodies that do not move have zero. `any_fast`: whether any of those is. What touches already is
     /// the contact solver's, and may come a little deeper into each other: no more.
-    const std::vector<StepLimit>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
+    const std::vector<CcdFraction>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                          const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, double h,
                                          bool any_fast, const TurnsFreely& turns_freely = nullptr);
 
@@ -62,14 +62,14 @@ private:
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
-    StepLimit& shorten(std::uint32_t body);
+    CcdFraction& shorten(std::uint32_t body);
 
     ImpactSearch search_;
-    std::vector<StepLimit> limits_;
+    std::vector<CcdFraction> limits_;
     std::vector<std::uint32_t> shortened_;   // whose limits are not the whole step
     std::vector<double> depth_, arm_;        // m, by body; how far from the centre its points swing
     double least_thin_ = 0.0;                // m, that no pair goes past unseen
-    std::vector<Path> paths_, still_;   // of the bodies of fast pairs
+    std::vector<Trajectory> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
 };
 

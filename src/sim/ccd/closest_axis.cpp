@@ -86,7 +86,7 @@ Vec3 nearest(Simplex& s) {
     }
 }
 
-const Vec3& farthest(const Cloud& cloud, const Vec3& direction) {
+const Vec3& farthest(const SupportPoints& cloud, const Vec3& direction) {
     const Vec3* best = &cloud.arms[0];
     double most = direction.dot(*best);
     for (const Vec3& arm : cloud.arms) {
@@ -105,7 +105,7 @@ struct Feature {
     int size = 0;
 };
 
-Feature feature_along(const Cloud& cloud, const Vec3& direction, double tolerance) {
+Feature feature_along(const SupportPoints& cloud, const Vec3& direction, double tolerance) {
     const double most = direction.dot(farthest(cloud, direction)) - tolerance;
     Feature feature;
     for (const Vec3& arm : cloud.arms)
@@ -127,7 +127,7 @@ Vec3 rate_from_edge(const Vec3& normal, const Vec3& edge, const Vec3& omega, con
 
 }  // namespace
 
-std::optional<Vec3> closest_vector(const Cloud& a, const Cloud& b, const Vec3& guess) {
+std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& b, const Vec3& guess) {
     const Vec3 d = b.center - a.center;
     const double scale = a.reach + b.reach + d.norm();
     Simplex simplex;
@@ -152,7 +152,7 @@ std::optional<Vec3> closest_vector(const Cloud& a, const Cloud& b, const Vec3& g
     return v;
 }
 
-Axis tracking_axis(const Cloud& a, const Cloud& b, const Vec3& normal, double tolerance) {
+Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance) {
     const Feature fa = feature_along(a, normal, tolerance), fb = feature_along(b, -normal, tolerance);
     const Vec3 &omega_a = a.angular_velocity, &omega_b = b.angular_velocity;
     if (fa.size >= 3) return {normal, omega_a.cross(normal)};

@@ -10,10 +10,10 @@ namespace tumble {
 
 /// The vector from the nearest point of A's hull to that of B's (Gilbert, Johnson, Keerthi 1988), roundings left out;
 /// none when the hulls overlap or touch. `guess`: any direction, last time's is best.
-std::optional<Vec3> closest_vector(const Cloud& a, const Cloud& b, const Vec3& guess);
+std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& b, const Vec3& guess);
 
 /// The axis with that normal, turning as the features do that meet along it: with a face, with a pair of edges, or with
 /// the line between two points. `tolerance` (m): points within it of the farthest belong to the feature.
-Axis tracking_axis(const Cloud& a, const Cloud& b, const Vec3& normal, double tolerance);
+Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance);
 
 }  // namespace tumble

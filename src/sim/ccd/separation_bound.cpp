@@ -23,12 +23,12 @@ struct Height {
     double at(double s) const { return value + s * rate; }
 };
 
-Height height(const Cloud& cloud, std::size_t i, const Axis& axis) {
+Height height(const SupportPoints& cloud, std::size_t i, const Axis& axis) {
     return {axis.normal.dot(cloud.arms[i]), axis.rate.dot(cloud.arms[i]) + axis.normal.dot(cloud.arm_velocity(i))};
 }
 
 // The lowest of B's points and the highest of A's at time s, as one line; at equal heights the one that closes in faster.
-Height lowest_line(const Cloud& a, const Cloud& b, const Axis& axis, const Height& centers, double s) {
+Height lowest_line(const SupportPoints& a, const SupportPoints& b, const Axis& axis, const Height& centers, double s) {
     Height low{infinity, 0.0}, high{-infinity, 0.0};
     for (std::size_t i = 0; i < b.arms.size(); ++i) {
         const Height h = height(b, i, axis);
@@ -43,7 +43,7 @@ Height lowest_line(const Cloud& a, const Cloud& b, const Axis& axis, const Heigh
 
 }  // namespace
 
-SeparationBound bound_separation(const Cloud& a, const Cloud& b, const Axis& axis, double horizon, double nearest) {
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon, double nearest) {
     const Vec3 d = b.center - a.center, v = b.velocity - a.velocity, acceleration = b.acceleration - a.acceleration;
     const Height centers{axis.normal.dot(d) - a.radius - b.radius, axis.rate.dot(d) + axis.normal.dot(v)};
     const Height line = lowest_line(a, b, axis, centers, 0.0);

@@ -20,6 +20,6 @@ struct SeparationBound {
 };
 
 /// Valid up to `horizon` s: safe_time is cut there. `nearest` (m): points within it of the nearest pair count as nearest.
-SeparationBound bound_separation(const Cloud& a, const Cloud& b, const Axis& axis, double horizon, double nearest);
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon, double nearest);
 
 }  // namespace tumble

@@ -10,13 +10,13 @@
 
 namespace tumble {
 
-struct Cloud {
+struct SupportPoints {
     Vec3 center = Vec3::Zero();             // m, world
     Vec3 velocity = Vec3::Zero();           // m/s, of the centre
     Vec3 acceleration = Vec3::Zero();       // m/s^2, of the centre
     double acceleration_change = 0.0;       // m/s^2: the acceleration stays within this of the present one
     Vec3 angular_velocity = Vec3::Zero();   // rad/s
-    double spin_bound = 0.0;                // rad/s, as Path's
+    double spin_bound = 0.0;                // rad/s, as Trajectory's
     double turning_bound = 0.0;             // rad/s^2
     double radius = 0.0;                    // m, of the rounding
     double reach = 0.0;                     // m, of the farthest arm

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
-using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+using SurfaceRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
 // What of a traveller is searched: all of it, or one part of a compound, at its place in the body.
-const Collider& collider_of(const Traveller& t) { return t.part ? t.part->collider : t.body->collider; }
+const CollisionShape& collider_of(const Traveller& t) { return t.part ? t.part->collider : t.body->collider; }
 double size_of(const Traveller& t) { return t.part ? t.part->reach : t.body->radius; }
 Pose pose_of(const Traveller& t, const Motion& motion) {
     const Pose body{motion.position, motion.rotation};
@@ -77,13 +77,13 @@ TimeOfImpact result(double time, double horizon) {
     return {};
 }
 
-double rounding_of(const Collider& collider) {
+double rounding_of(const CollisionShape& collider) {
     const auto* ball = std::get_if<Ball>(&collider);
     return ball ? ball->radius : 0.0;
 }
 
 // What of the cloud does not change on the way.
-void prepare(Cloud& cloud, const Traveller& t, double horizon) {
+void prepare(SupportPoints& cloud, const Traveller& t, double horizon) {
     cloud.spin_bound = t.path->spin_bound();
     cloud.turning_bound = t.path->turning_bound();
     cloud.radius = rounding_of(collider_of(t));
@@ -96,7 +96,7 @@ void prepare(Cloud& cloud, const Traveller& t, double horizon) {
     cloud.acceleration_change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
 }
 
-void pose(Cloud& cloud, const Traveller& t, double time, const Motion& motion) {
+void pose(SupportPoints& cloud, const Traveller& t, double time, const Motion& motion) {
     cloud.center = motion.position;
     cloud.velocity = motion.velocity;
     cloud.acceleration = t.path->acceleration(t.since + time);
@@ -157,7 +157,7 @@ std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
 }
 
 // The half-space as the point of its plane below the other's centre.
-void pose_half_space(Cloud& cloud, const HalfSpace& space, const Motion& motion, const Vec3& other) {
+void pose_half_space(SupportPoints& cloud, const HalfSpace& space, const Motion& motion, const Vec3& other) {
     const Vec3 normal = motion.rotation * space.normal;
     const Vec3 foot = other - (normal.dot(other - motion.position) - space.offset) * normal;
     cloud.velocity = motion.point_velocity(foot - motion.position);
@@ -178,12 +178,12 @@ struct ImpactSearch::Pair {
     double size;                                      // m, of the smaller body
     double overlap;                                   // m, allowed
     const HalfSpace* plane = nullptr;                 // of A
-    const TriangleSurface* surface = nullptr;         // of A, which then is
+    const CollisionMesh* surface = nullptr;         // of A, which then is
     std::uint32_t triangle = 0;                       // one of its triangles
 };
 
 TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, double overlap) {
-    const Collider &shape_a = a.body->collider, &shape_b = b.body->collider;
+    const CollisionShape &shape_a = a.body->collider, &shape_b = b.body->collider;
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
     const bool parabolic = a.path->parabolic() && b.path->parabolic();
     const bool evenly = parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0);
@@ -376,7 +376,7 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
 }
 
 TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap) {
-    const TriangleSurface& triangles = *std::get<SurfaceRef>(surface.body->collider);
+    const CollisionMesh& triangles = *std::get<SurfaceRef>(surface.body->collider);
     // The triangles that the other can reach, looked up in the surface's frame; surfaces are fixed.
     const Motion frame = surface.path->at(surface.since);
     const Bounds world = other.path->swept(other.since, other.since + horizon).grown(other.body->radius);

@@ -15,7 +15,7 @@ namespace tumble {
 /// A body on its way: its path, and how long it has been on it when the search begins.
 struct Traveller {
     const Body* body = nullptr;
-    const Path* path = nullptr;
+    const Trajectory* path = nullptr;
     double since = 0.0;   // s
     const Compound::Part* part = nullptr;   // of a compound, the part that is searched for
 };
@@ -49,7 +49,7 @@ private:
     void propose(const Pair& pair, const Motion& a, const Motion& b, double near);
     void propose_triangle_axes(const Polyhedron& shape, const Mat3& rotation);
 
-    Cloud a_, b_;
+    SupportPoints a_, b_;
     Vec3 last_axis_ = Vec3::UnitY();
     std::vector<Vec3> normals_;          // proposed, from A to B
     CollisionScratch scratch_;

@@ -37,8 +37,8 @@ Vec3 momentum_ends(const Vec3& inertia, const Vec3& m) {
 
 }  // namespace
 
-Path Path::flight(const Body& body, const Vec3& acceleration) {
-    Path path;
+Trajectory Trajectory::flight(const Body& body, const Vec3& acceleration) {
+    Trajectory path;
     path.start_ = body.position;
     path.velocity_ = body.velocity;
     path.acceleration_ = acceleration;
@@ -46,15 +46,15 @@ Path Path::flight(const Body& body, const Vec3& acceleration) {
     return path;
 }
 
-Path Path::drift(const Body& body, const Vec3& velocity) {
-    Path path;
+Trajectory Trajectory::drift(const Body& body, const Vec3& velocity) {
+    Trajectory path;
     path.start_ = body.position;
     path.velocity_ = velocity;
     path.turn_freely(body);
     return path;
 }
 
-void Path::turn_freely(const Body& body) {
+void Trajectory::turn_freely(const Body& body) {
     if (body.angular_momentum.isZero(0.0)) {
         turn_uniformly(body.orientation, Vec3::Zero());
         return;
@@ -84,16 +84,16 @@ void Path::turn_freely(const Body& body) {
     turning_bound_ = (spin_square + angular) * (1.0 + 1e-12);
 }
 
-Path Path::uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity) {
-    Path path;
+Trajectory Trajectory::uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity) {
+    Trajectory path;
     path.start_ = body.position;
     path.velocity_ = velocity;
     path.turn_uniformly(body.orientation, angular_velocity);
     return path;
 }
 
-Path Path::towards(const Body& body, const Motion& end, double span, bool torque_free) {
-    Path path;
+Trajectory Trajectory::towards(const Body& body, const Motion& end, double span, bool torque_free) {
+    Trajectory path;
     path.start_ = body.position;
     path.velocity_ = body.velocity;
     const Vec3 way = (end.position - body.position) / span;
@@ -104,7 +104,7 @@ Path Path::towards(const Body& body, const Motion& end, double span, bool torque
     return path;
 }
 
-void Path::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
+void Trajectory::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
     UniformTurn uniform;
     uniform.from = from;
     uniform.rate = angular_velocity.norm();
@@ -114,8 +114,8 @@ void Path::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
     turning_ = uniform;
 }
 
-Path Path::deflected(double t, const Vec3& velocity) const {
-    Path path = *this;
+Trajectory Trajectory::deflected(double t, const Vec3& velocity) const {
+    Trajectory path = *this;
     path.start_ = position(t);
     path.velocity_ = velocity;
     path.acceleration_ = acceleration(t);
@@ -123,7 +123,7 @@ Path Path::deflected(double t, const Vec3& velocity) const {
     return path;
 }
 
-Quat Path::orientation(double t) const {
+Quat Trajectory::orientation(double t) const {
     t += turned_;
     if (const auto* free = std::get_if<FreeTurn>(&turning_)) return free->rotation.at(t);
     const auto& uniform = std::get<UniformTurn>(turning_);
@@ -134,7 +134,7 @@ Quat Path::orientation(double t) const {
 }
 
 // A curve strays from its chord by at most max |x''| T^2 / 8, axis by axis; x'' is linear in time.
-Bounds Path::swept(double from, double to) const {
+Bounds Trajectory::swept(double from, double to) const {
     Bounds bounds;
     bounds.add(position(from));
     bounds.add(position(to));
@@ -143,7 +143,7 @@ Bounds Path::swept(double from, double to) const {
     return {bounds.min - stray, bounds.max + stray};
 }
 
-Motion Path::at(double t) const {
+Motion Trajectory::at(double t) const {
     Motion motion;
     motion.position = position(t);
     motion.velocity = velocity(t);

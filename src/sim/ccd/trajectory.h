@@ -24,24 +24,24 @@ struct FreeTurn {
     Vec3 angular_momentum = Vec3::Zero();   // world
 };
 
-class Path {
+class Trajectory {
 public:
-    Path() = default;
+    Trajectory() = default;
 
     /// Free flight from the body's present state under a constant acceleration (m/s^2): a parabola and torque-free
     /// rotation, both in closed form.
-    static Path flight(const Body& body, const Vec3& acceleration);
+    static Trajectory flight(const Body& body, const Vec3& acceleration);
     /// The same with this velocity of the centre (m/s), held.
-    static Path drift(const Body& body, const Vec3& velocity);
+    static Trajectory drift(const Body& body, const Vec3& velocity);
     /// From the body's present pose with these velocities (m/s, rad/s), held.
-    static Path uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
+    static Trajectory uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
     /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), error O(span^4)
     /// in between. For bodies under forces that are not constant. Without a torque the rotation is free, in closed form;
     /// else uniform, error O(span^2) in between.
-    static Path towards(const Body& body, const Motion& end, double span, bool torque_free);
+    static Trajectory towards(const Body& body, const Motion& end, double span, bool torque_free);
 
     /// The same turning on, but from time t with another velocity of the centre: a blow through the centre.
-    Path deflected(double t, const Vec3& velocity) const;
+    Trajectory deflected(double t, const Vec3& velocity) const;
 
     /// t: s since the path's beginning.
     Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }

@@ -33,7 +33,7 @@ bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::ui
 }
 
 // As it was up to `holds` steps ago; not looked at where no body can carry `enough` times its mass.
-PileLoad ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
+LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                              double enough) {
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];

@@ -34,7 +34,7 @@ private:
         int factorisations = 2;       // of the last solve: what the next may take
         std::size_t work = 0;         // of one of them
         bool direct = false;          // solved so in the last step
-        PileLoad load;                // as of the last look
+        LoadEstimate load;                // as of the last look
         int looked = 0;               // steps for which that holds
     };
     struct Candidate {
@@ -46,7 +46,7 @@ private:
     bool turns_fast(std::span<const std::uint32_t> bodies) const;
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     bool rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const;
-    PileLoad load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
+    LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     bool deal(const ContactIslands& islands, const ContactProblem& problem);
 
@@ -57,7 +57,7 @@ private:
     // that one thread writes to and another reads are slow for both.
     std::vector<double> gains_;           // 1/s^2, the square of the speed that the step's forces add, in radii a second
     std::vector<char> turns_fast_;
-    PileLoads loads_;
+    LoadEstimates loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;
     bool few_ = false;                    // pairs in all: every island may be solved directly

@@ -333,7 +333,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
                 hand_over(manifolds_[old], *m);
             }
         }
-        Anchors& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
+        PersistentManifold& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
         if (m->more) continue;
         keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
     }

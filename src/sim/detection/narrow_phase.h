@@ -44,7 +44,7 @@ private:
         double speculative = 0.0;
         Vec3 velocity = Vec3::Zero();
         double spin = 0.0, radius = 0.0;   // spin: m/s of the farthest point
-        const Collider* collider = nullptr;
+        const CollisionShape* collider = nullptr;
         enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
         bool awake = false, flying = false;
         Pose pose;
@@ -79,14 +79,14 @@ private:
     struct Found {                                // by one thread
         CollisionScratch scratch;
         std::vector<Manifold> manifolds;
-        std::vector<Anchors> anchors;
+        std::vector<PersistentManifold> anchors;
         std::vector<Change> changes;              // ascending by entry
         std::vector<std::uint32_t> bodies, entries;   // its own, of this call
     };
     struct Parked {
         Search search;
         std::vector<Manifold> manifolds;
-        std::vector<Anchors> anchors;
+        std::vector<PersistentManifold> anchors;
     };
 
     bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
@@ -123,7 +123,7 @@ private:
     std::vector<BodyPair> touching_;
     std::uint64_t changes_ = 0;
     std::vector<Manifold> manifolds_, spare_manifolds_;
-    std::vector<Anchors> anchors_, spare_anchors_;
+    std::vector<PersistentManifold> anchors_, spare_anchors_;
 };
 
 }  // namespace tumble

@@ -30,7 +30,7 @@ struct Body {
     double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
     double drag_area = 0.0;                  // m^2, mean projected area
-    Collider collider;
+    CollisionShape collider;
     std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
     Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
     Vec3 principal_inertia = Vec3::Zero();   // kg m^2

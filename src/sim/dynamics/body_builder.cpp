@@ -12,7 +12,7 @@ namespace tumble {
 namespace {
 
 // Mean projected area of a convex body over all directions: a quarter of its surface (Cauchy 1832).
-double mean_projected_area(const Collider& collider) {
+double mean_projected_area(const CollisionShape& collider) {
     if (const auto* ball = std::get_if<Ball>(&collider)) return pi * ball->radius * ball->radius;
     if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&collider)) return 0.25 * (*hull)->surface_area();
     double sum = 0.0;   // of a compound: as if no part stood in another's lee
@@ -53,11 +53,11 @@ void set_motion(Body& body, const BodyDescription& d) {
 
 }  // namespace
 
-Collider BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin) {
+CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin) {
     Mesh& made = meshes_[&asset];
     try {
         if (as_surface) {
-            if (!made.surface) made.surface = std::make_shared<TriangleSurface>(make_surface(asset.surface, origin));
+            if (!made.surface) made.surface = std::make_shared<CollisionMesh>(make_surface(asset.surface, origin));
             return made.surface;
         }
         if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.surface.vertices, origin));
@@ -68,7 +68,7 @@ Collider BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, con
     }
 }
 
-Collider BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin) {
+CollisionShape BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin) {
     if (const auto* plane = std::get_if<PlaneShape>(&shape)) return HalfSpace{plane->normal, plane->offset};
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) return Ball{sphere->radius};
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
@@ -79,7 +79,7 @@ Collider BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, cons
     return mesh_collider(*std::get<MeshShape>(shape).asset, meshes_as_surfaces, origin);
 }
 
-Collider BodyBuilder::compound_collider(const CompoundShape& shape, double density, const Vec3& origin) {
+CollisionShape BodyBuilder::compound_collider(const CompoundShape& shape, double density, const Vec3& origin) {
     KnownCompound& known = compounds_[shape.parts.get()];
     if (known.made && known.origin == origin) return known.made;   // another density may move the centre of mass
     auto compound = std::make_shared<Compound>();

@@ -20,11 +20,11 @@ public:
 private:
     struct Mesh {
         std::shared_ptr<const Polyhedron> hull;
-        std::shared_ptr<const TriangleSurface> surface;
+        std::shared_ptr<const CollisionMesh> surface;
     };
-    Collider mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin);
-    Collider collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
-    Collider compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
+    CollisionShape mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin);
+    CollisionShape collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
+    CollisionShape compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
     std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: one is 2 KB
     // Looked up only, never iterated: the order of addresses decides nothing.

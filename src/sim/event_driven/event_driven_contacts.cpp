@@ -1,4 +1,4 @@
-// Flights: the bodies that contacts hold. How they go through a step, fall asleep and wake, and how flights end in contact.
+// EventDrivenMotion: the bodies that contacts hold. How they go through a step, fall asleep and wake, and how flights end in contact.
 #include "sim/event_driven/event_driven_motion.h"
 
 #include "core/sort_unique.h"
@@ -16,7 +16,7 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 }  // namespace
 
-bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
     held_.assign(bodies.size(), false);
     // What rolls over a hill goes off it along the tangent in each step, v^2 h^2 / 2 R: less than gravity's way for as long as it stays on.
     const double g = settings_.gravity.norm();
@@ -34,20 +34,20 @@ bool Flights::take_off(const std::vector<Contact>& contacts, std::vector<Body>& 
 
 // Moves a held body evenly to the end of the step. What has to stop on its way goes slower: it ends where it would have
 // stopped.
-void Flights::hold(std::uint32_t i, const BodyVelocity& motion, const StepLimit& limit, const std::vector<Body>& bodies, const Moment& now) {
+void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies, const EventTime& now) {
     const Body& body = bodies[i];
     Vec3 velocity = limit.share * motion.velocity;
-    if (limit.carrier != StepLimit::none) {
+    if (limit.carrier != CcdFraction::none) {
         const Body& carrier = bodies[limit.carrier];
         velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
     }
-    start(i, Path::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
+    start(i, Trajectory::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
     fliers_[i].spin = spin(body);
 }
 
-void Flights::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<StepLimit>& limits,
+void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<CcdFraction>& limits,
                          const ForceField& forces, std::int64_t step) {
-    const Moment now{step, 0.0};
+    const EventTime now{step, 0.0};
     changed_.swap(taken_off_);
     taken_off_.clear();
     for (const std::uint32_t i : movers_) {
@@ -68,11 +68,11 @@ void Flights::begin_step(std::vector<Body>& bodies, const std::vector<BodyVeloci
     predict_changed(bodies, now);
 }
 
-void Flights::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
-    const Moment now{step, 0.0};
+void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
+    const EventTime now{step, 0.0};
     for (const std::uint32_t i : movers_) {
         if (!bodies[i].asleep || fliers_[i].until == never) continue;
-        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
+        start(i, Trajectory::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
         fliers_[i].meetings = 0;
         changed_.push_back(i);
     }
@@ -80,7 +80,7 @@ void Flights::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
 }
 
 // Held bodies that the blow has freed fly from now on, not from the next step.
-void Flights::release_struck(std::vector<Body>& bodies) {
+void EventDrivenMotion::release_struck(std::vector<Body>& bodies) {
     const auto& struck = cluster_.struck();
     if (std::none_of(struck.begin(), struck.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
     held_.resize(bodies.size());
@@ -91,7 +91,7 @@ void Flights::release_struck(std::vector<Body>& bodies) {
         if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
 }
 
-void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const Moment& now) {
+void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const EventTime& now) {
     was_asleep_.clear();
     for (const std::uint32_t k : movers_)
         if (bodies[k].asleep) was_asleep_.push_back(k);
@@ -102,7 +102,7 @@ void Flights::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sle
 }
 
 // What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
-void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> landed;
     std::vector<std::uint32_t> landing;
     do {   // in rounds: who lands does not hang on the contacts' order
@@ -165,7 +165,7 @@ void Flights::land(std::vector<Body>& bodies, const ForceField& forces, const Mo
 // landed, go in what is left of this step no farther than they meet something, and so does who was on his way to them: there
 // the next impact is. So a few times in a step; then they stop there. But two that touch and are free to move go on, as they
 // would lose their common motion, and are left to the next step's contact.
-void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> going, near;
     for (const std::uint32_t k : changed_)
         if (held(bodies[k])) going.push_back(k);
@@ -176,7 +176,7 @@ void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, c
         motions_[k] = {bodies[k].velocity + bodies[k].push_velocity, bodies[k].angular_velocity + bodies[k].push_angular_velocity};
     const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
     const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
-    const std::vector<StepLimit>* limits = nullptr;
+    const std::vector<CcdFraction>* limits = nullptr;
     for (bool more = true; more;) {
         sort_unique(going);
         std::vector<BroadPhase::Pair> pairs;
@@ -213,9 +213,9 @@ void Flights::hold_struck(std::vector<Body>& bodies, const ForceField& forces, c
         more = !stopped.empty();
     }
     for (const std::uint32_t k : going) {
-        const StepLimit& limit = (*limits)[k];
+        const CcdFraction& limit = (*limits)[k];
         changed_.push_back(k);
-        if (limit.met != StepLimit::none && fliers_[k].meetings < tuning::meetings_in_step) {
+        if (limit.met != CcdFraction::none && fliers_[k].meetings < tuning::meetings_in_step) {
             hold(k, motions_[k], {}, bodies, now);
             fliers_[k].until = later(now, limit.share * rest);
             fliers_[k].met = limit.met;

@@ -16,7 +16,7 @@
 
 namespace tumble {
 
-Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps)
+EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps)
     : settings_(settings),
       clock_{fps, settings.steps_per_frame},
       h_(clock_.seconds(1)),
@@ -30,7 +30,7 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
       contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
       velocities_before_(bodies.size()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-        start(i, Path::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
+        start(i, Trajectory::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), {}, never);
         if (const auto* ball = std::get_if<Ball>(&bodies[i].collider)) balls_[i].radius = ball->radius;
         if (bodies[i].moves()) {
             movers_.push_back(i);
@@ -41,20 +41,20 @@ Flights::Flights(const std::vector<Body>& bodies, const SimulationSettings& sett
     }
 }
 
-Moment Flights::later(const Moment& now, double seconds) const {
+EventTime EventDrivenMotion::later(const EventTime& now, double seconds) const {
     const double offset = now.offset + seconds;
     if (!(offset < 1e12 * h_)) return never;
     const auto steps = std::int64_t(std::floor(offset / h_));
     return {now.step + steps, offset - clock_.seconds(steps)};
 }
 
-void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const Moment& until) {
-    Flier& f = fliers_[i];
+void EventDrivenMotion::start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until) {
+    BodyEvent& f = fliers_[i];
     f.path = path;
     f.start = now;
     f.until = until;
     f.driven = false;
-    f.met = StepLimit::none;
+    f.met = CcdFraction::none;
     f.spin = unknown;
     ++f.version;
     Ballistic& ball = balls_[i];
@@ -66,7 +66,7 @@ void Flights::start(std::uint32_t i, const Path& path, const Moment& now, const 
 
 // A driven path goes to the step's end, but not across the beginning or end of a force. Moments within a step are told apart by
 // their offsets: the same change always has the same.
-Moment Flights::drive_end(std::uint32_t i, const ForceField& forces, const Moment& now) const {
+EventTime EventDrivenMotion::drive_end(std::uint32_t i, const ForceField& forces, const EventTime& now) const {
     const double step_start = clock_.seconds(now.step), step_end = clock_.seconds(now.step + 1);
     for (double change = forces.next_change(i, step_start); change < step_end; change = forces.next_change(i, change))
         if (change - step_start > now.offset) return {now.step, change - step_start};
@@ -74,16 +74,16 @@ Moment Flights::drive_end(std::uint32_t i, const ForceField& forces, const Momen
 }
 
 // Sets a body free from its present state.
-void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const Moment& now) {
+void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     Body& body = bodies[i];
     body.flying = true;
     if (forces.only_gravity(i)) {
-        start(i, Path::flight(body, settings_.gravity), now, never);
+        start(i, Trajectory::flight(body, settings_.gravity), now, never);
         return;
     }
     // Under other forces, step by step; the step's end is as good as double precision allows.
     const bool pushed = fliers_[i].pushed;
-    const Moment end = pushed ? Moment{now.step + 1, 0.0} : drive_end(i, forces, now);
+    const EventTime end = pushed ? EventTime{now.step + 1, 0.0} : drive_end(i, forces, now);
     const double from = clock_.seconds(now), to = clock_.seconds(end), span = clock_.between(now, end);
     const RigidState there = advance_exactly(body, pushed ? forces.without_points() : forces, i, from, to);
     Motion motion;
@@ -91,26 +91,26 @@ void Flights::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& 
     motion.velocity = body.inverse_mass * there.momentum;
     motion.orientation = there.orientation;
     const bool torque_free = there.angular_momentum == body.angular_momentum;
-    start(i, Path::towards(body, motion, span, torque_free), now, end);
+    start(i, Trajectory::towards(body, motion, span, torque_free), now, end);
     fliers_[i].driven = true;
     fliers_[i].turn_from = body.angular_momentum;
     fliers_[i].turn_to = there.angular_momentum;
 }
 
-Traveller Flights::traveller(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) const {
+Traveller EventDrivenMotion::traveller(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const {
     return {&bodies[i], &fliers_[i].path, clock_.between(fliers_[i].start, now)};
 }
 
-void Flights::bring(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     show(i, bodies, now);
     if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();   // the others are derived already
 }
 
 // The body's state and velocities, but not what only contacts need.
-void Flights::show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now) const {
+void EventDrivenMotion::show(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     Body& body = bodies[i];
     if (!body.moves() || body.asleep) return;
-    const Flier& f = fliers_[i];
+    const BodyEvent& f = fliers_[i];
     const double t = clock_.between(f.start, now);
     const Motion motion = f.path.at(t);
     body.position = motion.position;
@@ -131,19 +131,19 @@ void Flights::show(std::uint32_t i, std::vector<Body>& bodies, const Moment& now
     body.derive();
 }
 
-void Flights::place(std::vector<Body>& bodies, std::int64_t step) const {
+void EventDrivenMotion::place(std::vector<Body>& bodies, std::int64_t step) const {
     for (const std::uint32_t i : movers_)
         if (bodies[i].dynamic()) show(i, bodies, {step, 0.0});
 }
 
-bool Flights::stepping(const std::vector<Body>& bodies) const {
+bool EventDrivenMotion::stepping(const std::vector<Body>& bodies) const {
     return std::any_of(movers_.begin(), movers_.end(), [&](std::uint32_t i) {
         const Body& body = bodies[i];
         return body.flying ? fliers_[i].driven : !body.asleep;
     });
 }
 
-void Flights::predict_changed(const std::vector<Body>& bodies, const Moment& now) {
+void EventDrivenMotion::predict_changed(const std::vector<Body>& bodies, const EventTime& now) {
     sort_unique(changed_);
     for (const std::uint32_t i : changed_) box(i, bodies, now);
     for (const std::uint32_t i : changed_) predict(i, bodies, now);
@@ -151,8 +151,8 @@ void Flights::predict_changed(const std::vector<Body>& bodies, const Moment& now
 }
 
 // A box that holds the body for about the time it takes to leave its own place; at least for the step.
-void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
-    Flier& f = fliers_[i];
+void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
+    BodyEvent& f = fliers_[i];
     f.boxed_until = never;
     if (!neighbourhood_.crowded()) {
         if (!neighbourhood_.known(i)) neighbourhood_.enclose(i, Bounds{Vec3::Zero(), Vec3::Zero()});
@@ -180,11 +180,11 @@ void Flights::box(std::uint32_t i, const std::vector<Body>& bodies, const Moment
     else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
 }
 
-void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
-    Flier& f = fliers_[i];
+void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
+    BodyEvent& f = fliers_[i];
     const bool flying = bodies[i].flying;
-    f.event = Flier::Event::leaves_box;
-    Moment next = std::min(f.boxed_until, f.until);
+    f.event = BodyEvent::Event::leaves_box;
+    EventTime next = std::min(f.boxed_until, f.until);
     double horizon = clock_.between(now, next);
     const Traveller self = traveller(i, bodies, now);
     const auto look = [&](std::uint32_t j) {
@@ -193,7 +193,7 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
         if (found.kind == TimeOfImpact::Kind::none || !(found.time < horizon)) return;
         horizon = found.time;
         next = later(now, found.time);
-        f.event = found.kind == TimeOfImpact::Kind::impact ? Flier::Event::impact : Flier::Event::looks_again;
+        f.event = found.kind == TimeOfImpact::Kind::impact ? BodyEvent::Event::impact : BodyEvent::Event::looks_again;
         f.partner = j;
         f.partner_version = fliers_[j].version;
     };
@@ -213,33 +213,33 @@ void Flights::predict(std::uint32_t i, const std::vector<Body>& bodies, const Mo
         }
         if (flying || bodies[j].flying) look(j);
     }
-    if (f.event == Flier::Event::leaves_box && f.met != StepLimit::none && f.until <= f.boxed_until) {
-        f.event = Flier::Event::impact;
+    if (f.event == BodyEvent::Event::leaves_box && f.met != CcdFraction::none && f.until <= f.boxed_until) {
+        f.event = BodyEvent::Event::impact;
         f.partner = f.met;
         f.partner_version = fliers_[f.met].version;
         next = f.until;
     }
     // Nothing more within its path: World takes it up at the end of the step, itself where a force begins or ends.
-    if (f.event == Flier::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < Moment{now.step + 1, 0.0}) {
-        f.event = Flier::Event::drives_on;
+    if (f.event == BodyEvent::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < EventTime{now.step + 1, 0.0}) {
+        f.event = BodyEvent::Event::drives_on;
         queue_.set(i, f.until);
-    } else if (f.event == Flier::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
+    } else if (f.event == BodyEvent::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
     else queue_.set(i, next);
 }
 
-std::int64_t Flights::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until) {
+std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until) {
     until_ = until;
-    while (!queue_.empty() && queue_.first_moment() < Moment{until_, 0.0}) {
+    while (!queue_.empty() && queue_.first_moment() < EventTime{until_, 0.0}) {
         const std::uint32_t i = queue_.first();
-        const Moment now = queue_.first_moment();
-        const Flier& f = fliers_[i];
-        if (f.event == Flier::Event::leaves_box) box(i, bodies, now);
-        if (f.event == Flier::Event::drives_on) {
+        const EventTime now = queue_.first_moment();
+        const BodyEvent& f = fliers_[i];
+        if (f.event == BodyEvent::Event::leaves_box) box(i, bodies, now);
+        if (f.event == BodyEvent::Event::drives_on) {
             bring(i, bodies, now);
             fly(i, bodies, forces, now);
             changed_.push_back(i);
             predict_changed(bodies, now);
-        } else if (f.event == Flier::Event::impact && fliers_[f.partner].version == f.partner_version) {
+        } else if (f.event == BodyEvent::Event::impact && fliers_[f.partner].version == f.partner_version) {
             collide(i, f.partner, bodies, sleep, forces, now);
         } else {
             predict(i, bodies, now);
@@ -249,8 +249,8 @@ std::int64_t Flights::run(std::vector<Body>& bodies, SleepMonitor& sleep, const 
 }
 
 // Counts the body's impacts that follow close on one another; a run of more than any motion has is an error.
-void Flights::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const Moment& now) {
-    Flier& f = fliers_[i];
+void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
+    BodyEvent& f = fliers_[i];
     f.since_impact = f.impacts_in_row > 0 ? clock_.between(f.last_impact, now) : h_;
     f.last_impact = now;
     f.impacts_in_row = f.since_impact < tuning::in_a_row ? f.impacts_in_row + 1 : 1;
@@ -266,26 +266,26 @@ void Flights::count_impact(std::uint32_t i, const std::vector<Body>& bodies, con
 }
 
 // Hops are followed down to a stated time; in a long row of impacts longer and longer ones, up to the step, count as short.
-double Flights::landing_time(std::uint32_t i) const {
+double EventDrivenMotion::landing_time(std::uint32_t i) const {
     const int excess = std::max(0, fliers_[i].impacts_in_row - tuning::impacts_before_landing) / 8;
     return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
 }
 
 // Whether the body's last hop was too short to see and to follow, whatever pressed it back. Measured, for what the formula
 // of a contact's acceleration does not know: edges that turn against each other.
-bool Flights::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
-    const Flier& f = fliers_[i];
+bool EventDrivenMotion::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
+    const BodyEvent& f = fliers_[i];
     return f.impacts_in_row > tuning::impacts_before_stutter && f.since_impact < landing_time(i) &&
            speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
 }
 
 // The commonest impact without the machinery: two frictionless balls, or a ball and a fixed half-space, and nobody else
 // near. Eq. 20 with r x n = 0. False where it is not that.
-bool Flights::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const Moment& now) {
+bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const EventTime& now) {
     const Body &a = bodies[i], &b = bodies[j];
     const auto* ball = std::get_if<Ball>(&a.collider);
     const auto* other_ball = std::get_if<Ball>(&b.collider);
-    const Ground* plane = grounds_[j].valid ? &grounds_[j] : nullptr;
+    const HalfSpaceFilter* plane = grounds_[j].valid ? &grounds_[j] : nullptr;
     if (!ball || !a.flying || fliers_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
     if (!plane && !(other_ball && b.flying && !fliers_[j].driven)) return false;
     const double ta = clock_.between(fliers_[i].start, now), tb = clock_.between(fliers_[j].start, now);
@@ -309,7 +309,7 @@ bool Flights::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<B
 }
 
 // Whether no third body can touch the ball at `at`.
-bool Flights::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const Moment& now) const {
+bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const EventTime& now) const {
     const double r = bodies[i].radius * (1.0 + tuning::touch);
     for (const std::uint32_t k : neighbourhood_.moving(i)) {
         if (k == but) continue;
@@ -331,7 +331,7 @@ bool Flights::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const st
     return true;
 }
 
-void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const Moment& now) {
+void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const EventTime& now) {
     count_impact(i, bodies, now);
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
     const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
@@ -353,8 +353,8 @@ void Flights::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodie
     if (!changed) {
         // Touching without approaching, by rounding: looked at again after a while, a longer one each time, but before anything
         // can have come of it.
-        Flier& f = fliers_[i];
-        f.event = Flier::Event::looks_again;
+        BodyEvent& f = fliers_[i];
+        f.event = BodyEvent::Event::looks_again;
         const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
         queue_.set(i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
         return;

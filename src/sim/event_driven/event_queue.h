@@ -16,9 +16,9 @@ public:
 
     bool empty() const { return heap_.empty(); }
     std::uint32_t first() const { return heap_[0].body; }
-    const Moment& first_moment() const { return heap_[0].moment; }
+    const EventTime& first_moment() const { return heap_[0].moment; }
 
-    void set(std::uint32_t body, const Moment& moment) {
+    void set(std::uint32_t body, const EventTime& moment) {
         if (place_[body] == none) {
             place_[body] = std::uint32_t(heap_.size());
             heap_.push_back({moment, body});
@@ -42,7 +42,7 @@ public:
 private:
     static constexpr std::uint32_t none = UINT32_MAX;
     struct Entry {
-        Moment moment;
+        EventTime moment;
         std::uint32_t body;
         friend auto operator<=>(const Entry&, const Entry&) = default;
     };

@@ -8,15 +8,15 @@
 
 namespace tumble {
 
-struct Moment {
+struct EventTime {
     std::int64_t step = 0;
     double offset = 0.0;   // s after that step's beginning; may exceed a step's length
 
-    friend auto operator<=>(const Moment&, const Moment&) = default;
+    friend auto operator<=>(const EventTime&, const EventTime&) = default;
 };
 
 /// Later than any clip is long.
-inline constexpr Moment never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
+inline constexpr EventTime never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
 
 /// How long a step is, as the two whole and given numbers it is made of.
 struct StepClock {
@@ -25,10 +25,10 @@ struct StepClock {
 
     double seconds(std::int64_t steps) const { return double(steps) / (fps * steps_per_frame); }
     /// b - a, s.
-    double between(const Moment& a, const Moment& b) const {
+    double between(const EventTime& a, const EventTime& b) const {
         return (a.step == b.step ? 0.0 : seconds(b.step - a.step)) + (b.offset - a.offset);
     }
-    double seconds(const Moment& m) const { return seconds(m.step) + m.offset; }
+    double seconds(const EventTime& m) const { return seconds(m.step) + m.offset; }
 };
 
 }  // namespace tumble

@@ -20,7 +20,7 @@ public:
 
 private:
     struct Flight {
-        Path path;
+        Trajectory path;
         std::int64_t start = -1, reached = -1;   // steps
         // As the flight left it: a body that is found otherwise was touched, and flies on from there.
         Vec3 position = Vec3::Zero(), momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();

@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-bool Ground::stays_below(const Path& path, double radius, double from, double horizon) const {
+bool HalfSpaceFilter::stays_below(const Trajectory& path, double radius, double from, double horizon) const {
     if (!path.parabolic()) return false;
     const double height = normal.dot(path.position(from)) - offset - radius;
     const double rate = normal.dot(path.velocity(from)), acceleration = normal.dot(path.acceleration(from));

@@ -5,14 +5,14 @@
 
 namespace tumble {
 
-struct Ground {
+struct HalfSpaceFilter {
     Vec3 normal = Vec3::UnitY();
     double offset = 0.0;   // m: its surface is where normal . p is this
     bool valid = false;    // else this body is no half-space
 
     /// Whether a ball of this radius (m) about the centre of a body on the path certainly stays above for `horizon` s from
     /// the path's time `from` on: it is above, would be at the end, and does not fall and rise again in between.
-    bool stays_below(const Path& path, double radius, double from, double horizon) const;
+    bool stays_below(const Trajectory& path, double radius, double from, double horizon) const;
 };
 
 }  // namespace tumble

@@ -58,7 +58,7 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     }
 }
 
-void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
     expanded_.push_back(body);
     if (add_once(brought_, body)) bring(body);
     if (!bodies[body].dynamic()) return;
@@ -78,7 +78,7 @@ void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
 }
 
 // Whether the body strikes anything now: then it takes part.
-bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
     const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();
     expand(body, bodies, neighbourhood, bring);
     own_.clear();
@@ -93,7 +93,7 @@ bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const
 
 // Whom the blow has come to takes part with all his contacts: who got an impulse, or was struck, though others may have taken the
 // whole blow in the end; and who flies, strikes something else at this very moment, and saw what he touches change its way.
-bool ImpactCluster::grow(std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring) {
+bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
     bool grown = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         for (const std::uint32_t k : {contacts_[i].a, contacts_[i].b}) {
@@ -105,7 +105,7 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const Neighbourhood& neighbo
     return grown;
 }
 
-bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const Neighbourhood& neighbourhood,
+bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
                             const Bring& bring, const ImpactSettings& settings) {
     struck_.clear();
     // Should the manifold miss what the search saw, a wider look finds it.

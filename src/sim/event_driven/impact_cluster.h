@@ -21,7 +21,7 @@ public:
 
     /// Resolves the impact of bodies `a` and `b` and all that hangs on it; momenta and velocities are changed in place.
     /// Returns whether anything did change.
-    bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const Neighbourhood& neighbourhood,
+    bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
                  const Bring& bring, const ImpactSettings& settings);
 
     /// Of the last call: the contacts that were looked at, and the dynamic bodies that got an impulse, ascending.
@@ -30,10 +30,10 @@ public:
     const std::vector<std::uint32_t>& struck() const { return struck_; }
 
 private:
-    void expand(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring);
+    void expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
     void note_reach(const std::vector<Body>& bodies);
-    bool grow(std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring);
-    bool strikes(std::uint32_t body, std::vector<Body>& bodies, const Neighbourhood& neighbourhood, const Bring& bring);
+    bool grow(std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
+    bool strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
     void touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring);
 
     std::vector<std::uint32_t> brought_, expanded_, looked_at_, struck_;

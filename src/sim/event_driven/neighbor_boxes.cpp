@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-Neighbourhood::Neighbourhood(const std::vector<Body>& bodies) : moving_(bodies.size()), standing_(bodies.size()) {
+NeighborBoxes::NeighborBoxes(const std::vector<Body>& bodies) : moving_(bodies.size()), standing_(bodies.size()) {
     std::vector<Bounds> bounds;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
@@ -20,13 +20,13 @@ Neighbourhood::Neighbourhood(const std::vector<Body>& bodies) : moving_(bodies.s
     fixed_tree_ = BoundsTree(std::move(bounds));
 }
 
-bool Neighbourhood::encloses(std::uint32_t body, const Bounds& box) const {
+bool NeighborBoxes::encloses(std::uint32_t body, const Bounds& box) const {
     if (!tree_.holds(body)) return false;
     const Bounds& held = tree_.box(body);
     return (box.min.array() >= held.min.array()).all() && (box.max.array() <= held.max.array()).all();
 }
 
-void Neighbourhood::enclose(std::uint32_t body, const Bounds& box) {
+void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
     tree_.set(body, box);
     found_.clear();
     tree_.query(box, stack_, [&](std::uint32_t other) {

@@ -11,9 +11,9 @@
 
 namespace tumble {
 
-class Neighbourhood {
+class NeighborBoxes {
 public:
-    explicit Neighbourhood(const std::vector<Body>& bodies);
+    explicit NeighborBoxes(const std::vector<Body>& bodies);
 
     /// Puts the body into this box and finds its neighbours anew; theirs are kept in step.
     void enclose(std::uint32_t body, const Bounds& box);

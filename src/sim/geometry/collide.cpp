@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
-using SurfaceRef = std::shared_ptr<const TriangleSurface>;
+using SurfaceRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
 // The pairs that have a routine of their own, in the order it takes them.
@@ -48,14 +48,14 @@ constexpr bool compound = std::is_same_v<T, CompoundRef>;
 
 // In how many ways a pair with this collider can be told apart by Manifold::part. Below 2^32 for two colliders together:
 // limits::parts and limits::mesh_triangles see to it.
-std::uint32_t part_count(const Collider& collider) {
+std::uint32_t part_count(const CollisionShape& collider) {
     if (const auto* surface = std::get_if<SurfaceRef>(&collider)) return std::uint32_t((*surface)->triangles.size());
     if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
     return 1;
 }
 
 // Which parts come within the margin of the other shape, by bounds, ascending.
-void find_near_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, double margin,
+void find_near_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, double margin,
                      std::vector<std::uint32_t>& parts) {
     const Pose relative = seen_from(pose, pose_other);
     const Bounds bounds = world_bounds(other, relative).grown(margin);
@@ -86,7 +86,7 @@ bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Man
 }
 
 // Each part of a compound against the whole of the other shape, in the given order.
-void collide_parts(const Compound& whole, const Pose& pose, const Collider& other, const Pose& pose_other, bool whole_is_a,
+void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, bool whole_is_a,
                    double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const std::uint32_t stride = part_count(other);
     std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
@@ -112,7 +112,7 @@ bool CollisionScratch::was_on_b() const {
     return found != before.end() && found->on_b();
 }
 
-void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
+void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out) {
     if (const auto* whole = std::get_if<CompoundRef>(&a)) {
         collide_parts(**whole, pose_a, b, pose_b, true, margin, scratch, out);

@@ -51,7 +51,7 @@ struct CollisionScratch {
 
 /// Appends the manifolds of the pair: points nearer than `margin` (m). Normals point away from `a`; body indices are
 /// left to the caller. Two half-spaces, two surfaces, and a half-space with a surface never touch: they cannot move.
-void collide(const Collider& a, const Pose& pose_a, const Collider& b, const Pose& pose_b, double margin,
+void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out);
 
 // The pairs behind it, each with its first shape as A.
@@ -68,9 +68,9 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
 /// Both boxes (Polyhedron::is_box): what the general routine gives, in a fraction of the time.
 void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                    CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
+void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
                           double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
                                 double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
 
 }  // namespace tumble

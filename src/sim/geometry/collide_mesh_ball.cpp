@@ -14,7 +14,7 @@ bool contains(const std::vector<T>& list, T value) { return std::find(list.begin
 
 }  // namespace
 
-void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
+void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
                           double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Vec3 center = pose_a.to_body(pose_b.position);
     const double reach = b.radius + margin;
@@ -52,7 +52,7 @@ void collide_surface_ball(const TriangleSurface& a, const Pose& pose_a, const Ba
     edges.clear();
     vertices.clear();
     for (const auto& hit : hits) {
-        const TriangleSurface::Triangle& t = a.triangles[hit.triangle];
+        const CollisionMesh::Triangle& t = a.triangles[hit.triangle];
         if (hit.feature >= 4) {
             const std::uint32_t v = t.vertices[std::size_t(hit.feature - 4)];
             if (contains(vertices, v) || hit.distance > least(at_vertices, v) + tie) continue;

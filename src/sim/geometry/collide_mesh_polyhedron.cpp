@@ -110,7 +110,7 @@ bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose
 
 }  // namespace
 
-void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
+void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
                                 double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     // In the body's frame: hulls are larger than triangles.
     const Pose a_in_b = seen_from(pose_b, pose_a);
@@ -128,7 +128,7 @@ void collide_surface_polyhedron(const TriangleSurface& a, const Pose& pose_a, co
     find_sides(a, candidates, a_in_b.rotation.transpose() * -a_in_b.position, scratch.sides);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::uint32_t index = candidates[k];
-        const TriangleSurface::Triangle& triangle = a.triangles[index];
+        const CollisionMesh::Triangle& triangle = a.triangles[index];
         const bool behind = scratch.sides.behind[k] != 0;
         if (behind && a.closed) continue;
         Vec3 t[3];

@@ -26,30 +26,30 @@ Bounds turned(const Polyhedron& p, const Pose& pose) {
 
 }  // namespace
 
-Bounds world_bounds(const Collider& collider, const Pose& pose) {
+Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
     return std::visit(
         Overloaded{[&](const HalfSpace&) { return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)}; },
                    [&](const Ball& ball) { return Bounds{pose.position, pose.position}.grown(ball.radius); },
                    [&](const std::shared_ptr<const Polyhedron>& p) { return turned(*p, pose); },
-                   [&](const std::shared_ptr<const TriangleSurface>& s) { return turned(s->tree.bounds(), pose); },
+                   [&](const std::shared_ptr<const CollisionMesh>& s) { return turned(s->tree.bounds(), pose); },
                    [&](const std::shared_ptr<const Compound>& c) { return turned(c->tree.bounds(), pose); }},
         collider);
 }
 
-double bounding_radius(const Collider& collider) {
+double bounding_radius(const CollisionShape& collider) {
     return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
                                  [](const Ball& ball) { return ball.radius; },
                                  [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
-                                 [](const std::shared_ptr<const TriangleSurface>& s) { return s->radius; },
+                                 [](const std::shared_ptr<const CollisionMesh>& s) { return s->radius; },
                                  [](const std::shared_ptr<const Compound>& c) { return c->radius; }},
                       collider);
 }
 
-double depth(const Collider& collider) {
+double depth(const CollisionShape& collider) {
     return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
                                  [](const Ball& ball) { return ball.radius; },
                                  [](const std::shared_ptr<const Polyhedron>& p) { return p->inner_radius; },
-                                 [](const std::shared_ptr<const TriangleSurface>&) { return infinity; },
+                                 [](const std::shared_ptr<const CollisionMesh>&) { return infinity; },
                                  [](const std::shared_ptr<const Compound>& c) { return c->inner_radius; }},
                       collider);
 }

@@ -37,17 +37,17 @@ struct Ball {
 struct Compound;   // sim/collision/compound.h
 
 /// Shared where bodies share a mesh: a hull is built once.
-using Collider = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const TriangleSurface>,
+using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const CollisionMesh>,
                               std::shared_ptr<const Compound>>;
 
 /// World bounds of a posed collider; a half-space's are infinite.
-Bounds world_bounds(const Collider& collider, const Pose& pose);
+Bounds world_bounds(const CollisionShape& collider, const Pose& pose);
 
 /// Distance of the farthest point from the centre of mass, m; infinity for a half-space.
-double bounding_radius(const Collider& collider);
+double bounding_radius(const CollisionShape& collider);
 
 /// How far something may come into the shape and still be pushed back out of the side it came in by, m: the inner radius;
 /// infinity for half-spaces and surfaces, where what counts is how thin the other shape is.
-double depth(const Collider& collider);
+double depth(const CollisionShape& collider);
 
 }  // namespace tumble

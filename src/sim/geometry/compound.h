@@ -11,7 +11,7 @@ namespace tumble {
 
 struct Compound {
     struct Part {
-        Collider collider;   // a ball or a polyhedron, in a frame of its own
+        CollisionShape collider;   // a ball or a polyhedron, in a frame of its own
         Pose place;          // of that frame, body frame
         double reach = 0.0;  // m, of its farthest point from its own origin
     };

@@ -14,14 +14,14 @@ namespace {
 using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertices, the lower first
 
 // Turns triangles so that each sheet is wound as its first one is. What has one side only stays as it is and is none.
-void turn_to_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
+void turn_to_sheets(std::vector<CollisionMesh::Triangle>& triangles) {
     std::vector<std::array<std::uint32_t, 3>> vertices;
     vertices.reserve(triangles.size());
-    for (const TriangleSurface::Triangle& triangle : triangles) vertices.push_back(triangle.vertices);
-    const MeshSheets sheets = find_sheets(vertices);
+    for (const CollisionMesh::Triangle& triangle : triangles) vertices.push_back(triangle.vertices);
+    const MeshComponents sheets = find_sheets(vertices);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (sheets.sheet[t] == MeshSheets::none) continue;
-        TriangleSurface::Triangle& triangle = triangles[t];
+        if (sheets.sheet[t] == MeshComponents::none) continue;
+        CollisionMesh::Triangle& triangle = triangles[t];
         triangle.sheet = sheets.sheet[t];
         if (!sheets.turned[t]) continue;
         std::swap(triangle.vertices[1], triangle.vertices[2]);
@@ -31,8 +31,8 @@ void turn_to_sheets(std::vector<TriangleSurface::Triangle>& triangles) {
 
 }  // namespace
 
-TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
-    TriangleSurface s;
+CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin) {
+    CollisionMesh s;
     s.closed = closedness(mesh).closed();
     for (const Vec3& v : mesh.vertices) {
         s.vertices.push_back(v - origin);
@@ -43,7 +43,7 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
         const Vec3 &a = s.vertices[t[0]], &b = s.vertices[t[1]], &c = s.vertices[t[2]];
         const Vec3 n = (b - a).cross(c - a);
         if (n.norm() == 0.0) continue;
-        TriangleSurface::Triangle triangle;
+        CollisionMesh::Triangle triangle;
         triangle.vertices = t;
         triangle.normal = n.normalized();
         s.triangles.push_back(triangle);
@@ -91,7 +91,7 @@ TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin) {
     return s;
 }
 
-bool TriangleSurface::owns_normal(const Triangle& triangle, const Vec3& normal) const {
+bool CollisionMesh::owns_normal(const Triangle& triangle, const Vec3& normal) const {
     constexpr double slack = 1e-9;   // sine of the angle forgiven to rounding
     const auto farther = [&](std::uint32_t to, std::uint32_t from) {
         const Vec3 way = vertices[to] - vertices[from];

@@ -12,7 +12,7 @@
 
 namespace tumble {
 
-struct TriangleSurface {
+struct CollisionMesh {
     static constexpr std::uint32_t none = 0xffffffff;
 
     struct Triangle {
@@ -44,6 +44,6 @@ struct TriangleSurface {
 };
 
 /// Throws InputError when no triangle has an area.
-TriangleSurface make_surface(const TriangleMesh& mesh, const Vec3& origin);
+CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin);
 
 }  // namespace tumble

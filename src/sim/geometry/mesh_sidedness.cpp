@@ -10,23 +10,23 @@
 namespace tumble {
 namespace {
 
-using Triangle = TriangleSurface::Triangle;
-constexpr std::uint32_t none = TriangleSurface::none;
+using Triangle = CollisionMesh::Triangle;
+constexpr std::uint32_t none = CollisionMesh::none;
 
-NearestOnTriangle nearest(const TriangleSurface& s, std::uint32_t t, const Vec3& point) {
+NearestOnTriangle nearest(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     return nearest_on_triangle(point, s.corner(t, 0), s.corner(t, 1), s.corner(t, 2));
 }
 
-bool plane_behind(const TriangleSurface& s, std::uint32_t t, const Vec3& point) {
+bool plane_behind(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     return s.triangles[t].normal.dot(point - s.corner(t, 0)) < 0.0;
 }
 
-std::span<const std::uint32_t> fan_of(const TriangleSurface& s, std::uint32_t vertex) {
+std::span<const std::uint32_t> fan_of(const CollisionMesh& s, std::uint32_t vertex) {
     return std::span(s.fan).subspan(s.fan_start[vertex], s.fan_start[vertex + 1] - s.fan_start[vertex]);
 }
 
 // The normals of the sheet's triangles at a vertex, weighted by their angles there; none on the rim.
-std::optional<Vec3> vertex_normal(const TriangleSurface& s, std::uint32_t vertex, std::uint32_t sheet) {
+std::optional<Vec3> vertex_normal(const CollisionMesh& s, std::uint32_t vertex, std::uint32_t sheet) {
     Vec3 sum = Vec3::Zero();
     for (const std::uint32_t t : fan_of(s, vertex)) {
         const Triangle& triangle = s.triangles[t];
@@ -42,7 +42,7 @@ std::optional<Vec3> vertex_normal(const TriangleSurface& s, std::uint32_t vertex
 }
 
 // The surface's normal at a feature (NearestOnTriangle::feature) of a triangle; none on the rim.
-std::optional<Vec3> normal_at(const TriangleSurface& s, std::uint32_t t, int feature) {
+std::optional<Vec3> normal_at(const CollisionMesh& s, std::uint32_t t, int feature) {
     const Triangle& triangle = s.triangles[t];
     if (feature == 0) return triangle.normal;
     if (feature >= 4) return vertex_normal(s, triangle.vertices[std::size_t(feature - 4)], triangle.sheet);
@@ -58,7 +58,7 @@ std::optional<Vec3> normal_at(const TriangleSurface& s, std::uint32_t t, int fea
 
 // From a triangle down to where its sheet is nearest to the point, neighbour by neighbour: another fold of the sheet may be
 // nearer, but is no part of this one. Whether the point is behind it there; none where that is the rim.
-std::optional<bool> sheet_behind(const TriangleSurface& s, std::uint32_t t, const Vec3& point) {
+std::optional<bool> sheet_behind(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     NearestOnTriangle best = nearest(s, t, point);
     double square = (point - best.point).squaredNorm();
     for (bool nearer = true; nearer;) {
@@ -83,7 +83,7 @@ std::optional<bool> sheet_behind(const TriangleSurface& s, std::uint32_t t, cons
 }
 
 // Fills `piece`.
-void find_pieces(const TriangleSurface& s, std::span<const std::uint32_t> triangles, SideScratch& scratch) {
+void find_pieces(const CollisionMesh& s, std::span<const std::uint32_t> triangles, SideScratch& scratch) {
     auto& piece = scratch.piece;
     piece.resize(triangles.size());
     std::iota(piece.begin(), piece.end(), 0u);
@@ -107,7 +107,7 @@ void find_pieces(const TriangleSurface& s, std::span<const std::uint32_t> triang
 
 }  // namespace
 
-void find_sides(const TriangleSurface& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
+void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
                 SideScratch& scratch) {
     auto& behind = scratch.behind;
     behind.clear();

@@ -19,7 +19,7 @@ struct SideScratch {
     struct Piece {                      // one a triangle, of those that are first
         bool mixed = false;             // the planes disagree
         double square = 0.0;            // m^2, of the least distance, to the triangle `nearest`
-        std::uint32_t nearest = TriangleSurface::none;
+        std::uint32_t nearest = CollisionMesh::none;
         std::optional<bool> behind;
     };
     std::vector<Piece> pieces;
@@ -27,7 +27,7 @@ struct SideScratch {
 
 /// Fills `behind` for each of `triangles`, which are those near the point. Those that hang together by their edges have it on
 /// the same side, unless it is nearest to the surface's rim, where each one's plane must do: a rod leans out of a bowl.
-void find_sides(const TriangleSurface& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
+void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
                 SideScratch& scratch);
 
 }  // namespace tumble

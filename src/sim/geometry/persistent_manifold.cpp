@@ -19,8 +19,8 @@ Ends ends_of(const ContactPoint& p, const Vec3& normal, const Pose& pose_a, cons
 
 }  // namespace
 
-Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b) {
-    Anchors anchors;
+PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b) {
+    PersistentManifold anchors;
     anchors.normal_of_b = normal_of_b;
     anchors.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
@@ -32,14 +32,14 @@ Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, 
 }
 
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
-                 Anchors& anchors) {
+                 PersistentManifold& anchors) {
     const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
         const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
         const Vec3 point = of_b ? on_a : on_b;
         anchors.spare[std::size_t(anchors.spares++)] = {{float(point.x()), float(point.y()), float(point.z())},
                                                         float(anchors.normal.dot(of_b ? on_b : on_a))};
     };
-    if (left_out.size() <= Anchors::spare_capacity) {
+    if (left_out.size() <= PersistentManifold::spare_capacity) {
         std::for_each(left_out.begin(), left_out.end(), add);
         return;
     }
@@ -50,7 +50,7 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
             for (int i = 0; i < m.count; ++i) nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
         farness.push_back(nearest);
     }
-    while (anchors.spares < int(Anchors::spare_capacity)) {
+    while (anchors.spares < int(PersistentManifold::spare_capacity)) {
         const auto next = std::size_t(std::max_element(farness.begin(), farness.end()) - farness.begin());
         add(left_out[next]);
         for (std::size_t i = 0; i < left_out.size(); ++i)
@@ -58,13 +58,13 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
     }
 }
 
-double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
+double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
     double deepest = std::numeric_limits<double>::infinity();
     if (anchors.spares == 0) return deepest;   // the most part
     const double between = m.normal.dot(pose_b.position - pose_a.position);
     const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
-        const Anchors::Spare& spare = anchors.spare[i];
+        const PersistentManifold::Spare& spare = anchors.spare[i];
         const double height = n.dot(Vec3(spare.point[0], spare.point[1], spare.point[2])), face = spare.face;
         deepest = std::min(deepest, between + (anchors.normal_of_b ? face - height : height - face));
     }
@@ -72,7 +72,7 @@ double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pos
 }
 
 // All points side by side, those that are not there too: the loops have no ends of their own and become vector code.
-void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
+void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
     const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
     const Vec3 between = other.position - of_face.position;   // the difference first: digits far from the origin
     const Vec3 n = of_face.rotation * anchors.normal;

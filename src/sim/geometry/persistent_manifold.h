@@ -14,7 +14,7 @@
 
 namespace tumble {
 
-struct Anchors {
+struct PersistentManifold {
     // One end of each point, in the frame of its body: coordinate after coordinate, for all points side by side.
     struct Ends {
         double coordinate[3][Manifold::capacity] = {};
@@ -42,17 +42,17 @@ struct Anchors {
 };
 
 /// `normal_of_b`: the normal is that of a face of B.
-Anchors make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
+PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
 
 /// Adds what was left out: of many, those farthest from what is kept and from each other.
 /// `kept`: the manifold, and its second one where there is one.
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
-                 Anchors& anchors);
+                 PersistentManifold& anchors);
 
 /// Separation of the spare that lies deepest, for `m` brought up to date; infinity where there is none.
-double deepest_spare(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
+double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
 
 /// Normal, positions and separations of `m` for new poses.
-void follow(const Anchors& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
+void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
 
 }  // namespace tumble

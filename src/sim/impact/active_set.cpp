@@ -34,10 +34,10 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
 
 }  // namespace
 
-Projection::Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
+ActiveSet::ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
     : rows_(rows), exact_(exact), parent_(bodies), place_(bodies, VelocityRow::none) {}
 
-bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
+bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
     bound_ = bound;
     work_ = 0.0;
     if (bound.velocity) return solve_part(demands, multipliers);   // a bound is on all velocities together
@@ -54,13 +54,13 @@ bool Projection::solve(const std::vector<Demand>& demands, std::vector<double>& 
     return met;
 }
 
-std::uint32_t Projection::root(std::uint32_t body) {
+std::uint32_t ActiveSet::root(std::uint32_t body) {
     while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
     return body;
 }
 
 // In the order of their first demands.
-void Projection::find_parts(const std::vector<Demand>& demands) {
+void ActiveSet::find_parts(const std::vector<Demand>& demands) {
     const auto bodies_of = [&](const Demand& d) { return std::array{rows_[d.row].a, rows_[d.row].b}; };
     for (const Demand& d : demands)
         for (const std::uint32_t body : bodies_of(d))
@@ -85,7 +85,7 @@ void Projection::find_parts(const std::vector<Demand>& demands) {
             if (body != VelocityRow::none) place_[body] = VelocityRow::none;
 }
 
-bool Projection::solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
+bool ActiveSet::solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
     demands_ = &demands;
     multipliers_ = &multipliers;
     multipliers.assign(demands.size(), 0.0);
@@ -96,7 +96,7 @@ bool Projection::solve_part(const std::vector<Demand>& demands, std::vector<doub
 }
 
 // Only the bodies that the part touches take part: the cost is that of the part, not of the cluster.
-void Projection::place_bodies() {
+void ActiveSet::place_bodies() {
     local_.clear();
     std::uint32_t count = 0;
     const auto place = [&](std::uint32_t body) {
@@ -123,7 +123,7 @@ void Projection::place_bodies() {
     }
 }
 
-bool Projection::active_set() {
+bool ActiveSet::active_set() {
     const std::size_t n = demands_->size();
     held_.clear();
     basis_.clear();
@@ -156,7 +156,7 @@ bool Projection::active_set() {
 
 // Moves lambda_i up from zero until row i is met; rows whose multiplier reaches zero on the way are let go. Goldfarb and
 // Idnani's step: d moves along the remainder z of w_i by t, the held multipliers by -t R^-1 Q^T w_i.
-bool Projection::take_in(std::size_t i) {
+bool ActiveSet::take_in(std::size_t i) {
     std::vector<double>& lambda = *multipliers_;
     for (;;) {
         const bool independent = split(local_[i]);
@@ -192,7 +192,7 @@ bool Projection::take_in(std::size_t i) {
 
 // w = Q along + remainder. A second pass where the first has cancelled digits (Daniel, Gragg, Kaufman, Stewart 1976:
 // twice is enough). False when w depends on the rows held.
-bool Projection::split(const VelocityRow& row) {
+bool ActiveSet::split(const VelocityRow& row) {
     remainder_.setZero(size_);
     row.add_to(remainder_, 1.0);
     along_.assign(held_.size(), 0.0);
@@ -215,7 +215,7 @@ bool Projection::split(const VelocityRow& row) {
     return remainder_.norm() > tuning::projection_dependent;
 }
 
-void Projection::back_substitute() {
+void ActiveSet::back_substitute() {
     weights_ = along_;
     for (std::size_t k = held_.size(); k-- > 0;) {
         weights_[k] /= column(k)[k];
@@ -223,14 +223,14 @@ void Projection::back_substitute() {
     }
 }
 
-void Projection::forward_substitute(std::vector<double>& v) const {
+void ActiveSet::forward_substitute(std::vector<double>& v) const {
     for (std::size_t k = 0; k < held_.size(); ++k) {
         for (std::size_t i = 0; i < k; ++i) v[k] -= column(k)[i] * v[i];
         v[k] /= column(k)[k];
     }
 }
 
-void Projection::hold(std::size_t i) {
+void ActiveSet::hold(std::size_t i) {
     const double length = remainder_.norm();
     triangle_.insert(triangle_.end(), along_.begin(), along_.end());
     triangle_.push_back(length);
@@ -241,7 +241,7 @@ void Projection::hold(std::size_t i) {
 }
 
 // Column k leaves R; each later column moves up one place and its entry below the diagonal is turned away (Givens).
-void Projection::let_go(std::size_t k) {
+void ActiveSet::let_go(std::size_t k) {
     out_[held_[k]] = 0;
     sines_.clear();
     cosines_.clear();
@@ -273,7 +273,7 @@ void Projection::let_go(std::size_t k) {
 // Of all multipliers that make the same change, those of the least sum of squares: a flat box presses on its four corners
 // alike, not on two of them. With B = W_tight Q, over all rows that are just met, and B^T B c = Q^T d these are B c; where
 // one would turn negative, as far from the active set's own towards them as none does.
-void Projection::spread() {
+void ActiveSet::spread() {
     std::vector<double>& lambda = *multipliers_;
     const std::size_t own = held_.size();
     tight_.clear();
@@ -322,7 +322,7 @@ void Projection::spread() {
 }
 
 // One step of iterative refinement on W^T W lambda = -s of the rows held, from the change that the multipliers make.
-void Projection::refine() {
+void ActiveSet::refine() {
     std::vector<double>& lambda = *multipliers_;
     change_.setZero(size_);
     for (std::size_t i = 0; i < lambda.size(); ++i)
@@ -334,7 +334,7 @@ void Projection::refine() {
     for (std::size_t k = 0; k < held_.size(); ++k) lambda[held_[k]] = std::max(0.0, lambda[held_[k]] + weights_[k]);
 }
 
-bool Projection::sweeps() {
+bool ActiveSet::sweeps() {
     std::vector<double>& lambda = *multipliers_;
     double first = 0.0;
     for (int sweep = 0; sweep < tuning::projection_sweeps; ++sweep) {

@@ -27,10 +27,10 @@ struct VelocityBound {
     double longest = 0.0;
 };
 
-class Projection {
+class ActiveSet {
 public:
     /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly.
-    Projection(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
+    ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
 
     struct Demand {
         std::uint32_t row;

@@ -31,7 +31,7 @@ std::pair<double, double> least_in_disc(double k0, double k1, double g0, double 
 
 }  // namespace
 
-ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, std::size_t contact) {
+ImpactFriction::Block ImpactFriction::make_block(const ImpactSystem& cluster, std::size_t contact) {
     Contact c = cluster.contact(contact);
     c.arm_a += c.rub;
     c.arm_b += c.rub;
@@ -63,7 +63,7 @@ ImpactFriction::Block ImpactFriction::make_block(const ContactCluster& cluster, 
 }
 
 // Where there is no normal impulse there is no friction: most contacts of a heap have none in an impact.
-void ImpactFriction::add_blocks(const ContactCluster& cluster) {
+void ImpactFriction::add_blocks(const ImpactSystem& cluster) {
     const std::size_t before = blocks_.size();
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         if (has_block_[i] || !(cluster.impulse(i) > 0.0) || cluster.contact(i).friction <= 0.0) continue;
@@ -80,7 +80,7 @@ double ImpactFriction::tolerance() const {
 }
 
 // Finds a lone block's three impulses; among others goes one round towards them. Returns the change of speed made, m/s.
-double ImpactFriction::relax(ContactCluster& cluster, Block& block, Normal normal) const {
+double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal) const {
     const std::size_t i = block.contact;
     const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance, k1 = block.second_compliance;
     double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
@@ -113,7 +113,7 @@ double ImpactFriction::relax(ContactCluster& cluster, Block& block, Normal norma
 }
 
 // Returns the largest change of speed in a sweep.
-double ImpactFriction::relax_all(ContactCluster& cluster, Normal normal) {
+double ImpactFriction::relax_all(ImpactSystem& cluster, Normal normal) {
     double most = 0.0;
     const int sweeps = blocks_.size() <= tuning::friction_few
                            ? tuning::friction_sweeps
@@ -127,19 +127,19 @@ double ImpactFriction::relax_all(ContactCluster& cluster, Normal normal) {
     return most;
 }
 
-ImpactFriction::State ImpactFriction::state(const ContactCluster& cluster, const Block& block) {
+ImpactFriction::State ImpactFriction::state(const ImpactSystem& cluster, const Block& block) {
     return {{cluster.impulse(block.contact), block.f0, block.f1},
             {cluster.speed(block.contact), block.first_row.dot(cluster.velocity()) + block.first_offset,
              block.second_row.dot(cluster.velocity()) + block.second_offset}};
 }
 
-void ImpactFriction::look(const ContactCluster& cluster, std::vector<State>& states) const {
+void ImpactFriction::look(const ImpactSystem& cluster, std::vector<State>& states) const {
     states.clear();
     for (const Block& block : blocks_) states.push_back(state(cluster, block));
 }
 
 // Goes a share of the way from the impulses that the cluster has to others.
-void ImpactFriction::set(ContactCluster& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
+void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         Block& block = blocks_[k];
         const auto step = [&](std::size_t i) { return share * (to[k].impulse[i] - from[k].impulse[i]); };
@@ -152,7 +152,7 @@ void ImpactFriction::set(ContactCluster& cluster, const std::vector<State>& from
 }
 
 // Impulses that change by d and the speeds at them from u to u + K d do the work d . u + d . K d / 2, K the compliance.
-void ImpactFriction::limit_energy(ContactCluster& cluster) {
+void ImpactFriction::limit_energy(ImpactSystem& cluster) {
     const auto sum = [&](const std::vector<State>& from, const std::vector<State>& to, auto&& term) {
         double all = 0.0;
         for (std::size_t k = 0; k < blocks_.size(); ++k)
@@ -173,7 +173,7 @@ void ImpactFriction::limit_energy(ContactCluster& cluster) {
     set(cluster, least_, kept_, std::clamp(share, 0.0, 1.0));
 }
 
-bool ImpactFriction::apply(ContactCluster& cluster) {
+bool ImpactFriction::apply(ImpactSystem& cluster) {
     add_blocks(cluster);
     look(cluster, start_);
     for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].kept = start_[k].speed[0];
@@ -182,7 +182,7 @@ bool ImpactFriction::apply(ContactCluster& cluster) {
     return most > cluster.rounding();
 }
 
-void ImpactFriction::store(const ContactCluster& cluster, std::vector<Contact>& contacts) const {
+void ImpactFriction::store(const ImpactSystem& cluster, std::vector<Contact>& contacts) const {
     for (const Block& block : blocks_)
         contacts[cluster.contact_index(block.contact)].impact_friction = block.f0 * block.first + block.f1 * block.second;
 }

@@ -22,14 +22,14 @@ class ImpactFriction {
 public:
     enum class Precision { last_digits, step };   // for an impact at its own time, or at a step
 
-    ImpactFriction(const ContactCluster& cluster, Precision precision) : precision_(precision), has_block_(cluster.size(), 0) {}
+    ImpactFriction(const ImpactSystem& cluster, Precision precision) : precision_(precision), has_block_(cluster.size(), 0) {}
 
     /// Brings the friction impulses up to the cluster's present normal impulses and velocities. False when next to nothing
     /// changed.
-    bool apply(ContactCluster& cluster);
+    bool apply(ImpactSystem& cluster);
 
     /// Writes the impulses to the contacts, N s on B.
-    void store(const ContactCluster& cluster, std::vector<Contact>& contacts) const;
+    void store(const ImpactSystem& cluster, std::vector<Contact>& contacts) const;
 
 private:
     // What a block's three impulses are (N s: normal, f0, f1) and what its contact does (m/s: v_rel, slip along the two).
@@ -48,15 +48,15 @@ private:
         double kept = 0.0;               // m/s: v_rel before friction
     };
 
-    static Block make_block(const ContactCluster& cluster, std::size_t contact);
-    void add_blocks(const ContactCluster& cluster);
-    double relax(ContactCluster& cluster, Block& block, Normal normal) const;
-    double relax_all(ContactCluster& cluster, Normal normal);
+    static Block make_block(const ImpactSystem& cluster, std::size_t contact);
+    void add_blocks(const ImpactSystem& cluster);
+    double relax(ImpactSystem& cluster, Block& block, Normal normal) const;
+    double relax_all(ImpactSystem& cluster, Normal normal);
     double tolerance() const;
-    static State state(const ContactCluster& cluster, const Block& block);
-    void look(const ContactCluster& cluster, std::vector<State>& states) const;
-    void set(ContactCluster& cluster, const std::vector<State>& from, const std::vector<State>& to, double share);
-    void limit_energy(ContactCluster& cluster);
+    static State state(const ImpactSystem& cluster, const Block& block);
+    void look(const ImpactSystem& cluster, std::vector<State>& states) const;
+    void set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share);
+    void limit_energy(ImpactSystem& cluster);
 
     Precision precision_;
     std::vector<char> has_block_;           // by contact of the cluster

@@ -9,25 +9,25 @@
 namespace tumble {
 namespace {
 
-double restitution_now(const ContactCluster& cluster, std::size_t i, double threshold) {
+double restitution_now(const ImpactSystem& cluster, std::size_t i, double threshold) {
     return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.contact(i).restitution : 0.0;
 }
 
-Projection::Demand demand(const ContactCluster& cluster, std::size_t i, double least_speed) {
+ActiveSet::Demand demand(const ImpactSystem& cluster, std::size_t i, double least_speed) {
     const double length = cluster.length(i);
     return {std::uint32_t(i), (cluster.speed(i) - least_speed) / length, cluster.rounding() / length};
 }
 
 // Stopped at walls that all move with w, |y|^2 grows by 2 w.d - |d|^2 <= |w|^2. Much more is a way out between walls that
 // move against each other and are all but parallel, and none. Without moving walls |y| cannot grow.
-VelocityBound bound(const ContactCluster& cluster) {
+VelocityBound bound(const ImpactSystem& cluster) {
     if (cluster.wall_velocity() == 0.0) return {};
     const double wall = tuning::impact_wedge * cluster.wall_velocity();
     return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
 }
 
 // Adds the change of y that multipliers make to d; returns lambda . s.
-double add_change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+double add_change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
                   Eigen::VectorXd& d) {
     double work_before = 0.0;
     for (std::size_t i = 0; i < set.size(); ++i) {
@@ -47,7 +47,7 @@ struct Change {
     Eigen::VectorXd d;
     double work_before = 0.0, square = 0.0;   // lambda . s, |d|^2
 
-    Change(const ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda)
+    Change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda)
         : d(Eigen::VectorXd::Zero(cluster.velocity().size())) {
         work_before = add_change(cluster, set, lambda, d);
         square = d.squaredNorm();
@@ -56,7 +56,7 @@ struct Change {
     double reflection() const { return reflection_factor(work_before, square); }
 };
 
-void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, const std::vector<double>& lambda,
+void apply(ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
            double factor) {
     if (!(factor > 0.0)) return;
     for (std::size_t i = 0; i < set.size(); ++i)
@@ -65,7 +65,7 @@ void apply(ContactCluster& cluster, const std::vector<Projection::Demand>& set, 
 
 class Propagation {
 public:
-    Propagation(ContactCluster& cluster, double threshold, double slow, double resting)
+    Propagation(ImpactSystem& cluster, double threshold, double slow, double resting)
         : cluster_(cluster), threshold_(threshold),
           slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
@@ -124,7 +124,7 @@ private:
         for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
         apply(cluster_, active_, lambda_, std::min(f, reflection()));
         std::fill(changed_.begin(), changed_.end(), 0);
-        for (const Projection::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
+        for (const ActiveSet::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
         changed_.back() = 0;
         return true;
     }
@@ -133,7 +133,7 @@ private:
     double reflection() {
         const double work_before = add_change(cluster_, active_, lambda_, change_);
         double square = 0.0;
-        for (const Projection::Demand& demand : active_)
+        for (const ActiveSet::Demand& demand : active_)
             for (const std::uint32_t body : {cluster_.rows()[demand.row].a, cluster_.rows()[demand.row].b}) {
                 if (body == VelocityRow::none) continue;
                 auto of_body = change_.segment<6>(6 * Eigen::Index(body));
@@ -153,10 +153,10 @@ private:
     // large to tell: they get no more passes.
     double depth() {
         if (cluster_.size() > tuning::projection_contacts) return 0.0;
-        std::vector<Projection::Demand> all;
+        std::vector<ActiveSet::Demand> all;
         for (std::size_t i = 0; i < cluster_.size(); ++i) all.push_back({std::uint32_t(i), -1.0, 1e-6});
         std::vector<double> lambda;
-        if (!Projection(cluster_.rows(), cluster_.bodies()).solve(all, lambda)) return 0.0;
+        if (!ActiveSet(cluster_.rows(), cluster_.bodies()).solve(all, lambda)) return 0.0;
         return std::sqrt(Change(cluster_, all, lambda).square);
     }
 
@@ -170,10 +170,10 @@ private:
         return z == 0.0 || z > tuning::impact_deepest;
     }
 
-    ContactCluster& cluster_;
+    ImpactSystem& cluster_;
     double threshold_, slow_, longest_ = 0.0;
-    Projection projection_;
-    std::vector<Projection::Demand> active_;
+    ActiveSet projection_;
+    std::vector<ActiveSet::Demand> active_;
     std::vector<double> restitution_, lambda_;
     Eigen::VectorXd change_;                                        // zero between uses
     std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
@@ -183,21 +183,21 @@ private:
 
 }  // namespace
 
-bool bounces(const ContactCluster& cluster, double threshold) {
+bool bounces(const ImpactSystem& cluster, double threshold) {
     for (std::size_t i = 0; i < cluster.size(); ++i)
         if (restitution_now(cluster, i, threshold) > 0.0) return true;
     return false;
 }
 
-int propagate(ContactCluster& cluster, double threshold, double slow, double resting) {
+int propagate(ImpactSystem& cluster, double threshold, double slow, double resting) {
     return Propagation(cluster, threshold, slow, resting).run();
 }
 
-bool stop(ContactCluster& cluster) {
-    std::vector<Projection::Demand> all;
+bool stop(ImpactSystem& cluster) {
+    std::vector<ActiveSet::Demand> all;
     for (std::size_t i = 0; i < cluster.size(); ++i) all.push_back(demand(cluster, i, 0.0));
     std::vector<double> lambda;
-    const bool met = Projection(cluster.rows(), cluster.bodies()).solve(all, lambda, bound(cluster));
+    const bool met = ActiveSet(cluster.rows(), cluster.bodies()).solve(all, lambda, bound(cluster));
     apply(cluster, all, lambda, std::min(1.0, Change(cluster, all, lambda).reflection()));
     return met;
 }
@@ -205,9 +205,9 @@ bool stop(ContactCluster& cluster) {
 // Newton's law asks for more than there is energy for when restitutions differ, or when a contact that parts is hit by
 // the others. Then y lies on the way from the solution y0 of e = 0 to Newton's, where the energy is what it was: both
 // stop every approach, so all between them do.
-int resolve_together(ContactCluster& cluster, double threshold) {
+int resolve_together(ImpactSystem& cluster, double threshold) {
     if (!bounces(cluster, threshold)) return 0;
-    std::vector<Projection::Demand> stopping, bouncing;
+    std::vector<ActiveSet::Demand> stopping, bouncing;
     bool elastic = true;
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const double e = restitution_now(cluster, i, threshold);
@@ -215,7 +215,7 @@ int resolve_together(ContactCluster& cluster, double threshold) {
         bouncing.push_back(demand(cluster, i, e > 0.0 ? -e * cluster.speed(i) : 0.0));
         elastic = elastic && (!cluster.approaching(i) || e == 1.0);
     }
-    Projection projection(cluster.rows(), cluster.bodies());
+    ActiveSet projection(cluster.rows(), cluster.bodies());
     std::vector<double> lambda, least;
     const bool met = projection.solve(bouncing, lambda, bound(cluster));
     const Change newton(cluster, bouncing, lambda);

@@ -32,14 +32,14 @@ struct ImpactSettings {
 };
 
 /// Whether any contact approaches fast enough, and has the restitution, to bounce.
-bool bounces(const ContactCluster& cluster, double threshold);
+bool bounces(const ImpactSystem& cluster, double threshold);
 
 /// Repeats the law until nothing bounces; returns the passes. Jammed contacts (a ball between two walls) have no end: they
 /// lose their restitution and stop. Threshold, slow and resting as in ImpactSettings.
-int propagate(ContactCluster& cluster, double threshold, double slow, double resting);
-int resolve_together(ContactCluster& cluster, double threshold);
+int propagate(ImpactSystem& cluster, double threshold, double slow, double resting);
+int resolve_together(ImpactSystem& cluster, double threshold);
 
 /// The least change that leaves nothing approaching, e = 0. False where there is none (between closing walls).
-bool stop(ContactCluster& cluster);
+bool stop(ImpactSystem& cluster);
 
 }  // namespace tumble

@@ -50,7 +50,7 @@ Vec6 MassRoot::weighted(const Body& body) const {
     return y;
 }
 
-ContactCluster::ContactCluster(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies)
+ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies)
     : body_index_(island.bodies), contacts_(contacts), bodies_(bodies) {
     roots_.reserve(island.bodies.size());
     velocity_.resize(6 * Eigen::Index(island.bodies.size()));
@@ -84,12 +84,12 @@ ContactCluster::ContactCluster(const Island& island, const std::vector<Contact>&
     rounding_ = tuning::approach_relative * fastest + tuning::approach_rounding * largest;
 }
 
-std::uint32_t ContactCluster::place(std::uint32_t body) const {
+std::uint32_t ImpactSystem::place(std::uint32_t body) const {
     const auto found = std::lower_bound(body_index_.begin(), body_index_.end(), body);
     return found != body_index_.end() && *found == body ? std::uint32_t(found - body_index_.begin()) : VelocityRow::none;
 }
 
-VelocityRow ContactCluster::relative_row(const Contact& c, const Vec3& direction) const {
+VelocityRow ImpactSystem::relative_row(const Contact& c, const Vec3& direction) const {
     VelocityRow row;
     row.a = place(c.a);
     row.b = place(c.b);
@@ -98,7 +98,7 @@ VelocityRow ContactCluster::relative_row(const Contact& c, const Vec3& direction
     return row;
 }
 
-double ContactCluster::offset(const Contact& c, const Vec3& direction) const {
+double ImpactSystem::offset(const Contact& c, const Vec3& direction) const {
     const Body &a = bodies_[c.a], &b = bodies_[c.b];
     double sum = 0.0;
     if (!a.dynamic()) sum -= direction.dot(a.point_velocity(c.arm_a));
@@ -106,7 +106,7 @@ double ContactCluster::offset(const Contact& c, const Vec3& direction) const {
     return sum;
 }
 
-void ContactCluster::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const {
+void ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const {
     for (std::size_t i = 0; i < roots_.size(); ++i) {
         const Vec6 change = (velocity_ - start_).segment<6>(6 * Eigen::Index(i));
         if (change.isZero(0.0)) continue;

@@ -28,10 +28,10 @@ struct MassRoot {
     Vec6 weighted(const Body& body) const;
 };
 
-class ContactCluster {
+class ImpactSystem {
 public:
     /// Takes in the island's touching contacts. Both lists are kept by reference; nothing is changed before store().
-    ContactCluster(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
+    ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
 
     std::size_t size() const { return rows_.size(); }
     std::size_t bodies() const { return roots_.size(); }

@@ -21,13 +21,13 @@ bool may_collide(const Island& island, const std::vector<Contact>& contacts, con
     return false;
 }
 
-bool approaching(const ContactCluster& cluster) {
+bool approaching(const ImpactSystem& cluster) {
     for (std::size_t i = 0; i < cluster.size(); ++i)
         if (cluster.approaching(i)) return true;
     return false;
 }
 
-int resolve_normally(ContactCluster& cluster, const ImpactSettings& settings) {
+int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
     const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold, settings.slow, settings.resting)
                                                         : resolve_together(cluster, settings.threshold);
     if (!settings.complete || !approaching(cluster)) return passes;
@@ -37,7 +37,7 @@ int resolve_normally(ContactCluster& cluster, const ImpactSettings& settings) {
 
 // Friction may turn a body so that it approaches again: then there is more of the impact, with friction's disc grown by
 // it. A bounded number of rounds, the later ones without restitution; the last word is that nothing approaches.
-void add_friction(ContactCluster& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
+void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
     for (int round = 0; round < tuning::friction_rounds; ++round) {
         if (!friction.apply(cluster) || !approaching(cluster)) return;
         if (round < tuning::friction_bounces) resolve_normally(cluster, settings);
@@ -50,7 +50,7 @@ void add_friction(ContactCluster& cluster, const ImpactSettings& settings, Impac
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                     const ImpactSettings& settings) {
     if (!may_collide(island, contacts, bodies, settings)) return 0;
-    ContactCluster cluster(island, contacts, bodies);
+    ImpactSystem cluster(island, contacts, bodies);
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {
@@ -78,8 +78,8 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     if (bounced.contacts.empty()) return;
     std::sort(bounced.bodies.begin(), bounced.bodies.end());
     bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());
-    const ContactCluster cluster(bounced, contacts, bodies);
-    std::vector<Projection::Demand> demands;
+    const ImpactSystem cluster(bounced, contacts, bodies);
+    std::vector<ActiveSet::Demand> demands;
     std::vector<VelocityRow> rows = cluster.rows();
     std::vector<double> sign(cluster.size(), 1.0);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
@@ -92,7 +92,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
         demands.push_back({std::uint32_t(i), sign[i] * faster / length, cluster.rounding() / length});
     }
     std::vector<double> lambda;
-    Projection(rows, cluster.bodies()).solve(demands, lambda);
+    ActiveSet(rows, cluster.bodies()).solve(demands, lambda);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const Contact& c = cluster.contact(i);
         if (lambda[i] > 0.0) add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);

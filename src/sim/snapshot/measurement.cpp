@@ -41,7 +41,7 @@ BodyReport describe(const Body& body) {
     r.center_of_mass = body.center_of_mass;
     if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider))
         r.hull_vertices = (*hull)->vertices.size();
-    if (const auto* surface = std::get_if<std::shared_ptr<const TriangleSurface>>(&body.collider))
+    if (const auto* surface = std::get_if<std::shared_ptr<const CollisionMesh>>(&body.collider))
         r.triangles = (*surface)->triangles.size();
     if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&body.collider)) {
         for (const Compound::Part& part : (*compound)->parts)

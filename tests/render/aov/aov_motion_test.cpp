@@ -18,7 +18,7 @@ struct Moving {
 AovFrame made(const Moving& m) {
     AovSet aovs;
     for (const Aov aov : all_aovs) aovs.add(aov);
-    return AovMaker(m.scene, aovs).make({m.now, m.next});
+    return AovRenderer(m.scene, aovs).make({m.now, m.next});
 }
 
 /// A box that flies and tumbles, a ball that only turns, and the ground.
@@ -39,7 +39,7 @@ Moving moving_bodies() {
 /// Each pixel's point, carried along with its body by hand and projected into the next picture.
 void expect_motion(const Moving& m) {
     const AovFrame frame = made(m);
-    const CameraPath path(m.scene.camera);
+    const CameraAnimation path(m.scene.camera);
     const WorldView view(m.scene, path.at(m.now)), next_view(m.scene, path.at(m.next));
     std::vector<int> seen(m.scene.bodies.size() + 1);
     for (int row = 0; row < m.scene.output.height; ++row)

@@ -20,7 +20,7 @@ AovSet all() {
 
 AovFrame made(const SceneDescription& scene, const AovSet& aovs = all()) {
     const Snapshot snapshot = first_snapshot(scene);
-    return AovMaker(scene, aovs).make({snapshot, snapshot});
+    return AovRenderer(scene, aovs).make({snapshot, snapshot});
 }
 
 /// Calls back with each pixel's index, column and row.
@@ -272,7 +272,7 @@ TEST(AovSurface, WhatIsNotAskedForIsNotMade) {
     scene.bodies = {ground_plane()};
     AovSet depth;
     depth.add(Aov::depth);
-    const AovFrame frame = AovMaker(scene, depth).make({first_snapshot(scene), std::nullopt});
+    const AovFrame frame = AovRenderer(scene, depth).make({first_snapshot(scene), std::nullopt});
     EXPECT_EQ(frame.depth.size(), 320u * 180u);
     EXPECT_TRUE(frame.normal.empty() && frame.segmentation.empty() && frame.motion.empty() && frame.albedo.empty());
     EXPECT_EQ(frame.depth, made(scene).depth);

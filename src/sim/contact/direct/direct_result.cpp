@@ -12,7 +12,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
     for (const Patch& patch : patches_) {
         Manifold& m = problem.manifolds[patch.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        const ContactPatch& geometry = patch.geometry;
+        const ContactConstraint& geometry = patch.geometry;
         release(m);
         m.friction[0] = patch.friction[0].impulse;
         m.friction[1] = patch.friction[1].impulse;
@@ -21,7 +21,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
         Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A
         for (int i = 0; i < patch.count; ++i) {
-            const ContactPatch::Point& p = geometry.points[std::size_t(i)];
+            const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
             m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;
             const Vec3 j = patch.normal[i].impulse * geometry.normal;
             force += j;

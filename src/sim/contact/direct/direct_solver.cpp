@@ -57,7 +57,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         Patch patch;
         patch.geometry = make_patch(m, a, b, problem.before[m.a], problem.before[m.b], problem.patches);
-        const ContactPatch& geometry = patch.geometry;
+        const ContactConstraint& geometry = patch.geometry;
         if (geometry.count == 0) continue;
         patch.a = place_of(bodies, m.a);
         patch.b = place_of(bodies, m.b);
@@ -68,7 +68,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         const Vec3 round = carried_round(m, a, b, problem.before[m.a], problem.before[m.b], h);
         driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves()) || !round.isZero(0.0);
         for (int i = 0; i < patch.count; ++i) {
-            const ContactPatch::Point& p = geometry.points[std::size_t(i)];
+            const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
             Row& row = patch.normal[i];
             set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b, length_);
             row.offset += round.dot(geometry.normal);

@@ -47,7 +47,7 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
     return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
 }
 
-bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings) {
+bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const ConstraintSettings& settings) {
     const double restitution = pair_restitution(a, b);
     if (p.separation <= touch_distance(a.radius, b.radius) || restitution <= 0.0) return false;
     const double approach = -(relative_velocity(p, normal, a, b) + slower);
@@ -59,9 +59,9 @@ Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal
     return change - normal.dot(change) * normal;
 }
 
-ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
-                        const PatchSettings& settings) {
-    ContactPatch patch;
+ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+                        const ConstraintSettings& settings) {
+    ContactConstraint patch;
     patch.size = std::min(a.radius, b.radius);
     const double near = tuning::friction_near * patch.size;
     Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // from A's
@@ -69,11 +69,11 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
     bool whole = true;   // all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
-        const Passing seen = passing(m, i, a, b, before_a, before_b, settings.h);
+        const PredictedGap seen = passing(m, i, a, b, before_a, before_b, settings.h);
         if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
         const Vec3 place = acting_place(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
         const Vec3 arm_a = place - a.position, arm_b = place - b.position;
-        ContactPatch::Point& to = patch.points[std::size_t(patch.count++)];
+        ContactConstraint::Point& to = patch.points[std::size_t(patch.count++)];
         to.arm_a = arm_a;
         to.arm_b = arm_b;
         to.separation = seen.gap;
@@ -96,7 +96,7 @@ ContactPatch make_patch(const Manifold& m, const Body& a, const Body& b, const B
     patch.spread = double(m.spread);
     patch.friction_arm_b = patch.friction_arm_a + (a.position - b.position);
     for (int i = 0; i < patch.count; ++i) {
-        ContactPatch::Point& p = patch.points[std::size_t(i)];
+        ContactConstraint::Point& p = patch.points[std::size_t(i)];
         p.lever = patch.spread * (p.arm_a - patch.friction_arm_a).norm();
     }
     return patch;

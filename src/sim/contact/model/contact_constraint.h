@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-struct ContactPatch {
+struct ContactConstraint {
     struct Point {
         Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();   // r = p - x, world
         double separation = 0.0;    // m
@@ -28,7 +28,7 @@ struct ContactPatch {
 };
 
 /// How contact ends a step.
-struct PatchSettings {
+struct ConstraintSettings {
     double h;                   // s
     double bounce_threshold;    // m/s: faster approaches with restitution are left to overlap and collide,
     double least_rebound = 0.0; // m/s: where what comes back is faster than this
@@ -47,11 +47,11 @@ double relative_velocity(const ContactPoint& point, const Vec3& normal, const Bo
 
 /// Whether a point is left alone in this step because it will bounce: stopping it at the surface would take the speed it
 /// must come back with. `slower` (m/s): Passing::slower.
-bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower, const PatchSettings& settings);
+bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower, const ConstraintSettings& settings);
 
 /// Returns a patch without points when there is nothing to hold.
-ContactPatch make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
-                        const BodyVelocity& before_b, const PatchSettings& settings);
+ContactConstraint make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
+                        const BodyVelocity& before_b, const ConstraintSettings& settings);
 
 /// What a turning kinematic body carries goes round an arc, but the velocity of its point at the step's start points along the
 /// tangent: by that alone riders would creep outward. Friction takes the velocity where the rider, which moves by `motion` (m/s)

@@ -30,7 +30,7 @@ struct Patch {
     bool spins = false;             // faster than the twist can stop: it shares friction's limit
     Vec3 tangent_1 = Vec3::Zero();
     std::uint8_t source[4] = {};
-    ContactPatch geometry;
+    ContactConstraint geometry;
 };
 
 /// The six numbers of a body.

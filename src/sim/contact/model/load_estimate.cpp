@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-PileLoad PileLoads::find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
+LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                          std::span<const std::uint32_t> island_bodies, std::span<const std::uint32_t> island_manifolds) {
     for (const std::uint32_t i : island_bodies) nodes_[i] = {-1, 0, 0, bodies[i].mass};
     const auto both = [&](const Manifold& m) { return bodies[m.a].dynamic() && bodies[m.b].dynamic(); };
@@ -45,7 +45,7 @@ PileLoad PileLoads::find(const std::vector<Body>& bodies, const std::vector<Mani
             order_.push_back(j);
         });
     }
-    PileLoad pile;
+    LoadEstimate pile;
     for (std::size_t k = order_.size(); k-- > 0;) {
         const Node& node = nodes_[order_[k]];
         pile.ratio = std::max(pile.ratio, node.load / bodies[order_[k]].mass);

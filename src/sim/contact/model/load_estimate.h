@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-struct PileLoad {
+struct LoadEstimate {
     /// The largest ratio, over the island's bodies, of the mass a body carries (its own included) to its own mass. From
     /// the bodies that touch something fixed outwards, each hands down what it carries in equal shares to its neighbours
     /// one level nearer.
@@ -19,11 +19,11 @@ struct PileLoad {
     int levels = 1;   // bodies between the farthest one and what is fixed, itself included
 };
 
-class PileLoads {
+class LoadEstimates {
 public:
-    explicit PileLoads(std::size_t bodies) : nodes_(bodies) {}
+    explicit LoadEstimates(std::size_t bodies) : nodes_(bodies) {}
 
-    PileLoad find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> island_bodies,
+    LoadEstimate find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> island_bodies,
                 std::span<const std::uint32_t> island_manifolds);
 
 private:

@@ -34,9 +34,9 @@ RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
 
 }  // namespace
 
-Passing passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
     const ContactPoint& p = m.points[std::size_t(index)];
-    const Passing as_it_is{p.position, p.separation, 0.0};
+    const PredictedGap as_it_is{p.position, p.separation, 0.0};
     if (m.on_ball == OnBall::curve) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
     const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;

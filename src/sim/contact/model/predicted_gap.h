@@ -10,7 +10,7 @@ namespace tumble {
 
 /// A manifold's point as the solvers are to see it: an even approach to this gap, with arms from the bodies' places at the step's
 /// start to this position, ends where the bodies come nearest on their curves.
-struct Passing {
+struct PredictedGap {
     Vec3 position = Vec3::Zero();   // world
     double gap = 0.0;               // m
     double slower = 0.0;            // m/s: by how much the approach has slowed by then
@@ -18,7 +18,7 @@ struct Passing {
 
 /// `before`: the velocities before the step's forces; `h`: the time (s) in which the gap may be closed.
 /// Of points on balls (OnBall::curve) the gap alone changes.
-Passing passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
+PredictedGap passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
                 double h);
 
 /// What carries a ball off its centre of mass, as a compound does, takes the ball's centre round an arc. Over a step of h seconds that is

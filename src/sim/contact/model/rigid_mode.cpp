@@ -10,7 +10,7 @@ Mat3 inertia_of(const Body& body) { return body.rotation * body.inertia_body * b
 
 }  // namespace
 
-void CommonMotion::add(const Body& body, const Vec3& origin) {
+void RigidMode::add(const Body& body, const Vec3& origin) {
     const Vec3 r = body.position - origin;
     mass_ += body.mass;
     moment_ += body.mass * r;
@@ -19,7 +19,7 @@ void CommonMotion::add(const Body& body, const Vec3& origin) {
     inertia_ += inertia_of(body) + point_inertia(body.mass, r);
 }
 
-void CommonMotion::add(const CommonMotion& other) {
+void RigidMode::add(const RigidMode& other) {
     mass_ += other.mass_;
     moment_ += other.moment_;
     momentum_ += other.momentum_;
@@ -27,7 +27,7 @@ void CommonMotion::add(const CommonMotion& other) {
     inertia_ += other.inertia_;
 }
 
-void CommonMotion::finish() {
+void RigidMode::finish() {
     center_ = moment_ / mass_;
     velocity_ = momentum_ / mass_;
     inertia_ -= point_inertia(mass_, center_);   // Steiner
@@ -35,13 +35,13 @@ void CommonMotion::finish() {
     angular_velocity_ = inertia_.inverse() * angular_momentum_;
 }
 
-double CommonMotion::energy() const { return 0.5 * (momentum_.dot(velocity_) + angular_momentum_.dot(angular_velocity_)); }
+double RigidMode::energy() const { return 0.5 * (momentum_.dot(velocity_) + angular_momentum_.dot(angular_velocity_)); }
 
-BodyVelocity CommonMotion::at(const Vec3& position, const Vec3& origin) const {
+BodyVelocity RigidMode::at(const Vec3& position, const Vec3& origin) const {
     return {velocity_ + angular_velocity_.cross(position - origin - center_), angular_velocity_};
 }
 
-void CommonMotion::scale_rest(double scale, const Vec3& origin, Body& body) const {
+void RigidMode::scale_rest(double scale, const Vec3& origin, Body& body) const {
     const BodyVelocity common = at(body.position, origin);
     const Vec3 way = body.velocity + body.push_velocity, turn = body.angular_velocity + body.push_angular_velocity;
     const Vec3 common_spin = inertia_of(body) * common.angular_velocity;

@@ -12,11 +12,11 @@
 
 namespace tumble {
 
-class CommonMotion {
+class RigidMode {
 public:
     /// All sums are about `origin`, the same for all: near the bodies, which may be far from the world's.
     void add(const Body& body, const Vec3& origin);
-    void add(const CommonMotion& other);
+    void add(const RigidMode& other);
     /// After the last body: finds c, V and W.
     void finish();
 

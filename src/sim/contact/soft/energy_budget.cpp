@@ -28,7 +28,7 @@ void open_account(ForceAccount& account, const Body& body, const BodyVelocity& b
     account.gain = 0.0;
 }
 
-void EnergyAccount::add(ForceAccount& forces, const Body& solved) {
+void EnergyBudget::add(ForceAccount& forces, const Body& solved) {
     const double energy = solved.kinetic_energy(), forces_work = work_on(forces, solved);
     forces.gain = std::clamp(energy - forces.start - forces_work, 0.0, energy);   // what is lifted and does not move has none
     start += forces.start;
@@ -38,7 +38,7 @@ void EnergyAccount::add(ForceAccount& forces, const Body& solved) {
     gains += forces.gain;
 }
 
-void EnergyAccount::add(const EnergyAccount& other) {
+void EnergyBudget::add(const EnergyBudget& other) {
     start += other.start;
     with_forces += other.with_forces;
     now += other.now;
@@ -46,12 +46,12 @@ void EnergyAccount::add(const EnergyAccount& other) {
     gains += other.gains;
 }
 
-double EnergyAccount::excess(bool lifted_free) const {
+double EnergyBudget::excess(bool lifted_free) const {
     const double fastest = std::max(start, with_forces), most = lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
     return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
 }
 
-double EnergyAccount::affordable_way() const { return start + work < 0.0 ? start / -work : 1.0; }
+double EnergyBudget::affordable_way() const { return start + work < 0.0 ? start / -work : 1.0; }
 
 void take_back(const ForceAccount& forces, double share, double way, Body& body) {
     const double taken = share * forces.gain;

@@ -23,14 +23,14 @@ struct ForceAccount {
 void open_account(ForceAccount& account, const Body& body, const BodyVelocity& before);
 
 /// Sums over bodies that contacts have reached, J.
-struct EnergyAccount {
+struct EnergyBudget {
     double start = 0.0, with_forces = 0.0, now = 0.0;   // kinetic
     double work = 0.0;                                  // of the forces on the way that the solved body will go
     double gains = 0.0;                                 // of the bodies that have gained
 
     /// Sets the body's own gain too.
     void add(ForceAccount& forces, const Body& solved);
-    void add(const EnergyAccount& other);
+    void add(const EnergyBudget& other);
     /// The share of each body's gain that is too much. `lifted_free`: for the way up nobody pays.
     double excess(bool lifted_free) const;
     /// The share of its way that an island can pay for.

@@ -48,7 +48,7 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
     for (; account != accounts_.end() && account->first < last; ++account) {
         const Island& island = islands_[account->island];
         if (island.driven) continue;
-        EnergyAccount sum;
+        EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
         const double excess = sum.excess(island.deep || !island.leans);
         if (excess == 0.0) continue;
@@ -65,9 +65,9 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
 }
 
 // What floats keeps its momentum: only what is not in its common motion can be too much.
-void IslandEnergies::hold_floating(const Account& account, const EnergyAccount& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const {
+void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const {
     const Island& island = islands_[account.island];
-    CommonMotion motion;
+    RigidMode motion;
     for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);
     motion.finish();
     const double common = motion.energy(), most = std::max({energy.start, energy.with_forces, common});

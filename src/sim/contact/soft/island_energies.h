@@ -35,8 +35,8 @@ private:
     struct Account {
         std::size_t first, end;   // places
         std::uint32_t island;
-        EnergyAccount energy;
-        CommonMotion motion;      // of islands that float
+        EnergyBudget energy;
+        RigidMode motion;      // of islands that float
     };
     struct Island {
         std::size_t first_account, end_account;
@@ -45,7 +45,7 @@ private:
         std::uint8_t deep = 0;
     };
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
-    void hold_floating(const Account& account, const EnergyAccount& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const;
+    void hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const;
 
     std::vector<Island> islands_;
     std::vector<Account> accounts_;           // ascending by place

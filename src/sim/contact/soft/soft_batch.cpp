@@ -185,7 +185,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     for (int k = 0; k < m.count; ++k) {
         const int i = order[std::size_t(k)];
         const ContactPoint& p = m.points[std::size_t(i)];
-        Passing seen{p.position, p.separation, 0.0};
+        PredictedGap seen{p.position, p.separation, 0.0};
         // For a substep more than the step: the last sweep looks as far ahead.
         if (curves) seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
         if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;

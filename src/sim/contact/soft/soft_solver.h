@@ -36,7 +36,7 @@ struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
     const std::vector<BodyVelocity>& before;            // by body
-    PatchSettings patches;
+    ConstraintSettings patches;
 };
 
 class SoftBatch;
