@@ -9,14 +9,16 @@
 
 namespace tumble {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;   // w first in its constructor and in our files
 
 /// An axis-aligned box. Empty (min > max) until something is added.
 struct Bounds {
-    Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
-    Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
+    Vec3 min = Vec3::Constant(infinity);
+    Vec3 max = Vec3::Constant(-infinity);
 
     bool empty() const { return (min.array() > max.array()).any(); }
     Vec3 center() const { return 0.5 * (min + max); }

@@ -37,18 +37,18 @@ std::string npy_head(const std::string& kind, const ArrayShape& shape) {
 }
 
 /// Little-endian numbers one after the other.
-class Bytes {
+class LittleEndianBytes {
 public:
-    Bytes& u16(std::size_t value) { return number(value, 2); }
-    Bytes& u32(std::size_t value) { return number(value, 4); }
-    Bytes& text(std::string_view value) {
+    LittleEndianBytes& u16(std::size_t value) { return number(value, 2); }
+    LittleEndianBytes& u32(std::size_t value) { return number(value, 4); }
+    LittleEndianBytes& text(std::string_view value) {
         bytes_ += value;
         return *this;
     }
     std::span<const std::byte> all() const { return std::as_bytes(std::span(bytes_)); }
 
 private:
-    Bytes& number(std::size_t value, int size) {
+    LittleEndianBytes& number(std::size_t value, int size) {
         for (int i = 0; i < size; ++i) bytes_ += char(value >> (8 * i) & 0xff);
         return *this;
     }
@@ -105,7 +105,7 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
     member.packed = compress(head, values);
     const std::size_t end = used_ + member.packed;
     used_ = member.offset;
-    copy_to(file_, used_, Bytes().u32(0x04034b50).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
+    copy_to(file_, used_, LittleEndianBytes().u32(0x04034b50).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
                               .u32(member.checksum).u32(member.packed).u32(member.size).u16(member.name.size()).u16(0)
                               .text(member.name).all());
     used_ = end;
@@ -115,11 +115,11 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
 std::span<const std::byte> NpzArchive::finish() {
     const std::size_t directory = used_;
     for (const Member& m : members_)
-        copy_to(file_, used_, Bytes().u32(0x02014b50).u16(version).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
+        copy_to(file_, used_, LittleEndianBytes().u32(0x02014b50).u16(version).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
                                   .u32(m.checksum).u32(m.packed).u32(m.size).u16(m.name.size()).u16(0).u16(0).u16(0).u16(0)
                                   .u32(0).u32(m.offset).text(m.name).all());
     const std::size_t size = used_ - directory;
-    copy_to(file_, used_, Bytes().u32(0x06054b50).u16(0).u16(0).u16(members_.size()).u16(members_.size()).u32(size)
+    copy_to(file_, used_, LittleEndianBytes().u32(0x06054b50).u16(0).u16(0).u16(members_.size()).u16(members_.size()).u32(size)
                               .u32(directory).u16(0).all());
     const std::size_t all = std::exchange(used_, 0);
     members_.clear();

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view mark = ".tumble.part-";
 constexpr std::size_t digits = 8;   // of the number behind it, hexadecimal
 
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+fs::path folder_beside(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 /// The beginning of a final name that a hidden one holds: all, but of the longest names.
 std::string kept_of(std::string name) {
@@ -93,7 +93,7 @@ void PartFile::fail(int error) const {
 
 void remove_left_parts(const fs::path& final_path) {
     const std::string kept = kept_of(final_path.filename().string());
-    remove_left_parts(folder_of(final_path), [&](std::string_view name) { return name == kept; });
+    remove_left_parts(folder_beside(final_path), [&](std::string_view name) { return name == kept; });
 }
 
 void remove_left_parts(const fs::path& folder, const std::function<bool(std::string_view)>& ours) {

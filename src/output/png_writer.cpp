@@ -62,7 +62,7 @@ void append(png_structp png, png_bytep data, std::size_t size) {
 
 void flush(png_structp) {}
 
-void keep_error(png_structp png, png_const_charp message) {
+void keep_write_error(png_structp png, png_const_charp message) {
     try {
         static_cast<Sink*>(png_get_error_ptr(png))->error = message;
     } catch (const std::bad_alloc&) {
@@ -70,7 +70,7 @@ void keep_error(png_structp png, png_const_charp message) {
     png_longjmp(png, 1);
 }
 
-void ignore_warning(png_structp, png_const_charp) {}
+void ignore_write_warning(png_structp, png_const_charp) {}
 
 /// What comes before the pixels, with only plain values on the stack. False: sink.error says why.
 bool write_head(png_structp png, png_infop info, int width, int height, Sink& sink) {
@@ -191,7 +191,7 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
 void PngEncoder::make_head() {
     head_.clear();
     Sink sink{&head_, {}};
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, keep_error, ignore_warning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, keep_write_error, ignore_write_warning);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
     const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
     png_destroy_write_struct(&png, &info);

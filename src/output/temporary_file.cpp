@@ -33,7 +33,7 @@ void stop_if_interrupted() {
     if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
 }
 
-constexpr int look_every = 20;   // ms, for an interrupt while a reader keeps us waiting
+constexpr int interrupt_look_every = 20;   // ms, for an interrupt while a reader keeps us waiting
 
 /// Waits for a reader, as open() itself would. What is opened does not block.
 int open_pipe(const fs::path& path) {
@@ -41,7 +41,7 @@ int open_pipe(const fs::path& path) {
         const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         if (file >= 0 || (errno != ENXIO && errno != EINTR)) return file;
         stop_if_interrupted();
-        std::this_thread::sleep_for(std::chrono::milliseconds(look_every));
+        std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_look_every));
     }
 }
 
@@ -57,7 +57,7 @@ int copy_of_descriptor(int descriptor) {
 
 void wait_until_read(int pipe) {
     pollfd place{pipe, POLLOUT, 0};
-    if (::poll(&place, 1, look_every) <= 0) stop_if_interrupted();
+    if (::poll(&place, 1, interrupt_look_every) <= 0) stop_if_interrupted();
 }
 
 }  // namespace

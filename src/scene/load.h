@@ -10,6 +10,8 @@
 
 namespace tumble {
 
+using FileList = std::vector<std::filesystem::path>;
+
 /// Throws InputError with file, line and column for anything the format forbids: nothing is guessed.
 /// The files that were read are appended to `read`, where that is given: the scene's own and those of its meshes.
 SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {},

@@ -13,8 +13,6 @@ using namespace tumble::testing;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 SceneDescription stack(int count, double friction = 0.5) {
     SceneDescription scene = ground_scene(0.0, friction, 4);
     for (int i = 0; i < count; ++i) add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5 + i, 0.0}).friction = friction;

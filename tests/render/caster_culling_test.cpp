@@ -1,5 +1,6 @@
 // What throws no shadow of its own: all that the sun could see of it lies behind other boxes.
 #include "example_scenes.h"
+#include "core/rotation.h"
 #include "random.h"
 
 #include "render/render_scene_builder.h"
@@ -66,7 +67,7 @@ TEST(CasterCulling, HidesWhatLiesBehindAndNothingElse) {
     SceneDescription scene = empty_scene();
     const Vec3 down = scene.light.direction.normalized();
     const Vec3 across = down.unitOrthogonal();
-    const Quat turned = Quat::FromTwoVectors(Vec3::UnitZ(), down);
+    const Quat turned = turn_between(Vec3::UnitZ(), down);
     const auto cube = [&](const Vec3& at, double size) { return box_body(at, Vec3::Constant(size), {200, 200, 200}, turned); };
     scene.bodies = {cube(Vec3(0.0, 2.0, 0.0), 2.0)};
     const Vec3 front = scene.bodies[0].position;

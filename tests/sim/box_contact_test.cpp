@@ -1,5 +1,6 @@
 // Boxes on boxes and on the ground, in the poses that happen: aligned, turned, edge on edge, degenerate.
 #include "random_shapes.h"
+#include "core/rotation.h"
 
 #include <gtest/gtest.h>
 
@@ -163,7 +164,7 @@ TEST(BoxOnBox, FeaturesStayTheSameUnderSmallMotion) {
 // Nothing but ties: corner on corner, corner on edge, edge along edge, face edges exactly over each other.
 TEST(BoxOnBox, DegenerateTouchesAreFiniteAndShallow) {
     const double diagonal = std::sqrt(3.0);
-    const Mat3 on_corner = Quat::FromTwoVectors(Vec3(1.0, 1.0, 1.0), Vec3::UnitY()).toRotationMatrix();
+    const Mat3 on_corner = turn_between(Vec3(1.0, 1.0, 1.0), Vec3::UnitY()).toRotationMatrix();
     const Mat3 on_edge = turned(Vec3::UnitX(), std::numbers::pi / 4);
     struct Case {
         Mat3 below, above;

@@ -14,7 +14,7 @@ namespace {
 // Bytes a pixel.
 constexpr std::uint64_t sample = 8;          // color and depth
 constexpr std::uint64_t targets = 2;         // the background and the picture, each with all samples (framebuffer.h)
-constexpr std::uint64_t picture = 4;         // RGBA
+constexpr std::uint64_t picture_bytes = 4;   // RGBA
 constexpr std::uint64_t drawing = 10;        // what smoothing edges and reading back keep: measured, as docs/output.md tells
 constexpr std::uint64_t light = 12;          // the sums of a mean of moments (image_mean.h)
 constexpr std::uint64_t surface = 16;        // where AOVs find it: depth, surface, triangle (surface_map.h)
@@ -29,9 +29,9 @@ PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& w
     const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);   // as the renderer chooses
     PictureMemory memory;
     if (work.forms.picture()) {
-        memory.worker += pixels * (targets * samples * sample + picture + drawing);
-        if (samples > 1) memory.worker += pixels * picture;                 // their mean
-        if (work.moments > 1) memory.worker += pixels * (light + picture);
+        memory.worker += pixels * (targets * samples * sample + picture_bytes + drawing);
+        if (samples > 1) memory.worker += pixels * picture_bytes;                 // their mean
+        if (work.moments > 1) memory.worker += pixels * (light + picture_bytes);
     }
     if (work.forms.video) {
         const auto used = std::uint64_t(std::clamp<std::int64_t>(work.frames, 1, slots));

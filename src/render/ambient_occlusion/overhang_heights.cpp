@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::infinity();
+constexpr float no_overhang = std::numeric_limits<float>::infinity();
 
 // The texels from low to high that are in 0 .. count - 1.
 std::pair<int, int> texels(double low, double high, int count) {
@@ -24,7 +24,7 @@ Vec3 OverhangHeights::on_frame(const Vec3& point) const {
 // What the plane cuts off is below it.
 void OverhangHeights::lower(int i, int j, double height) {
     if (!(height >= 0.0)) return;
-    if (height_.empty()) height_.assign(std::size_t(frame_.width) * std::size_t(frame_.height), none);
+    if (height_.empty()) height_.assign(std::size_t(frame_.width) * std::size_t(frame_.height), no_overhang);
     float& known = height_[std::size_t(j) * std::size_t(frame_.width) + std::size_t(i)];
     known = std::min(known, float(height));
 }

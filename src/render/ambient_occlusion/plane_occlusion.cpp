@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 constexpr int window_step = 16;       // texels; a window that moves has the whole plane drawn anew
-constexpr int block = 16;             // texels; what one moved body darkens is about so large
+constexpr int update_block = 16;             // texels; what one moved body darkens is about so large
 
 }  // namespace
 
@@ -92,12 +92,12 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     const double cell = window.cell = looks.window_cell;
     if (!place(window, shelves)) return false;
 
-    const int columns = (window.width + block - 1) / block, rows = (window.height + block - 1) / block;
+    const int columns = (window.width + update_block - 1) / update_block, rows = (window.height + update_block - 1) / update_block;
     const bool all = everything || known == nullptr || *known != window;
     dirty_.assign(std::size_t(columns) * std::size_t(rows), all ? 1 : 0);
     const auto for_blocks = [&](const Texels& t, const auto& see) {
-        for (int row = t.j0 / block; row <= t.j1 / block; ++row)
-            for (int column = t.i0 / block; column <= t.i1 / block; ++column)
+        for (int row = t.j0 / update_block; row <= t.j1 / update_block; ++row)
+            for (int column = t.i0 / update_block; column <= t.i1 / update_block; ++column)
                 see(dirty_[std::size_t(row * columns + column)]);
     };
     if (!all) {
@@ -136,9 +136,9 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
             if (dirty_[std::size_t(row * columns + column)] != 0)
-                store(window.x + column * block, window.y + row * block, std::min(block, window.width - column * block),
-                      std::min(block, window.height - row * block), window.width,
-                      &open_[std::size_t(row * block * window.width + column * block)]);
+                store(window.x + column * update_block, window.y + row * update_block, std::min(update_block, window.width - column * update_block),
+                      std::min(update_block, window.height - row * update_block), window.width,
+                      &open_[std::size_t(row * update_block * window.width + column * update_block)]);
     return true;
 }
 

@@ -5,10 +5,10 @@
 namespace tumble {
 namespace {
 
-/// A triangle as rays (x, y, 1) meet it. Olano and Greer 1997, Triangle Scan Conversion using 2D Homogeneous Coordinates:
+/// A triangle as rays (x, y, 1) meet it. Olano and Greer 1997, DepthTriangle Scan Conversion using 2D Homogeneous Coordinates:
 /// a ray d passes on the inner side of the edge a b where (a x b) . d has the sign of the triangle's own volume with the
 /// eye; so nothing needs to be cut off behind the eye.
-struct Triangle {
+struct DepthTriangle {
     std::array<Vec3, 3> edges;   // opposite to each corner, turned to be positive inside
     Vec3 normal;                 // not of unit length
     double height;               // normal . corner
@@ -41,7 +41,7 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
     for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         const std::array<Vec3, 3> corners = {mesh.vertices[mesh.indices[t]], mesh.vertices[mesh.indices[t + 1]],
                                              mesh.vertices[mesh.indices[t + 2]]};
-        Triangle triangle;
+        DepthTriangle triangle;
         if (!triangle.set(corners, mesh.closed)) continue;
         const PixelBounds bounds = pixel_bounds(corners, camera);
         for (int row = bounds.top; !bounds.empty() && row <= bounds.bottom; ++row) {

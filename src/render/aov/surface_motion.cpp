@@ -1,4 +1,5 @@
 #include "render/aov/surface_motion.h"
+#include "core/rotation.h"
 
 #include <limits>
 
@@ -12,7 +13,7 @@ RigidMotion between(const PartPlace& now, const PartPlace& next) {
 
 /// A cord stays tied at both ends: what is not along it only turns with it.
 RigidMotion between(const CordPlace& now, const CordPlace& next) {
-    const Mat3 turn = Quat::FromTwoVectors(now.to - now.from, next.to - next.from).toRotationMatrix();
+    const Mat3 turn = turn_between(now.to - now.from, next.to - next.from).toRotationMatrix();
     return {turn, next.from - turn * now.from};
 }
 

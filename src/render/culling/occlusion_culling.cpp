@@ -15,7 +15,7 @@ namespace {
 using Point = ScreenPoint;
 
 // Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
-constexpr double margin = 1.0;  // pixels
+constexpr double cell_margin = 1.0;  // pixels
 
 struct Projected {
     std::array<Point, 8> points;                                               // as many as were given
@@ -82,8 +82,8 @@ void CoarseDepthBuffer::add(const Corners& corners) {
         right = -left;
         for (std::size_t i = 0; i < hull.size(); ++i) {
             const Point &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
-            // turn(a, b, (x, y)) >= margin |edge|, solved for x
-            const double rest = edge.x() * (y - a.y()) + edge.y() * a.x() - margin * edge.norm();
+            // turn(a, b, (x, y)) >= cell_margin |edge|, solved for x
+            const double rest = edge.x() * (y - a.y()) + edge.y() * a.x() - cell_margin * edge.norm();
             if (edge.y() > 0.0) right = std::min(right, rest / edge.y());
             if (edge.y() < 0.0) left = std::max(left, rest / edge.y());
             if (edge.y() == 0.0 && rest < 0.0) left = std::numeric_limits<double>::infinity();
@@ -106,8 +106,8 @@ void CoarseDepthBuffer::add(const Corners& corners) {
 bool CoarseDepthBuffer::hides(std::span<const Vec3> corners) const {
     Projected body;
     if (!project(corners, *view_, body)) return false;
-    for (int row = first_cell(body.y0 - margin); row <= last_cell(body.y1 + margin, rows_); ++row)
-        for (int column = first_cell(body.x0 - margin); column <= last_cell(body.x1 + margin, columns_); ++column)
+    for (int row = first_cell(body.y0 - cell_margin); row <= last_cell(body.y1 + cell_margin, rows_); ++row)
+        for (int column = first_cell(body.x0 - cell_margin); column <= last_cell(body.x1 + cell_margin, columns_); ++column)
             if (!(depth(column, row) < body.nearest)) return false;
     return true;
 }

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 // Rasterisation rounds corners to 1/256 pixel.
-constexpr double margin = 0.02;   // pixels
+constexpr double rounding_margin = 0.02;   // pixels
 
 // Depths that differ by less may come out in either order: 24 bits, with the near plane far before what is many and small.
 constexpr float depth_margin = 1e-3f;
@@ -57,21 +57,21 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
         return float(std::min(at, nearest));
     };
     bool seen = false;
-    const int first = std::max(0, int(std::ceil(top - margin - 0.5))), last = std::min(height_ - 1, int(std::floor(bottom + margin - 0.5)));
+    const int first = std::max(0, int(std::ceil(top - rounding_margin - 0.5))), last = std::min(height_ - 1, int(std::floor(bottom + rounding_margin - 0.5)));
     for (int y = first; y <= last; ++y) {
         // Around a corner the line through a row's middle can miss what the next 0.02 pixels hold.
-        const Span middle = span(face, y + 0.5), above = span(face, y + 0.5 - margin), below = span(face, y + 0.5 + margin);
-        double left = std::min({middle.left, above.left, below.left}) - margin;
-        double right = std::max({middle.right, above.right, below.right}) + margin;
+        const Span middle = span(face, y + 0.5), above = span(face, y + 0.5 - rounding_margin), below = span(face, y + 0.5 + rounding_margin);
+        double left = std::min({middle.left, above.left, below.left}) - rounding_margin;
+        double right = std::max({middle.right, above.right, below.right}) + rounding_margin;
         for (const Corner& c : face)
-            if (std::abs(c.at.y() - (y + 0.5)) <= margin) {
-                left = std::min(left, c.at.x() - margin);
-                right = std::max(right, c.at.x() + margin);
+            if (std::abs(c.at.y() - (y + 0.5)) <= rounding_margin) {
+                left = std::min(left, c.at.x() - rounding_margin);
+                right = std::max(right, c.at.x() + rounding_margin);
             }
         if (!(left <= right)) continue;
         // Within: on all three lines, so that a slanted side keeps its distance.
-        const double within_left = std::max({middle.left, above.left, below.left}) + margin;
-        const double within_right = std::min({middle.right, above.right, below.right}) - margin;
+        const double within_left = std::max({middle.left, above.left, below.left}) + rounding_margin;
+        const double within_right = std::min({middle.right, above.right, below.right}) - rounding_margin;
         const int x0 = std::max(0, int(std::ceil(left - 0.5))), x1 = std::min(width_ - 1, int(std::floor(right - 0.5)));
         float* row = &inverse_depths_[std::size_t(y) * std::size_t(width_)];
         for (int x = x0; x <= x1; ++x) {
@@ -88,8 +88,8 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
 
 bool SoftwareDepthBuffer::hides(double x0, double y0, double x1, double y1, double depth) const {
     const float here = float(1.0 / depth) * (1.0f + depth_margin);
-    const int left = std::max(0, int(std::ceil(x0 - margin - 0.5))), right = std::min(width_ - 1, int(std::floor(x1 + margin - 0.5)));
-    const int top = std::max(0, int(std::ceil(y0 - margin - 0.5))), bottom = std::min(height_ - 1, int(std::floor(y1 + margin - 0.5)));
+    const int left = std::max(0, int(std::ceil(x0 - rounding_margin - 0.5))), right = std::min(width_ - 1, int(std::floor(x1 + rounding_margin - 0.5)));
+    const int top = std::max(0, int(std::ceil(y0 - rounding_margin - 0.5))), bottom = std::min(height_ - 1, int(std::floor(y1 + rounding_margin - 0.5)));
     for (int y = top; y <= bottom; ++y)
         for (int x = left; x <= right; ++x)
             if (!(here < inverse_depths_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]) &&

@@ -11,11 +11,11 @@ namespace tumble {
 namespace {
 
 // One pixel for where rasterisation may round to, one for the neighbours that a smooth edge looks at, and one to spare.
-constexpr double margin = 3.0;   // pixels
+constexpr double tile_margin = 3.0;   // pixels
 
-enum class Place { before, beside, behind };   // of points, as the eye sees them
+enum class ScreenArea { before, beside, behind };   // of points, as the eye sees them
 
-Place place_of(std::span<const Vec3> points, const Camera& view) {
+ScreenArea screen_area_of(std::span<const Vec3> points, const Camera& view) {
     bool before = false, behind = false;
     for (const Vec3& p : points) {
         const double depth = p.dot(view.forward());
@@ -24,11 +24,11 @@ Place place_of(std::span<const Vec3> points, const Camera& view) {
         } else if (depth < 0.0) {
             behind = true;
         } else {
-            return Place::beside;
+            return ScreenArea::beside;
         }
     }
-    if (before && behind) return Place::beside;
-    return before ? Place::before : Place::behind;
+    if (before && behind) return ScreenArea::beside;
+    return before ? ScreenArea::before : ScreenArea::behind;
 }
 
 int tile_of(double pixel, int size, int count) {
@@ -48,12 +48,12 @@ void DirtyTiles::mark_all() {
 }
 
 void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
-    const Place place = place_of(points, *view_);
-    if (place == Place::behind || all()) return;
-    if (place == Place::beside) return mark_all();
+    const ScreenArea place = screen_area_of(points, *view_);
+    if (place == ScreenArea::behind || all()) return;
+    if (place == ScreenArea::beside) return mark_all();
     TUMBLE_CHECK_LE(points.size(), FewPoints::most);
     FewPoints corners;
-    double rim = margin;   // pixels
+    double rim = tile_margin;   // pixels
     double leftmost = std::numeric_limits<double>::infinity(), rightmost = -leftmost;
     double top = leftmost, bottom = -leftmost;
     for (const Vec3& p : points) {
@@ -61,7 +61,7 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
         if (around > 0.0) {   // what is nearer to the eye by as much moves the farthest on the screen
             const double depth = p.dot(view_->forward()), nearest = depth - around;
             if (nearest < 0.1 * depth) return mark_all();
-            rim = std::max(rim, margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
+            rim = std::max(rim, tile_margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
         }
         leftmost = std::min(leftmost, corners.back().x());
         rightmost = std::max(rightmost, corners.back().x());
@@ -112,9 +112,9 @@ bool DirtyTiles::all_marked(double x0, double y0, double x1, double y1) const {
 
 bool DirtyTiles::touched_by(std::span<const Vec3> points) const {
     if (none()) return false;
-    const Place place = place_of(points, *view_);
-    if (place == Place::behind) return false;
-    if (place == Place::beside || all()) return true;
+    const ScreenArea place = screen_area_of(points, *view_);
+    if (place == ScreenArea::behind) return false;
+    if (place == ScreenArea::beside || all()) return true;
     double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
     for (const Vec3& p : points) {
         const ScreenPoint at = view_->pixel(p);
@@ -123,10 +123,10 @@ bool DirtyTiles::touched_by(std::span<const Vec3> points) const {
         y0 = std::min(y0, at.y());
         y1 = std::max(y1, at.y());
     }
-    for (int row = std::max(0, tile_of(y0 - margin, grid_.cell, grid_.rows));
-         row <= std::min(grid_.rows - 1, tile_of(y1 + margin, grid_.cell, grid_.rows)); ++row)
-        for (int column = std::max(0, tile_of(x0 - margin, grid_.cell, grid_.columns));
-             column <= std::min(grid_.columns - 1, tile_of(x1 + margin, grid_.cell, grid_.columns)); ++column)
+    for (int row = std::max(0, tile_of(y0 - tile_margin, grid_.cell, grid_.rows));
+         row <= std::min(grid_.rows - 1, tile_of(y1 + tile_margin, grid_.cell, grid_.rows)); ++row)
+        for (int column = std::max(0, tile_of(x0 - tile_margin, grid_.cell, grid_.columns));
+             column <= std::min(grid_.columns - 1, tile_of(x1 + tile_margin, grid_.cell, grid_.columns)); ++column)
             if (at(column, row)) return true;
     return false;
 }

@@ -20,7 +20,7 @@ bool covered(int column, int row, const PlanePatch& plane, const Camera& view, c
     return cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6);
 }
 
-constexpr int block = 4, longest_run = 32;   // texels
+constexpr int area_block = 4, longest_run = 32;   // texels
 
 // The runs of blocks of the plane's window in the atlas that are not open.
 void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks, const Snapshot& snapshot,
@@ -40,20 +40,20 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
         if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm())) touched.mark_hull(corners);
     };
     const auto dark = [&](int i, int j) {
-        constexpr std::array<std::uint8_t, block> open{255, 255, 255, 255};
-        const std::size_t columns = std::size_t(std::min(block, window->width - i));
-        for (int row = j; row < std::min(j + block, window->height); ++row)
+        constexpr std::array<std::uint8_t, area_block> open{255, 255, 255, 255};
+        const std::size_t columns = std::size_t(std::min(area_block, window->width - i));
+        for (int row = j; row < std::min(j + area_block, window->height); ++row)
             if (std::memcmp(&atlas.texels[std::size_t(window->y + row) * OcclusionAtlas::width + std::size_t(window->x + i)],
                             open.data(), columns) != 0)
                 return true;
         return false;
     };
-    for (int j = 0; j < window->height; j += block)
-        for (int i = 0, first = 0; i < window->width; i += block) {
-            const bool is_dark = dark(i, j), ends = i + block >= window->width || i + block - first >= longest_run;
-            const int end = is_dark ? std::min(i + block, window->width) : i;
-            if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + block, window->height));
-            if (!is_dark || ends) first = i + block;
+    for (int j = 0; j < window->height; j += area_block)
+        for (int i = 0, first = 0; i < window->width; i += area_block) {
+            const bool is_dark = dark(i, j), ends = i + area_block >= window->width || i + area_block - first >= longest_run;
+            const int end = is_dark ? std::min(i + area_block, window->width) : i;
+            if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + area_block, window->height));
+            if (!is_dark || ends) first = i + area_block;
         }
 }
 

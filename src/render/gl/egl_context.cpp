@@ -13,13 +13,13 @@
 namespace tumble {
 namespace {
 
-constexpr std::array library_names = {"libEGL.so.1", "libEGL.so"};
+constexpr std::array egl_library_names = {"libEGL.so.1", "libEGL.so"};
 constexpr const char* packages = "libegl1 libegl-mesa0 libgl1-mesa-dri";
 
 class EglContext final : public GlContext {
 public:
     EglContext()
-        : library_(library_names, packages),
+        : library_(egl_library_names, packages),
           get_proc_address_(library_.require<decltype(&eglGetProcAddress)>("eglGetProcAddress")),
           get_error_(library_.require<decltype(&eglGetError)>("eglGetError")),
           make_current_(library_.require<decltype(&eglMakeCurrent)>("eglMakeCurrent")),

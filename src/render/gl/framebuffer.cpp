@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr int strip_rows = 64;   // of nearest depths: what is copied from stays in the processor's cache
+constexpr int nearest_strip_rows = 64;   // of nearest depths: what is copied from stays in the processor's cache
 
 int integer(const GlFunctions& gl, GLenum name) {
     GLint value = 0;
@@ -31,7 +31,7 @@ Framebuffer::Framebuffer(const GlFunctions& gl, int width, int height, int sampl
       samples_(supported_samples(gl, samples)),
       background_(make_target(height, samples_, true, true)),
       drawn_(make_target(height, samples_, true, true)),
-      closed_(make_target(std::min(strip_rows, height), samples_, false, true)) {
+      closed_(make_target(std::min(nearest_strip_rows, height), samples_, false, true)) {
     if (samples_ > 1) resolved_.emplace(make_target(height, 1, true, false));
     begin_all(closed_, 0.0);
     begin_all(drawn_, 0.0);
@@ -85,8 +85,8 @@ void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, closed_.framebuffer.name());
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, drawn_.framebuffer.name());
     for (const Rectangle& r : rectangles)
-        for (int y = r.y; y < r.y + r.height; y += strip_rows) {
-            const int rows = std::min(strip_rows, r.y + r.height - y);
+        for (int y = r.y; y < r.y + r.height; y += nearest_strip_rows) {
+            const int rows = std::min(nearest_strip_rows, r.y + r.height - y);
             gl_->BlitFramebuffer(r.x, 0, r.x + r.width, rows, r.x, y, r.x + r.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
         }
 }

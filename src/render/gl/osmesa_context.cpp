@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::array library_names = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+constexpr std::array osmesa_library_names = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
 
 // OSMesa insists on a default framebuffer in our memory; nothing is ever drawn into it.
 constexpr int default_framebuffer_size = 4;  // pixels
@@ -20,7 +20,7 @@ constexpr int default_framebuffer_size = 4;  // pixels
 class OsmesaContext final : public GlContext {
 public:
     OsmesaContext()
-        : library_(library_names, "libosmesa6"),
+        : library_(osmesa_library_names, "libosmesa6"),
           destroy_(library_.require<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")),
           make_current_(library_.require<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")),
           get_proc_address_(library_.require<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress")) {

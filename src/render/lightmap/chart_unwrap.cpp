@@ -24,7 +24,7 @@ constexpr double most_rise = 2.2;   // texels
 // edge differ by 1.4 half a texel beyond it.
 constexpr double most_step = 1.5;   // texels
 
-struct Triangle {
+struct ChartTriangle {
     std::array<Eigen::Vector3d, 3> corners;   // texels: the chart's two axes, then the one it is seen along
     int side = 0;                             // twice that axis; one more where it faces along it
     int chart = -1;
@@ -79,7 +79,7 @@ private:
     void read_triangles() {
         triangles_.resize(asset_.indices.size() / 3);
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            Triangle& t = triangles_[i];
+            ChartTriangle& t = triangles_[i];
             std::array<Vec3, 3> p;
             for (std::size_t k = 0; k < 3; ++k) p[k] = vec3(asset_.vertices[asset_.indices[3 * i + k]].position);
             const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
@@ -134,7 +134,7 @@ private:
     }
 
     template <class See>
-    static void visit(const Triangle& t, double around, See see) {
+    static void visit(const ChartTriangle& t, double around, See see) {
         const int a1 = int(std::floor(t.high(0) + around)), b1 = int(std::floor(t.high(1) + around));
         for (int b = int(std::ceil(t.low(1) - around)); b <= b1; ++b)
             for (int a = int(std::ceil(t.low(0) - around)); a <= a1; ++a)
@@ -151,7 +151,7 @@ private:
         if (seen.empty()) seen.resize(std::size_t(columns) * std::size_t(count_[std::size_t((axis + 2) % 3)]));
         std::vector<std::size_t> open = {first};
         for (std::size_t next = 0; next < open.size(); ++next) {
-            Triangle& t = triangles_[open[next]];
+            ChartTriangle& t = triangles_[open[next]];
             if (t.chart >= 0) continue;
             bool fits = true;
             const auto place = [&](int a, int b) -> Seen& { return seen[std::size_t(b) * std::size_t(columns) + std::size_t(a)]; };
@@ -175,7 +175,7 @@ private:
             int a0 = 1 << 30, a1 = -1, b0 = 1 << 30, b1 = -1;
         };
         std::vector<Range> ranges(sides_.size());
-        for (const Triangle& t : triangles_) {
+        for (const ChartTriangle& t : triangles_) {
             Range& r = ranges[std::size_t(t.chart)];
             r.a0 = std::min(r.a0, int(std::floor(t.low(0))) - 1);
             r.b0 = std::min(r.b0, int(std::floor(t.low(1))) - 1);
@@ -219,7 +219,7 @@ private:
         std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;   // of what a vertex has become
         std::vector<int> chart;                                                   // of each that it has
         for (std::size_t i = 0; i < asset_.indices.size(); ++i) {
-            const Triangle& t = triangles_[i / 3];
+            const ChartTriangle& t = triangles_[i / 3];
             std::uint32_t& last = latest[asset_.indices[i]];
             std::uint32_t known = last;
             while (known != none && chart[known] != t.chart) known = before[known];
@@ -246,7 +246,7 @@ private:
         result_.heights.assign(count, {1.0f, 0.0f});
         std::vector<float> nearest(count, float(rim));
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            const Triangle& t = triangles_[i];
+            const ChartTriangle& t = triangles_[i];
             const ChartedMesh::Chart& c = result_.charts[std::size_t(t.chart)];
             const auto& from = first_[std::size_t(t.chart)];
             visit(t, rim, [&](int a, int b, double outside) {
@@ -274,7 +274,7 @@ private:
 
     // Between those of the corners, as it is shaded.
     Vec3 normal_at(std::size_t triangle, double a, double b) const {
-        const Triangle& t = triangles_[triangle];
+        const ChartTriangle& t = triangles_[triangle];
         Vec3 sum = Vec3::Zero();
         for (std::size_t k = 0; k < 3; ++k) {   // a corner's share: the distance from the side across, of that corner's own
             const Eigen::Vector3d& e = t.edge[(k + 1) % 3];
@@ -294,7 +294,7 @@ private:
     double cell_;
     Vec3 low_ = Vec3::Zero();
     std::array<int, 3> count_{};   // texels along each axis
-    std::vector<Triangle> triangles_;
+    std::vector<ChartTriangle> triangles_;
     std::vector<std::uint32_t> neighbours_;   // of each triangle three
     std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was seen there last
     std::vector<int> sides_;                  // of each chart

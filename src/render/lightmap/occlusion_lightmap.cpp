@@ -13,7 +13,7 @@ constexpr double to_next = 1.1;
 
 constexpr double steepest_ball = 1.8;   // how far apart an octahedral map's texels are, to the average along its middle
 
-Vec3 place_of(const OcclusionLightmap& surface, std::size_t texel) {
+Vec3 texel_center(const OcclusionLightmap& surface, std::size_t texel) {
     const auto& p = surface.positions[texel];
     return {double(p[0]), double(p[1]), double(p[2])};
 }
@@ -78,7 +78,7 @@ OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts) {
         around[c.axis] = 0.0;
         add_blocks(surface, {c.x, c.y, c.width, c.height}, [&](std::size_t i) { return charts.used(i); },
                    [&](std::size_t i, Bounds& bounds) {
-                       Vec3 p = place_of(surface, i);
+                       Vec3 p = texel_center(surface, i);
                        for (const float height : charts.heights[i]) {
                            p[c.axis] = double(height);
                            bounds.add(p - around);
@@ -104,8 +104,8 @@ OcclusionLightmap fine_surface_of_ball(double radius, int texels) {
     const double apart = steepest_ball * pi * radius / (texels - 1);
     const Vec3 around = Vec3::Constant(to_next * apart);
     add_blocks(surface, {0, 0, texels, texels}, [](std::size_t) { return true; }, [&](std::size_t i, Bounds& bounds) {
-        bounds.add(place_of(surface, i) - around);
-        bounds.add(place_of(surface, i) + around);
+        bounds.add(texel_center(surface, i) - around);
+        bounds.add(texel_center(surface, i) + around);
     });
     return surface;
 }

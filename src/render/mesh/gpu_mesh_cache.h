@@ -1,6 +1,7 @@
-// All meshes of a scene on the graphics side, by the numbers of draw_list.h.
+// All meshes of a scene on the graphics side, by the numbers of batch.h.
 #pragma once
 
+#include "render/mesh/batch.h"
 #include "render/mesh/mesh_buffer.h"
 
 #include <optional>

@@ -1,6 +1,7 @@
 #include "render/passes/draw_list.h"
 
 #include "core/check.h"
+#include "core/rotation.h"
 #include "render/gl/glm_conversion.h"
 #include "render/antialiasing/surface_ids.h"
 
@@ -78,7 +79,7 @@ CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, cons
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
     const double length = (to - from).norm();
     return {0.5 * (from + to), length,
-            Quat::FromTwoVectors(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
+            turn_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
 }
 
 Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place, const ShadowCascades& shadows) {

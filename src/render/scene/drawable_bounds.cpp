@@ -1,4 +1,5 @@
 #include "render/scene/drawable_bounds.h"
+#include "core/rotation.h"
 
 namespace tumble {
 namespace {
@@ -20,7 +21,7 @@ DrawableBounds cord_item(const CordDescription& cord, const BodyState& state, co
     DrawableBounds item;
     item.center = 0.5 * (from + to);
     item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
-    const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), to - from);
+    const Quat turn = turn_between(Vec3::UnitY(), to - from);
     item.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, item.radius, cord.radius).asDiagonal();
     return item;
 }

@@ -19,7 +19,7 @@ constexpr double least_rest = 15.0;
 // More large bodies than these are no grounds, but the scene itself.
 constexpr std::size_t most_grounds = 32;
 
-struct Extent {
+struct ReceiverExtent {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     void add(const Vec3& center, double radius) {
         low = low.cwiseMin(center - Vec3::Constant(radius));
@@ -40,7 +40,7 @@ void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
         return looks.bodies[a].bound_radius < looks.bodies[b].bound_radius;
     });
     std::vector<std::size_t> grounds;
-    Extent rest;
+    ReceiverExtent rest;
     double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no ground
     for (const std::size_t i : by_size) {
         const RenderBody& look = looks.bodies[i];

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace tumble {
 namespace {
 
 constexpr int cell = 4;                  // texels: boxes of a large heap are some thirty across
-constexpr double margin = 0.5;           // texels; rasterisation rounds to 1/256, of a far texel at most a quarter
+constexpr double texel_margin = 0.5;           // texels; rasterisation rounds to 1/256, of a far texel at most a quarter
 constexpr double depth_margin = 5e-4;    // of the depths' range; interpolation on steep faces is off by less
 constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
     const auto dot = [&](const glm::vec4& row) { return row.x * v.x() + row.y * v.y() + row.z * v.z(); };
@@ -52,12 +50,12 @@ CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const 
 
 template <class See>
 bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
-    const int first_row = int(std::floor((o.v - o.reach_v - margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + margin) / cell));
+    const int first_row = int(std::floor((o.v - o.reach_v - texel_margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + texel_margin) / cell));
     for (int row = first_row; row <= last_row; ++row) {
         const double y = (row + 0.5) * cell - o.v;
         double low = -infinity, high = infinity;   // of the cells' middles, texels from the hexagon's
         for (const Outline::Strip& s : o.strips) {
-            const double rim = 0.5 * cell * (std::abs(s.u) + std::abs(s.v)) + margin;
+            const double rim = 0.5 * cell * (std::abs(s.u) + std::abs(s.v)) + texel_margin;
             const double half = wholly ? s.half - rim : s.half + rim;
             const double shift = s.v * y;
             if (s.u == 0.0) {

@@ -37,7 +37,7 @@ constexpr double most_growth = 64.0;
 // one lies.
 constexpr double least_of_all = 2.2 / most_growth;
 
-struct Extent {
+struct CascadeExtent {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
     void add(double at, double radius) {
         low = std::min(low, at - radius);
@@ -48,7 +48,7 @@ struct Extent {
 };
 
 /// Where a body starts, or lands.
-struct Place {
+struct CascadePlace {
     Vec3 center;
     double radius, distance;   // m; from the eye
 };
@@ -59,8 +59,8 @@ struct Held {
 };
 
 /// How many of the places, which are in the order of their distance, the near map is made for.
-Held places_to_hold(const std::vector<Place>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
-    Extent x, y;
+Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
+    CascadeExtent x, y;
     std::size_t fine = 0, finest = 0;
     double blur = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -106,7 +106,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     const double gravity = scene.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
     const RestHeightEstimate landing(scene, looks);
-    std::vector<Place> places;
+    std::vector<CascadePlace> places;
     const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
     const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
@@ -125,19 +125,19 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     }
 
     std::vector<double> distances;
-    for (const Place& p : places) distances.push_back(p.distance);
+    for (const CascadePlace& p : places) distances.push_back(p.distance);
     const double limit = far_limit(distances);
-    std::erase_if(places, [&](const Place& p) { return p.distance + p.radius > limit; });
+    std::erase_if(places, [&](const CascadePlace& p) { return p.distance + p.radius > limit; });
     double least = 0.0;   // of the near map: what it leaves out must lie within the far one
     if (!turns) {
-        std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.distance < b.distance; });
+        std::stable_sort(places.begin(), places.end(), [](const CascadePlace& a, const CascadePlace& b) { return a.distance < b.distance; });
         const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
         places.resize(held.count);
         least = least_of_all * held.size_of_all;
     }
-    Extent x, y;
+    CascadeExtent x, y;
     distances.clear();
-    for (const Place& p : places) {
+    for (const CascadePlace& p : places) {
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
         distances.push_back(p.distance);
@@ -160,7 +160,7 @@ ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snap
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
-    Extent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
+    CascadeExtent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-constexpr int strip_rows = 64;   // of farthest depths: what is copied from stays in the processor's cache
+constexpr int farthest_strip_rows = 64;   // of farthest depths: what is copied from stays in the processor's cache
 
 }  // namespace
 
@@ -19,7 +19,7 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
       empty_texture_(gl, GlKind::texture),
       empty_framebuffer_(gl, GlKind::framebuffer) {
     program_.set_block("Frame", frame_block);
-    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels, strip_rows);
+    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels, farthest_strip_rows);
     gl.ClearDepth(1.0);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
     attach_depths(framebuffer_, texture_, 2 * shadow_map_texels, shadow_map_texels);
@@ -58,8 +58,8 @@ void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     for (const Rectangle& p : parts) {
         const int x = p.x % shadow_map_texels;   // no part lies in both maps
-        for (int y = p.y; y < p.y + p.height; y += strip_rows) {
-            const int rows = std::min(strip_rows, p.y + p.height - y);
+        for (int y = p.y; y < p.y + p.height; y += farthest_strip_rows) {
+            const int rows = std::min(farthest_strip_rows, p.y + p.height - y);
             gl_->BlitFramebuffer(x, 0, x + p.width, rows, p.x, y, p.x + p.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
         }
     }

@@ -11,11 +11,11 @@ namespace tumble {
 namespace {
 
 /// Where to point when eye, target and up do not go together: at what was given.
-struct Given {
+struct ViewKeys {
     std::optional<TomlValue> eye, target, up;
 };
 
-void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const Given& given, const TomlTable& table) {
+void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewKeys& given, const TomlTable& table) {
     const Vec3 view = target - eye;
     constexpr double parallel = 1e-6;   // rad: closer to `up` than this there is no telling which way is up
     if (view.norm() == 0.0) {
@@ -33,7 +33,7 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const Given
         "choose another up");
 }
 
-void read_place(const TomlTable& table, CameraDescription& camera, const Given& given) {
+void read_place(const TomlTable& table, CameraDescription& camera, const ViewKeys& given) {
     const Vec3 offset = camera.eye - camera.target;
     if (given.target) camera.target = given.target->vector(limits::coordinate);
     else if (camera.follow) camera.target = camera.follow_start;
@@ -90,7 +90,7 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
 
     table->expect_keys(
         {"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
-    const Given given{table->find("eye"), table->find("target"), table->find("up")};
+    const ViewKeys given{table->find("eye"), table->find("target"), table->find("up")};
     if (given.up) lens.up = given.up->direction();
     table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tumble {
 namespace {
@@ -13,7 +12,6 @@ constexpr std::size_t most_places = 24;           // a third of them tells as mu
 constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of a second; with more nothing is asked,
 constexpr std::size_t most_pieces = 20'000;       // nor with more fixed shapes
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Where a line enters a box about the origin (the slabs of Kay and Kajiya 1986), in lengths of its way; infinity: it does not.
 double hit_box(const Vec3& half, const Vec3& from, const Vec3& way) {

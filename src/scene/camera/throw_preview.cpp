@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr int steps = 600;                     // of a way: a throw of 5 s moves on by 8 ms
+constexpr int preview_steps = 600;             // of a way: a throw of 5 s moves on by 8 ms
 constexpr int steps_a_point = 12;              // fifty places draw a smooth curve
 constexpr std::size_t most_pairs = 10'000;     // of thrown and other bodies: some 50 ms
 constexpr double farthest_of_size = 60.0;      // of the body's diameter: it is then some 20 pixels of 1280
@@ -120,7 +120,7 @@ std::vector<Vec3> flight_points(const SceneDescription& scene, double seconds) {
         const double radius = start.half_size.norm();
         const double farthest = std::max(farthest_of_size * 2.0 * radius, farthest_of_all * moving.extent().norm());
         Flight flight(start, obstacles);
-        for (int i = 1; i <= steps && flight.step(seconds / steps, scene.simulation.gravity); ++i) {
+        for (int i = 1; i <= preview_steps && flight.step(seconds / preview_steps, scene.simulation.gravity); ++i) {
             if ((flight.at() - start.center).norm() > farthest) break;
             if (i % steps_a_point != 0) continue;
             for (int corner = 0; corner < 8; ++corner)

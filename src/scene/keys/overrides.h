@@ -14,6 +14,4 @@ struct SceneOverrides {
     std::optional<std::string> integrator, impacts, impact_law;
 };
 
-using FileList = std::vector<std::filesystem::path>;
-
 }  // namespace tumble

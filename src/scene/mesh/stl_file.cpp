@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t header_bytes = 80, count_bytes = 4, facet_bytes = 50, normal_bytes = 12;
+constexpr std::size_t binary_header_bytes = 80, count_bytes = 4, facet_bytes = 50, normal_bytes = 12;
 
 /// The file's words, over the ends of lines.
 class Words {
@@ -70,7 +70,7 @@ MeshFile read_text(std::string_view bytes) {
 MeshFile read_binary(std::string_view bytes) {
     MeshFile mesh;
     const MeshTransform in_place;
-    for (std::size_t at = header_bytes + count_bytes; at < bytes.size(); at += facet_bytes) {
+    for (std::size_t at = binary_header_bytes + count_bytes; at < bytes.size(); at += facet_bytes) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             std::array<float, 3> point{};
             std::memcpy(point.data(), bytes.data() + at + normal_bytes + corner * sizeof point, sizeof point);
@@ -86,14 +86,14 @@ MeshFile read_binary(std::string_view bytes) {
 MeshFile read_stl(std::string_view bytes) {
     // Binary files may begin with "solid" too; so their length decides.
     std::uint32_t facets = 0;
-    const bool long_enough = bytes.size() >= header_bytes + count_bytes;
-    if (long_enough) std::memcpy(&facets, bytes.data() + header_bytes, sizeof facets);
-    if (long_enough && bytes.size() == header_bytes + count_bytes + facets * facet_bytes) return read_binary(bytes);
+    const bool long_enough = bytes.size() >= binary_header_bytes + count_bytes;
+    if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);
+    if (long_enough && bytes.size() == binary_header_bytes + count_bytes + facets * facet_bytes) return read_binary(bytes);
     if (Words(bytes).next() == "solid") return read_text(bytes);
     if (!long_enough) throw MeshError("is no STL file: it does not begin with \"solid\" and is too short for a binary one");
     throw MeshError(fmt::format("is no STL file: it does not begin with \"solid\", and a binary one of {} facets would have {} "
                                 "bytes (it has {})",
-                                facets, header_bytes + count_bytes + facets * facet_bytes, bytes.size()));
+                                facets, binary_header_bytes + count_bytes + facets * facet_bytes, bytes.size()));
 }
 
 }  // namespace tumble

@@ -2,12 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace tumble {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Up to four points of the Minkowski difference B - A whose hull holds the point nearest to the origin.
 struct Simplex {

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tumble {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // First root s >= 0 of f + r s - q s^2 / 2 for f >= 0, q >= 0, without cancellation.
 double first_root(double f, double r, double q) {

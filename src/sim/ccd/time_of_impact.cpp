@@ -8,12 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tumble {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using SurfaceRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;

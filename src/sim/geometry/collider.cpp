@@ -2,12 +2,9 @@
 
 #include "sim/geometry/compound.h"
 
-#include <limits>
 
 namespace tumble {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class... F>
 struct Overloaded : F... {

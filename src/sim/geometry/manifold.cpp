@@ -15,7 +15,7 @@ constexpr double clearly = 1.02;
 constexpr double near = 1e-3;
 constexpr double deeper = 1e-5;
 // What adds less than this part of the size, or of its square, adds nothing.
-constexpr double nothing = 1e-6;
+constexpr double negligible_size = 1e-6;
 
 // What spans the area may lie over what touches: the upper corners of a thin plate over its lower ones. Then the lower one
 // counts: nearer along the normal by more than twice what it is aside.
@@ -61,7 +61,7 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
     for (const bool far : {false, true}) {
         while (manifold.count < int(Manifold::capacity)) {
             const ContactPoint* best = nullptr;
-            double most = nothing * size * size;
+            double most = negligible_size * size * size;
             for (const ContactPoint& p : candidates) {
                 if (!far && p.separation > touching) continue;
                 const double g = gain(manifold, p.position);
@@ -77,7 +77,7 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
         ContactPoint& upper = manifold.points[std::size_t(i)];
         for (const ContactPoint& lower : candidates) {
             const double nearer = upper.separation - lower.separation;
-            if (!(nearer > nothing * size)) continue;
+            if (!(nearer > negligible_size * size)) continue;
             if (manifold.has(lower.feature)) continue;
             if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
                 upper = lower;

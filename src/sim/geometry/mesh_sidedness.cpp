@@ -11,7 +11,7 @@ namespace tumble {
 namespace {
 
 using Triangle = CollisionMesh::Triangle;
-constexpr std::uint32_t none = CollisionMesh::none;
+constexpr std::uint32_t no_triangle = CollisionMesh::none;
 
 NearestOnTriangle nearest(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     return nearest_on_triangle(point, s.corner(t, 0), s.corner(t, 1), s.corner(t, 2));
@@ -125,12 +125,12 @@ void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> tri
         SideScratch::Piece& whole = pieces[piece[k]];
         if (!whole.mixed) continue;
         const double square = (point - nearest(surface, triangles[k], point).point).squaredNorm();
-        if (whole.nearest != none && square >= whole.square) continue;
+        if (whole.nearest != no_triangle && square >= whole.square) continue;
         whole.square = square;
         whole.nearest = triangles[k];
     }
     for (SideScratch::Piece& whole : pieces)
-        if (whole.mixed && surface.triangles[whole.nearest].sheet != none) whole.behind = sheet_behind(surface, whole.nearest, point);
+        if (whole.mixed && surface.triangles[whole.nearest].sheet != no_triangle) whole.behind = sheet_behind(surface, whole.nearest, point);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         if (const auto side = pieces[piece[k]].behind) behind[k] = *side;
 }

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace tumble {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // x = A^-1 x by Cholesky, A is overwritten; false when A is not positive definite. Eigen's own goes in blocks by the size
 // of the processor's cache, and so would the last digits.

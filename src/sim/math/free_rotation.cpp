@@ -12,7 +12,7 @@ namespace {
 // A modulus this small leaves sines: its square is below the rounding of 1.
 constexpr double smallest_modulus = 1e-9;
 // Squares of (relative) momenta below this are at the end of a double's range; whatever wobbles so little is steady.
-constexpr double nothing = 1e-280;
+constexpr double negligible = 1e-280;
 
 struct HalfAngle {
     double cos, sin;
@@ -72,7 +72,7 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     const double d31 = s * (i3 - i1), d32 = s * (i3 - i2), d21 = s * (i2 - i1);
     const double a = m1 * m1 * (d31 / i1) + m2 * m2 * (d32 / i2);   // |2 T I3 - |L|^2|
     const double b = m2 * m2 * (d21 / i2) + m3 * m3 * (d31 / i3);   // ||L|^2 - 2 T I1|
-    if (!(a > nothing) || !(d32 * b > nothing)) return set_steady(rate / inertia[main]);
+    if (!(a > negligible) || !(d32 * b > negligible)) return set_steady(rate / inertia[main]);
 
     const double sense = std::copysign(1.0, m3) * s;   // of m's way around axis 3
     amplitude_cn_ = std::sqrt(i1 * a / d31);
@@ -112,7 +112,7 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     if (complement_squared_ > 0.0) {
         start_periodic(sn, cn);
     } else {
-        if (cn * cn < nothing) return set_steady(rate / inertia[main]);
+        if (cn * cn < negligible) return set_steady(rate / inertia[main]);
         start_separatrix(sn, cn);
     }
     const Phase start = phase(phase_start_);

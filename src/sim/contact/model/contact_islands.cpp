@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t no_island = UINT32_MAX;
 
 }  // namespace
 
@@ -27,8 +27,8 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
 void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
                           std::span<const std::uint32_t> awake) {
     ++round_;
-    for (const std::uint32_t i : awake) members_[i] = {.round = round_, .parent = i, .island = none, .role = Role::takes_part};
-    held_.assign(touching.size(), none);
+    for (const std::uint32_t i : awake) members_[i] = {.round = round_, .parent = i, .island = no_island, .role = Role::takes_part};
+    held_.assign(touching.size(), no_island);
     for (std::size_t k = 0; k < touching.size(); ++k) {
         const auto [a, b] = touching[k];
         const Role role_a = look(a, bodies), role_b = look(b, bodies);
@@ -48,7 +48,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     for (const std::uint32_t i : awake) {
         if (!members_[i].touched) continue;
         std::uint32_t& number = members_[root(i)].island;
-        if (number == none) {
+        if (number == no_island) {
             number = std::uint32_t(first_body_.size() - 1);
             first_body_.push_back(0);
             first_manifold_.push_back(0);
@@ -56,9 +56,9 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         members_[i].island = number;
         ++first_body_[number + 1];
     }
-    const auto island_of = [&](std::size_t k) { return held_[k] == none ? none : members_[held_[k]].island; };
+    const auto island_of = [&](std::size_t k) { return held_[k] == no_island ? no_island : members_[held_[k]].island; };
     for (std::size_t k = 0; k < touching.size(); ++k)
-        if (const std::uint32_t number = island_of(k); number != none) ++first_manifold_[number + 1];
+        if (const std::uint32_t number = island_of(k); number != no_island) ++first_manifold_[number + 1];
     for (std::size_t k = 1; k < first_body_.size(); ++k) {
         first_body_[k] += first_body_[k - 1];
         first_manifold_[k] += first_manifold_[k - 1];
@@ -73,7 +73,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     floats_.assign(size(), 1);
     for (std::uint32_t k = 0; k < touching.size(); ++k) {
         const std::uint32_t number = island_of(k);
-        if (number == none) continue;
+        if (number == no_island) continue;
         const std::uint32_t place = next_manifold[number]++;
         manifolds_[place] = k;
         pairs_[place] = touching[k];

@@ -12,7 +12,7 @@ struct Part {
     double weight;   // of its result at h = 0: the product over the others of n^2 / (n^2 - m^2)
 };
 constexpr std::array counts{2, 4, 6, 8, 10};
-constexpr auto parts = [] {
+constexpr auto substep_counts = [] {
     std::array<Part, counts.size()> list{};
     for (std::size_t i = 0; i < counts.size(); ++i) {
         list[i] = {counts[i], 1.0};
@@ -29,7 +29,7 @@ void extrapolation_step(RigidState& state, const RigidMass& mass, const ForceLaw
     const StateVector y = vector_of(state);
     const StateVector first = rate_of_change(y, mass, forces);
     StateVector change = StateVector::Zero();
-    for (const Part& part : parts) {
+    for (const Part& part : substep_counts) {
         // d = what has been added to y. The midpoint rule, and Gragg's mean over the last two points at the end.
         const double step = h / part.count;
         StateVector last = StateVector::Zero(), d = step * first;

@@ -1,0 +1,7 @@
+#include "core/rotation.h"
+
+namespace tumble {
+
+Quat turn_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
+
+}  // namespace tumble
