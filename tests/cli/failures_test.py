@@ -96,16 +96,6 @@ class Failures(program.ProgramTest):
                 self.assertIn(f"cannot write '{name}': {FFMPEG} failed", run.stderr)
                 self.assertEqual(self.names(), [])
 
-    def started(self, *arguments):
-        """A run that would take minutes, once its first frames are there."""
-        run = subprocess.Popen([program.TUMBLE, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(run.kill)
-        deadline = time.monotonic() + 60
-        while not (self.folder / "out/frame_000003.png").exists() and time.monotonic() < deadline:
-            time.sleep(0.01)
-        self.assertIsNone(run.poll(), "it ended early")
-        return run
-
     def check_whole_frames(self):
         frames = sorted((self.folder / "out").glob("frame_*.png"))
         self.assertEqual([p.name for p in frames], program.frame_names(len(frames)))
