@@ -126,10 +126,10 @@ class Failures(program.ProgramTest):
         run = self.started(*self.LONG, "--workers", "2")
         workers = self.processes_of(run)
         self.assertEqual(len(workers), 2)
-        os.kill(workers[1], signal.SIGSEGV)
+        os.kill(workers[1], signal.SIGABRT)
         error = run.communicate(timeout=60)[1]
         self.assertEqual(run.returncode, 1)
-        self.assertRegex(error, r"error: cannot draw frame \d+: its process ended by signal 11 \(Segmentation fault\)")
+        self.assertRegex(error, r"error: cannot draw frame \d+: its process ended by signal 6 \(Aborted\)")
         self.check_whole_frames()
         self.assertEqual([name for name in self.names() if "frame_0" not in name], ["out"])
         self.assertFalse(pathlib.Path(f"/proc/{workers[0]}").exists())
