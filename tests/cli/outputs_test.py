@@ -290,17 +290,7 @@ class Names(program.ProgramTest):
 
 class Runs(program.ProgramTest):
     def started(self, *arguments):
-        """A run that would take minutes, once its first frames are there."""
-        run = subprocess.Popen([program.TUMBLE, "render", "scene.toml", "--duration", "5000", "--size", "160x120", *arguments],
-                               cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(run.stderr.close)
-        self.addCleanup(run.wait)
-        self.addCleanup(run.kill)
-        deadline = time.monotonic() + 60
-        while not (self.folder / "out/frame_000003.png").exists() and time.monotonic() < deadline:
-            time.sleep(0.01)
-        self.assertIsNone(run.poll(), "it ended early")
-        return run
+        return super().started("render", "scene.toml", "--duration", "5000", "--size", "160x120", *arguments)
 
     def hidden(self):
         return [name for name in self.names() if pathlib.Path(name).name.startswith(".")]

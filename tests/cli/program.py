@@ -8,6 +8,7 @@ import shutil
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -56,6 +57,18 @@ class ProgramTest(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_text(text)
         return name
+
+    def started(self, *arguments):
+        """A run that would take minutes and writes its frames to out/, once the first of them are there."""
+        run = subprocess.Popen([TUMBLE, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        deadline = time.monotonic() + 60
+        while not (self.folder / "out/frame_000003.png").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertIsNone(run.poll(), "it ended early")
+        return run
 
     def run_tumble(self, *arguments, **options):
         """The finished run: returncode, stdout, stderr."""

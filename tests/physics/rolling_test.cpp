@@ -119,7 +119,7 @@ TEST(Rolling, AWeightedBallSwingsOn) {
             std::vector<double> passes, tilts = {0.0};   // the farthest of each swing
             for (int frame = 1; frame <= 600; ++frame) {
                 world.advance_frame();
-                const BodyState& now = world.snapshot().bodies[1];
+                const BodyState now = world.snapshot().bodies[1];
                 const double angle = 2.0 * atan2_stable(now.orientation.z(), now.orientation.w());
                 if (angle * before < 0.0) {
                     passes.push_back((frame - angle / (angle - before)) / 60.0);
