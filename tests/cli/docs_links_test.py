@@ -93,6 +93,8 @@ def unreached_pages(pages):
 
 
 class Documents(unittest.TestCase):
+    maxDiff = None
+
     def test_links_and_anchors(self):
         pages = documents()
         self.assertGreater(sum(len(links(text)) for text in pages.values()), 50)
