@@ -20,6 +20,7 @@ RUN_FIELDS = ["case", "program", "date", "commit", "processor", "engines", "comm
 def record_runs(results, rows, command):
     """Notes in runs.csv beside the results when, at which commit and where the rows of each case and program were measured."""
     path = results.parent / "runs.csv"
+    path.parent.mkdir(parents=True, exist_ok=True)
     where = {"date": datetime.date.today().isoformat(), "commit": commit(), "processor": processor(),
              "engines": versions(), "command": command}
     fresh = {(r["case"], r["program"]): {"case": r["case"], "program": r["program"], **where} for r in rows}
@@ -57,7 +58,6 @@ def merged(results, new, key, command):
     replaced = {key(r) for r in fresh}
     kept = [r for r in read(results) if key(r) not in replaced] if results.exists() else []
     rows = kept + fresh
-    results.parent.mkdir(parents=True, exist_ok=True)
     with open(results, "w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
         writer.writeheader()
