@@ -1,10 +1,11 @@
-"""What the pages of the benchmarks share: rows, colours, places in a document. For scripts/plot-*."""
+"""The parts that the pages of docs/results share: rows, runs, colors, markers. For scripts/plot-* and bench-render."""
 
 import csv
+import datetime
 import subprocess
 from pathlib import Path
 
-# Okabe and Ito's palette, told apart by all kinds of colour sight. A program keeps its colour in every plot.
+# Okabe and Ito's palette, distinct in all kinds of color vision. A program keeps its colour in every plot.
 COLORS = {"Tumble": "#0072B2", "Bullet": "#E69F00", "ODE": "#009E73", "MuJoCo": "#CC79A7", "DART": "#6B6B6B"}
 
 
@@ -13,13 +14,50 @@ def read(path):
         return list(csv.DictReader(file))
 
 
-def merged(results, new, key):
-    """The rows of both files; where `new` has rows of a key, those of `results` go. Written back to `results`."""
+RUN_FIELDS = ["case", "program", "date", "commit", "processor", "engines", "command"]
+
+
+def record_runs(results, rows, command):
+    """Notes in runs.csv beside the results when, at which commit and where the rows of each case and program were measured."""
+    path = results.parent / "runs.csv"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    where = {"date": datetime.date.today().isoformat(), "commit": commit(), "processor": processor(),
+             "engines": versions(), "command": command}
+    fresh = {(r["case"], r["program"]): {"case": r["case"], "program": r["program"], **where} for r in rows}
+    runs = {(r["case"], r["program"]): r for r in (read(path) if path.exists() else [])} | fresh
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=RUN_FIELDS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(runs.values())
+
+
+def runs_table(results):
+    """The provenance of a page: one line for all cases of one date, commit, processor and command."""
+    path = results.parent / "runs.csv"
+    runs = read(path) if path.exists() else []
+    groups = {}
+    for run in runs:
+        groups.setdefault(tuple(run[f] for f in RUN_FIELDS[2:]), []).append((run["case"], run["program"]))
+    programs = {case: {r["program"] for r in runs if r["case"] == case} for case in dict.fromkeys(r["case"] for r in runs)}
+    lines = []
+    for where, pairs in sorted(groups.items(), reverse=True):
+        names = []
+        for case in dict.fromkeys(c for c, _ in pairs):
+            here = [p for c, p in pairs if c == case]
+            names.append(case if len(here) == len(programs[case]) else f"{case} ({', '.join(here)})")
+        date, hash_, cpu, engines, command = where
+        lines.append([date, hash_, cpu, engines, f"`{command}`", "all cases" if len(groups) == 1 else "; ".join(names)])
+    return ("Absolute times depend on the machine; ratios between programs of one run vary less.\n\n"
+            + table(["date", "commit", "processor", "reference programs, from Debian", "command", "cases"], lines))
+
+
+def merged(results, new, key, command):
+    """The rows of both files; the rows of `new` replace those of `results` with the same key. Written back to `results`."""
     fresh = read(new)
+    record_runs(results, fresh, command)
     replaced = {key(r) for r in fresh}
     kept = [r for r in read(results) if key(r) not in replaced] if results.exists() else []
     rows = kept + fresh
-    results.parent.mkdir(parents=True, exist_ok=True)
     with open(results, "w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
         writer.writeheader()
@@ -56,12 +94,11 @@ def table(head, lines):
 
 
 def save(figure, path):
-    figure.savefig(path.with_suffix(".png"))
     figure.savefig(path.with_suffix(".svg"), metadata={"Date": None})
 
 
 def versions():
-    names = {"libbullet-dev": "Bullet", "libode-dev": "ODE", "libmujoco-dev": "MuJoCo", "libdart-dev": "DART"}
+    names = {"libbullet-dev": "Bullet", "libode-dev": "ODE", "libmujoco-dev": "MuJoCo", "libdart-dev": "DART", "python3-vtk9": "VTK"}
     found = []
     for package, name in names.items():
         text = subprocess.run(["dpkg-query", "--show", "--showformat=${Version}", package], capture_output=True, text=True).stdout
@@ -70,10 +107,16 @@ def versions():
     return ", ".join(found)
 
 
+def commit():
+    git = lambda *words: subprocess.run(["git", *words], capture_output=True, text=True, cwd=Path(__file__).parent).stdout.strip()
+    changed = git("status", "--porcelain", "--untracked-files=no", "--", "../src", "../bench")
+    return git("rev-parse", "--short", "HEAD") + (" with local changes" if changed else "")
+
+
 def processor():
     for line in Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
+            return line.split(":", 1)[1].strip().replace("(R)", "")
     return "unknown processor"
 
 

@@ -42,8 +42,8 @@ struct ContactCase {
 std::vector<ContactCase> contact_cases();
 
 // What contact_cases() is put together from; a file each.
-void add_piles(std::vector<ContactCase>& cases);    // D1 ... D2r, sleepers, energy in a pit
-void add_spheres(std::vector<ContactCase>& cases);  // C, SimBenchmark 666
+void add_piles(std::vector<ContactCase>& cases);    // piles of 1000 and 8000, sleepers, energy in a pit
+void add_spheres(std::vector<ContactCase>& cases);  // 216 spheres at rest, SimBenchmark 666
 void add_towers(std::vector<ContactCase>& cases);   // stacks, mass ratios, pyramid, arch, card house
 void add_slides(std::vector<ContactCase>& cases);   // inclines, SimBenchmark rolling, 600 s of rest
 

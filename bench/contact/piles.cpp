@@ -94,12 +94,12 @@ ContactCase mixed_boxes(double friction) {
 }  // namespace
 
 void add_piles(std::vector<ContactCase>& cases) {
-    cases.push_back(pile("D1", 10, false));
-    cases.push_back(pile("D1r", 10, true));
-    cases.push_back(pile("D2", 20, false));
-    cases.push_back(pile("D2r", 20, true));
+    cases.push_back(pile("pile of 1000", 10, false));
+    cases.push_back(pile("pile of 1000 rotated", 10, true));
+    cases.push_back(pile("pile of 8000", 20, false));
+    cases.push_back(pile("pile of 8000 rotated", 20, true));
     for (const bool rotated : {false, true}) {   // given the time to come to rest
-        cases.push_back(pile(rotated ? "D1r, settled" : "D1, settled", 10, rotated));
+        cases.push_back(pile(rotated ? "pile of 1000 rotated, settled" : "pile of 1000, settled", 10, rotated));
         cases.back().task = Task::settled;
         cases.back().seconds = 30.0;
         cases.back().look_every = 30.0;

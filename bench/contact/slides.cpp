@@ -23,7 +23,7 @@ public:
         exact_ = 0.5 * acceleration_ * (time * time - from_ * from_);
     }
     std::vector<Quantity> tell() const override {
-        return {{"way", way_, "m"}, {"error of the way", std::abs(way_ - exact_), "m"}};
+        return {{"distance", way_, "m"}, {"error of the distance", std::abs(way_ - exact_), "m"}};
     }
 
 private:

@@ -52,7 +52,7 @@ private:
 void add_spheres(std::vector<ContactCase>& cases) {
     for (const int rate : {60, 120, 240, 480}) {
         ContactCase c;
-        c.name = "C at 1/" + std::to_string(rate);
+        c.name = "216 spheres at rest at 1/" + std::to_string(rate);
         c.task = Task::spheres;
         c.rate = rate;
         c.look_every = 1.0 / 60.0;

@@ -166,11 +166,11 @@ std::vector<bool> broken(Kin kin, long seed, const StabilityWay& way, double rat
 
 std::vector<Count> run_random_scenes(const StabilityWay& way, double rate, long first, long stride, long last) {
     std::vector<Count> counts(invariants);
-    counts[finite_] = {"finite", "nothing stops being a number", {}, {}};
-    counts[energy_] = {"energy", "never 1 % of the start's above the least so far", {}, {}};
-    counts[momentum_] = {"momentum", "kept to 1e-6, angular momentum to 1e-3 of the bodies' sums", {}, {}};
-    counts[walls_] = {"walls", "no centre gets past a wall or the floor", {}, {}};
-    counts[normals_] = {"normals", "of two smooth bodies none is drawn towards the other", {}, {}};
+    counts[finite_] = {"finite", "all states are finite numbers", {}, {}};
+    counts[energy_] = {"energy", "at most 1 % of the initial energy above the minimum so far", {}, {}};
+    counts[momentum_] = {"momentum", "constant to 1e-6, angular momentum to 1e-3 of the bodies' sums", {}, {}};
+    counts[walls_] = {"walls", "no center of mass passes a wall or the floor", {}, {}};
+    counts[normals_] = {"normals", "no contact of two smooth bodies pulls", {}, {}};
     counts[mirror_] = {"mirror", "a mirrored scene moves as the mirror image to 1 mm for 0.75 s", {}, {}};
     for (Count& c : counts) c.failed = c.scenes = std::vector<long>(4, 0);
     constexpr bool applies[4][invariants] = {{true, true, true, false, true, false},

@@ -13,7 +13,7 @@ PROGRAM = sys.argv.pop(1)
 HEADER = ["case", "program", "way", "parameter", "pass line", "rate", "value", "worst", "verdict", "steps"]
 EXACT = "exact|exact [+] exact impacts"
 
-# (case, way, largest parameter): cells that must pass up to there. The maps of docs/stability.md say how far it goes.
+# (case, way, largest parameter): cells that must pass up to there. The maps of docs/results/stability.md say how far it goes.
 MUST_PASS = [
     ("stack", ".*", 5), ("heavy on light", ".*", 1), ("far from the origin", ".*", 1e5), ("600 s of rest", ".*", 3),
     ("spin", EXACT, 1e5), ("spin", ".*", 1), ("inertia ratio", EXACT, 1e6), ("inertia ratio", ".*", 1),

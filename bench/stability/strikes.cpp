@@ -115,7 +115,7 @@ void add_strikes(std::vector<StabilityCase>& cases) {
                      rebound});
     cases.push_back({"friction",
                      "mu",
-                     "box on a slope of tan 0.6, 3 s; its way as Coulomb's within 1 % or 1 cm, and 1/30 s",
+                     "box on a slope of tan 0.6, 3 s; distance as by Coulomb's law within 1 % or 1 cm, and 1/30 s",
                      {0.0, 0.1, 0.3, 0.59, 0.61, 1.0, 10.0},
                      stability_rates(),
                      slope});
