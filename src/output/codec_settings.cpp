@@ -39,7 +39,7 @@ Arguments h264(const ClipOptions& options) {
     return {};
 }
 
-// The good way takes twelve times as long as the real-time one (docs/output.md).
+// The good way takes twelve times as long as the real-time one (docs/explanation/output.md).
 Arguments vp9(VideoQuality quality) {
     Arguments arguments = {"-c:v", "libvpx-vp9"};
     switch (quality) {

@@ -1,4 +1,4 @@
-// How each codec is told to encode, for each quality: what is measured in docs/output.md.
+// How each codec is told to encode, for each quality: what is measured in docs/explanation/output.md.
 #pragma once
 
 #include "output/video_format.h"

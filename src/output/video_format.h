@@ -41,7 +41,7 @@ enum class FrameTimes {
     constant_rate,   // again for every frame
 };
 
-/// What a clip keeps of its frames, at what cost in time and size: docs/output.md. All the same for a GIF.
+/// What a clip keeps of its frames, at what cost in time and size: docs/explanation/output.md. All the same for a GIF.
 enum class VideoQuality {
     draft,    // fast to make; leaves specks where something has passed
     normal,   // to show: a still background shows what was drawn a second after it came to rest

@@ -45,7 +45,7 @@ TEST(Rest, StackOfTenStands) {
 
 TEST(Rest, HeavyOnLight) {
     SceneDescription scene = stack(2);
-    scene.bodies[2].mass = 50.0;   // light under heavy converges slowly: see the README's limits
+    scene.bodies[2].mass = 50.0;   // light under heavy converges slowly: see docs/reference/guarantees-and-limits.md
     World world(scene);
     run(world, scene, 3.0);
     EXPECT_LT(world.measure().max_penetration, 1e-5);

@@ -120,7 +120,7 @@ void add_quality(CLI::App& command, VideoQuality& quality) {
     add_choice<VideoQuality>(command, "--quality", quality,
                              {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
                              "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
-                             "normal is for showing, best looks like the frames (docs/output.md has time and\n"
+                             "normal is for showing, best looks like the frames (docs/explanation/output.md has time and\n"
                              "size). A GIF has one setting")
         ->option_text("draft|normal|best [normal]");
 }
@@ -136,7 +136,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->check(some_name())
         ->type_name("DIR");
     command->add_option("--aov", line.aovs,
-                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/aovs.md)")
+                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/reference/aovs.md)")
         ->type_name("LIST");
     command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")
         ->check(some_name())->type_name("DIR");

@@ -1,5 +1,5 @@
 // The AOVs of one frame as a file: an .npz archive with an array for each that is asked for, and the camera's place. What
-// users are told of it stands in docs/aovs.md.
+// users are told of it stands in docs/reference/aovs.md.
 //
 //   depth, normal, segmentation, motion, albedo   rows x columns (x channels), as AovFrame has them
 //   intrinsics        3 x 3: column = fx x / z + cx, row = fy y / z + cy; pixels' centres are whole numbers

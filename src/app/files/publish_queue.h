@@ -15,7 +15,7 @@
 namespace tumble {
 
 /// Where one file at a time is waited for, a journaling file system commits each by itself, which takes longer than drawing
-/// a frame; those that are waited for together share a commit (measured in docs/output.md).
+/// a frame; those that are waited for together share a commit (measured in docs/explanation/output.md).
 class PublishQueue {
 public:
     static constexpr int threads = 4;   // that wait at once: with them PNG frames come as fast as without waiting

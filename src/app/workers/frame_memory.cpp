@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t sample = 8;          // color and depth
 constexpr std::uint64_t targets = 2;         // the background and the picture, each with all samples (framebuffer.h)
 constexpr std::uint64_t picture_bytes = 4;   // RGBA
-constexpr std::uint64_t drawing = 10;        // what smoothing edges and reading back keep: measured, as docs/output.md tells
+constexpr std::uint64_t drawing = 10;        // what smoothing edges and reading back keep: measured, as docs/explanation/output.md tells
 constexpr std::uint64_t light = 12;          // the sums of a mean of moments (image_mean.h)
 constexpr std::uint64_t surface = 16;        // where AOVs find it: depth, surface, triangle (surface_map.h)
 

@@ -1,4 +1,4 @@
-// What a frame can hold beside its colours: "arbitrary output variables", one value a pixel. docs/aovs.md tells users
+// What a frame can hold beside its colours: "arbitrary output variables", one value a pixel. docs/reference/aovs.md tells users
 // their units, frames and signs.
 #pragma once
 
