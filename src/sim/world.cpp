@@ -15,13 +15,14 @@
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/event_driven/local_frame.h"
+#include "sim/impact/settings.h"
 #include "sim/snapshot/measurement.h"
 #include "sim/detection/spatial_sort.h"
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/threads/settings.h"
 #include "sim/threads/thread_pool.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/settings/tuning.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Contact under bad and hard input: overlaps at the start, exact coincidences, extreme shapes and sizes, seams, belts.
 #include "core/deterministic_math.h"
+#include "sim/contact/model/settings.h"
 #include "sim/random_shapes.h"
-#include "sim/settings/tuning.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 

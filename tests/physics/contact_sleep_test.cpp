@@ -190,7 +190,7 @@ TEST(Sleep, WakesWhenTouchedNotWhenPassed) {
 }
 
 // Heaps fall to rest with and without sleep: until the first sleeps both are the same to the last bit; then bodies stay
-// within what counts as rest (tuning.h), since all that sleeps has stopped moving.
+// within what counts as rest (sim/contact/model/settings.h), since all that sleeps has stopped moving.
 TEST(Sleep, OnOrOffChangesNoPlaceByMoreThanATenthOfAMillimetre) {
     double most = 0.0;
     for (int trial = 0; trial < 4; ++trial) {

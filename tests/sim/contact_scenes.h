@@ -7,7 +7,7 @@
 #include "sim/contact/contact_solver.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/detection/narrow_phase.h"
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
 #include "support/scenes.h"
 
 #include <numeric>

@@ -2,9 +2,9 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 #include "clusters.h"
+#include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
 #include "sim/dynamics/integrator.h"
-#include "sim/settings/tuning.h"
 #include "sim/world.h"
 #include "support/scenes.h"
 

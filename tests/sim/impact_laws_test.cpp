@@ -1,6 +1,6 @@
 // What each law of impact makes of many contacts at once, against closed forms and conservation.
 #include "impact_scenes.h"
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
 
 #include <gtest/gtest.h>
 

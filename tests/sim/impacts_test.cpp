@@ -1,6 +1,6 @@
 // Collisions of whole clusters: momentum kept, energy never gained (kept for e = 1), nothing left approaching.
 #include "impact_scenes.h"
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
 // Where bouncing ends: how contacts press, and whom they hold, whichever of two bodies comes first and in whatever order.
 #include "random_shapes.h"
+#include "sim/contact/direct/settings.h"
 #include "sim/event_driven/contact_transition.h"
 #include "sim/ccd/trajectory.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 #include "support/bodies.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,9 @@
 // Manifolds from step to step: what contact has built up stays with the points that are still there.
 #include "random_shapes.h"
+#include "sim/detection/settings.h"
 #include "sim/dynamics/body_builder.h"
 #include "sim/detection/narrow_phase.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 #include "support/compounds.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // The soft solver's inner loops: the same bits whatever the width, and one contact against closed forms.
+#include "sim/contact/model/settings.h"
+#include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/random_shapes.h"
-#include "sim/settings/tuning.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // The moment of impact: never missed, never early, to the last digits; grazing and touching starts.
 #include "random_shapes.h"
+#include "sim/event_driven/settings.h"
 #include "sim/geometry/separating_axis.h"
 #include "sim/event_driven/contact_transition.h"
 #include "sim/ccd/time_of_impact.h"
-#include "sim/settings/tuning.h"
 #include "support/bodies.h"
 
 #include <gtest/gtest.h>

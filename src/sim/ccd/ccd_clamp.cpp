@@ -1,7 +1,7 @@
 #include "sim/ccd/ccd_clamp.h"
 
+#include "sim/ccd/settings.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <cmath>

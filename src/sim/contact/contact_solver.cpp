@@ -1,7 +1,8 @@
 #include "sim/contact/contact_solver.h"
 
 #include "sim/contact/model/rigid_mode.h"
-#include "sim/settings/tuning.h"
+#include "sim/contact/settings.h"
+#include "sim/threads/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,8 @@
 #include "sim/detection/broad_phase.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/detection/settings.h"
+#include "sim/threads/settings.h"
+
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,11 @@
 #include "sim/detection/narrow_phase.h"
 
+#include "sim/detection/settings.h"
 #include "sim/geometry/impulse_matching.h"
 #include "sim/geometry/manifold_growth.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
+#include "sim/threads/settings.h"
 
 #include <algorithm>
 #include <cmath>

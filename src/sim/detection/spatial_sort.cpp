@@ -1,7 +1,7 @@
 #include "sim/detection/spatial_sort.h"
 
+#include "sim/detection/settings.h"
 #include "sim/math/kd_split.h"
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <numeric>

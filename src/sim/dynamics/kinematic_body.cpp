@@ -1,7 +1,7 @@
 #include "sim/dynamics/kinematic_body.h"
 
+#include "sim/dynamics/settings.h"
 #include "sim/math/keyframe_track.h"
-#include "sim/settings/tuning.h"
 
 namespace tumble {
 

@@ -1,6 +1,8 @@
 #include "sim/event_driven/contact_transition.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/contact/direct/settings.h"
+#include "sim/event_driven/settings.h"
+
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,9 @@
 #include "sim/event_driven/contact_transition.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
-#include "sim/settings/tuning.h"
+#include "sim/event_driven/settings.h"
+#include "sim/geometry/settings.h"
+#include "sim/impact/settings.h"
 
 #include <fmt/format.h>
 

@@ -9,6 +9,7 @@
 
 #include "sim/contact/model/contact.h"
 #include "sim/contact/contact_solver.h"
+#include "sim/event_driven/settings.h"
 #include "sim/impact/impacts.h"
 #include "sim/contact/model/sleep.h"
 #include "sim/event_driven/event_queue.h"
@@ -20,7 +21,6 @@
 #include "sim/ccd/trajectory.h"
 #include "sim/ccd/time_of_impact.h"
 #include "sim/dynamics/forces.h"
-#include "sim/settings/tuning.h"
 
 #include <limits>
 #include <vector>

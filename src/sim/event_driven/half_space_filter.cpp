@@ -1,6 +1,7 @@
 #include "sim/event_driven/half_space_filter.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
+
 
 namespace tumble {
 

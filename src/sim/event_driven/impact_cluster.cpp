@@ -1,6 +1,8 @@
 #include "sim/event_driven/impact_cluster.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/ccd/settings.h"
+#include "sim/geometry/settings.h"
+
 
 #include <algorithm>
 #include <numeric>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "sim/geometry/collider.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 #include "sim/geometry/collide.h"
 
 #include "sim/geometry/compound.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,7 +1,8 @@
 // When two surfaces count as touching.
 #pragma once
 
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
+
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "sim/geometry/manifold_growth.h"
 
 #include "sim/geometry/contact_area.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "sim/geometry/rotating_point_gap.h"
 
 #include "core/deterministic_math.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 
 #include <algorithm>
 #include <cmath>

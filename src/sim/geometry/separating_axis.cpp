@@ -1,6 +1,7 @@
 #include "sim/geometry/separating_axis.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
+
 
 #include <algorithm>
 #include <limits>

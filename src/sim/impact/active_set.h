@@ -13,8 +13,8 @@
 // Parts of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
 #pragma once
 
+#include "sim/impact/settings.h"
 #include "sim/impact/velocity_row.h"
-#include "sim/settings/tuning.h"
 
 #include <cstdint>
 #include <vector>

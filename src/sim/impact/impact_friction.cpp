@@ -1,6 +1,7 @@
 #include "sim/impact/impact_friction.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
+
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "sim/impact/impact_laws.h"
 
 #include "sim/impact/active_set.h"
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "sim/impact/impact_friction.h"
 #include "sim/impact/active_set.h"
-#include "sim/settings/tuning.h"
+#include "sim/impact/settings.h"
 
 #include <algorithm>
 

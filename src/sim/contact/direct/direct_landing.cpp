@@ -4,8 +4,9 @@
 // what carried the body until then had not. A rocking block so loses a tenth of its energy in each landing, at 60 steps a second,
 // beyond what the landing takes. In n parts, as long as the soft solver's, it is an n-th of that.
 #include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/direct/settings.h"
+#include "sim/contact/model/settings.h"
 
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <cmath>

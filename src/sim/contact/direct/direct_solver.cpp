@@ -1,8 +1,9 @@
 #include "sim/contact/direct/direct_solver.h"
 
+#include "sim/contact/direct/settings.h"
 #include "sim/contact/model/predicted_gap.h"
+#include "sim/contact/model/settings.h"
 #include "sim/contact/model/spin_friction.h"
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <cmath>

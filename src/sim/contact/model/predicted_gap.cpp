@@ -1,8 +1,9 @@
 #include "sim/contact/model/predicted_gap.h"
 
 #include "core/deterministic_math.h"
+#include "sim/contact/model/settings.h"
 #include "sim/geometry/rotating_point_gap.h"
-#include "sim/settings/tuning.h"
+#include "sim/geometry/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "sim/contact/model/sleep.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 

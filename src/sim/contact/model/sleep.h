@@ -4,9 +4,9 @@
 // leans on something that stands, fixed or kinematic. Bodies in free flight never sleep, however slow.
 #pragma once
 
+#include "sim/contact/model/settings.h"
 #include "sim/geometry/manifold.h"
 #include "sim/contact/model/contact_islands.h"
-#include "sim/settings/tuning.h"
 
 #include <array>
 #include <memory>

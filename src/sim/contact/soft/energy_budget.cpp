@@ -1,7 +1,7 @@
 #include "sim/contact/soft/energy_budget.h"
 
+#include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_solver.h"
-#include "sim/settings/tuning.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "sim/contact/soft/island_energies.h"
 
-#include "sim/settings/tuning.h"
+#include "sim/contact/soft/settings.h"
+
 
 #include <algorithm>
 #include <atomic>

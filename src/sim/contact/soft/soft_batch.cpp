@@ -1,7 +1,8 @@
 #include "sim/contact/soft/soft_batch.h"
 
 #include "sim/contact/model/predicted_gap.h"
-#include "sim/settings/tuning.h"
+#include "sim/contact/soft/settings.h"
+#include "sim/geometry/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 // A layout holds as long as the same pairs touch: that of small islands is kept from step to step.
 #pragma once
 
+#include "sim/contact/soft/settings.h"
 #include "sim/geometry/body_pair.h"
 #include "sim/geometry/manifold.h"
 #include "sim/contact/soft/body_blocks.h"
-#include "sim/settings/tuning.h"
 
 #include <cstdint>
 #include <span>

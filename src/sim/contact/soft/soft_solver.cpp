@@ -1,7 +1,9 @@
 #include "sim/contact/soft/soft_solver.h"
 
+#include "sim/contact/model/settings.h"
+#include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_batch.h"
-#include "sim/settings/tuning.h"
+#include "sim/threads/settings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
 #include "sim/dynamics/integrators/extrapolation.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
 #include "sim/dynamics/integrators/splitting.h"
-#include "sim/settings/tuning.h"
 
 #include <fmt/format.h>
 

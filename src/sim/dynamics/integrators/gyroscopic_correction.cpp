@@ -1,10 +1,10 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 #include "core/deterministic_math.h"
+#include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
 #include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/math/keyframe_track.h"
-#include "sim/settings/tuning.h"
 
 #include <cmath>
 

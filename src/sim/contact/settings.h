@@ -1,0 +1,57 @@
+// Constants that choose a contact solver for each island.
+#pragma once
+
+#include <cstddef>
+
+namespace tumble::tuning {
+
+/// Levels of a pile from which on the substeps of its island are divided by two, and by four: high piles of soft contacts buckle (bench_stability
+/// "stack").
+inline constexpr int soft_high_pile = 32;
+inline constexpr int soft_very_high_pile = 64;
+
+/// Substeps are divided too where a body would sink by more than this share of its radius under its weight: g d^2 in a substep d.
+inline constexpr double soft_sag = 3e-3;
+
+/// Steps for which a load estimate of an island holds.
+inline constexpr int soft_load_age = 8;
+
+/// Manifolds of small islands that are solved together through all substeps: their rows (360 bytes each) stay in the second-level cache of a
+/// core.
+inline constexpr std::size_t soft_part_manifolds = 256;
+
+/// Islands with a body that turns by more than this in a step, rad, are solved softly, in substeps. Free islands are excluded: the direct solver
+/// keeps their angular momentum.
+inline constexpr double direct_turn = 0.03;
+
+/// Pairs of bodies in contact in the whole scene up to which all islands are solved directly.
+inline constexpr std::size_t direct_few_pairs = 32;
+
+/// Larger islands are solved directly if a body carries this many times its own mass,
+inline constexpr double direct_load_ratio = 16.0;
+
+/// and remain so down to this share of that ratio.
+inline constexpr double direct_stay = 0.8;
+
+/// In scenes of more manifolds than the first number, the ratio is the second: hundreds of columns of 20 stand in the soft solver as well, in half
+/// the time (bench_contact "towers").
+inline constexpr std::size_t direct_many_manifolds = 4096;
+inline constexpr double direct_load_ratio_of_many = 64.0;
+
+/// Largest number of bodies of an island that is solved directly.
+inline constexpr std::size_t direct_most_bodies = 512;
+
+/// Block operations (6 x 6, about 0.1 microseconds) of one factorization that an island may take: per manifold, in any case, and all islands
+/// together in a step (a millisecond).
+inline constexpr std::size_t direct_work_each = 30;
+inline constexpr std::size_t direct_work_free = 50;
+inline constexpr std::size_t direct_budget = 8000;
+
+/// Steps until the direct solver is tried again after a failure. Each further failure doubles them, this many times at most.
+inline constexpr int direct_wait = 6;
+inline constexpr int direct_most_failures = 8;
+
+/// Islands per unit of parallel work of the direct solver.
+inline constexpr std::size_t direct_parallel_grain = 4;
+
+}  // namespace tumble::tuning

@@ -1,0 +1,90 @@
+// Constants of impacts: restitution, the active-set solver, impact laws and friction.
+#pragma once
+
+#include <cstddef>
+
+namespace tumble::tuning {
+
+/// Approach speeds below this times |g| h do not bounce. Gravity gives a resting contact g h in each step; twice that is distinct from it.
+inline constexpr double restitution_threshold = 2.0;
+
+/// With time-stepped impacts, a bounce that would separate slower than this times |g| h does not happen either: the hop would last two steps, and
+/// the body would stay in an overlap and be lifted out of it.
+inline constexpr double restitution_rebound = 1.0;
+
+/// Contacts of an impact that are solved together exactly. The cost grows with the cube of the contacts: 1 ms at 100, 30 ms at 256, 0.3 s at 512.
+/// Sweeps, which take over beyond, stop short of the solution in long chains.
+inline constexpr std::size_t projection_contacts = 512;
+
+/// The same number in the passes of a propagating impact. Sweeps are faster from fewer contacts on (heaps of 216 bouncing boxes: half the time of
+/// 256), and a pass need not be exact: it conserves the energy in any case.
+inline constexpr std::size_t pass_contacts = 64;
+
+/// Approaches below this share of the restitution threshold, a quarter of gravity's g h, take no part in impacts of more contacts than that. In a
+/// heap a sixth of the approaching contacts is left, in small groups that are solved exactly.
+inline constexpr double impact_slow = 0.125;
+
+/// A unit row is linearly dependent on others if less than this is left of it: mass ratios of 1 : 1e8 in one contact leave 1e-4.
+inline constexpr double projection_dependent = 1e-8;
+
+/// Impulses are distributed over contacts whose rows are dependent to the first value (rounding of lever arms of some hundred meters), or clearly
+/// independent by the second. In between, rounding would decide the distribution.
+inline constexpr double projection_spread_dependent = 1e-12;
+inline constexpr double projection_spread_independent = 1e-3;
+
+/// A row whose multiplier falls slower than this, relative to the rising one, does not block it: rounding.
+inline constexpr double projection_weight = 1e-13;
+
+/// Sweeps of projected Gauss-Seidel, and the relative change at which it has converged.
+inline constexpr int projection_sweeps = 400;
+inline constexpr double projection_sweep_tolerance = 1e-14;
+
+/// Approach speeds below this share of the largest relative speed of the impact system are rounding,
+inline constexpr double approach_relative = 1e-13;
+
+/// and those below this share of its largest speed.
+inline constexpr double approach_rounding = 4e-15;
+
+/// Passes of a propagating impact, per contact. Most impacts end within three. More are needed for a light ball between a heavy one and a wall
+/// (31415 for masses of 1 : 1e8): their number is proportional to the inverse margin of the contacts. Sets without a margin are jammed.
+inline constexpr int impact_passes_each = 3;
+inline constexpr int impact_passes_more = 10;
+inline constexpr double impact_passes_margin = 4.0;
+inline constexpr int impact_passes_limit = 100000;
+
+/// Bodies between moving walls leave at most at this many times the speed of the walls: a wedge of about 20 degrees.
+inline constexpr double impact_wedge = 3.0;
+
+/// Contacts with a margin below the inverse of this are jammed where walls move: the two sides of a box in a press.
+inline constexpr double impact_deepest = 100.0;
+
+/// Largest sum over the passes of the squared number of contacts: about 50 ms. Longer impacts are slow inelastic approaches of many contacts to
+/// one common speed.
+inline constexpr double impact_work = 3e5;
+
+/// Elastic passes end by themselves; they count by this share.
+inline constexpr double impact_elastic_work = 0.1;
+
+/// Rounds of friction with restitution for the contacts that friction makes approach again, and rounds in all.
+inline constexpr int friction_bounces = 4;
+inline constexpr int friction_rounds = 12;
+
+/// Sweeps of friction over an impact system, and
+inline constexpr int friction_sweeps = 400;
+
+/// relaxations of a contact in a large system in all, with this least number of sweeps. Each sweep lowers the energy, so any may be the last.
+inline constexpr int friction_work = 400;
+inline constexpr int friction_least_sweeps = 2;
+
+/// Change of speed, relative to the slip, at which friction has converged: between steps, and at a step, whose own error is larger.
+inline constexpr double friction_tolerance = 1e-14;
+inline constexpr double friction_tolerance_step = 1e-5;
+
+/// Contacts with friction up to which that tolerance holds, and the tolerance for more.
+inline constexpr std::size_t friction_few = 8;
+inline constexpr double friction_tolerance_many = 1e-6;
+
+/// Newton steps to the edge of a friction disc. The method converges quadratically: 4 to 8 are enough for any compliance.
+inline constexpr int friction_newton = 50;
+
+}  // namespace tumble::tuning

@@ -1,0 +1,17 @@
+// Numbers of items from which on several threads share the work. No result depends on them.
+#pragma once
+
+#include <cstddef>
+
+namespace tumble::tuning {
+
+/// Pairs or islands from which on other threads are woken.
+inline constexpr std::size_t parallel_grain = 64;
+
+/// The same for bodies whose pairs are searched: some microseconds each.
+inline constexpr std::size_t parallel_searches = 16;
+
+/// The same for bodies whose forces are applied or whose poses are advanced.
+inline constexpr std::size_t parallel_bodies = 512;
+
+}  // namespace tumble::tuning
