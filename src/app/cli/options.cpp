@@ -136,7 +136,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->check(some_name())
         ->type_name("DIR");
     command->add_option("--aov", line.aovs,
-                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load (docs/reference/aovs.md)")
+                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
     command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")
         ->check(some_name())->type_name("DIR");
