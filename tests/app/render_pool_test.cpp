@@ -298,12 +298,8 @@ std::string error_of(const std::function<void()>& action) {
 TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
     const SceneDescription scene = two_boxes();
     for (const int workers : {1, 2}) {
-<<<<<<< HEAD:tests/app/render_pool_test.cpp
         RenderPool drawer(scene, {}, both, workers);
-=======
-        Drawer drawer(scene, {}, both, workers);
         const pid_t process = drawer.processes().back();
->>>>>>> main:tests/app/drawer_test.cpp
         std::int64_t last = -1;
         const std::string error = error_of([&] {
             // Frames without end, all of which move: the run can only end by the error, whoever draws how many of them.

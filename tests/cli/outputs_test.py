@@ -1,6 +1,7 @@
 """Where outputs go: standard output and other descriptors, links, names that are read, long names, folders in use, and what
 a killed run left behind."""
 
+import fcntl
 import json
 import os
 import pathlib
@@ -295,6 +296,18 @@ class Runs(program.ProgramTest):
     def hidden(self):
         return [name for name in self.names() if pathlib.Path(name).name.startswith(".")]
 
+    def until_unlocked(self, names):
+        """Waits for ffmpeg: it holds the lock of its output until it has ended, a moment after its input has."""
+        for name in names:
+            with open(self.folder / name, "rb") as part:
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline:
+                    try:
+                        fcntl.flock(part, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                        break
+                    except BlockingIOError:
+                        time.sleep(0.01)
+
     def test_what_a_kill_left_is_removed(self):
         for clip, parts in (("a.gif", 2), ("a.mkv", 1)):
             run = self.started("-o", clip, "--frames", "out", "--aov", "depth")
@@ -302,6 +315,7 @@ class Runs(program.ProgramTest):
             run.kill()
             run.wait()
             left = self.hidden()
+            self.until_unlocked(left)
             self.assertGreaterEqual(len([name for name in left if name.startswith("." + clip)]), parts, left)
             self.check(0, "render", "scene.toml", "-o", clip, "--frames", "out", "--aov", "depth", "--duration", "0")
             self.assertEqual(self.hidden(), [".unlike." + clip + ".tumble.part-00000000"])

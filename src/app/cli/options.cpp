@@ -120,8 +120,8 @@ void add_quality(CLI::App& command, VideoQuality& quality) {
     add_choice<VideoQuality>(command, "--quality", quality,
                              {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
                              "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
-                             "normal is for showing, best looks like the frames (docs/explanation/output.md has time and\n"
-                             "size). A GIF has one setting")
+                             "normal is for showing, best looks like the frames. A GIF has one setting (time and size:\n"
+                             "docs/explanation/output.md)")
         ->option_text("draft|normal|best [normal]");
 }
 
