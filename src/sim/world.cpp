@@ -80,8 +80,8 @@ struct World::State {
     std::vector<ForceStep> force_steps;
     std::vector<Impulse> pulses;   // of this step, of forces that end some time; by body, empty in scenes without forces at points
 
-    State(const SceneDescription& scene, int threads)
-        : settings(scene.simulation), fps(scene.output.fps), h(scene.step()),
+    State(const SceneDescription& scene, const FrameTiming& timing, int threads)
+        : settings(scene.simulation), fps(timing.fps), h(timing.step()),
           origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())), bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
           order(exact_impacts(scene) ? put_in_exact_order(bodies, settings.gravity) : put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
           // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
@@ -89,9 +89,10 @@ struct World::State {
                        exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver,
                                                 exact_impacts(scene) ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced), sleep(scene.bodies.size()),
-          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, settings.steps_per_frame}), motion_limit(bodies), pool(threads),
+          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, timing.steps_per_frame}), motion_limit(bodies), pool(threads),
           old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()),
           pulses(forces.ever_changes() ? scene.bodies.size() : 0) {
+        settings.steps_per_frame = timing.steps_per_frame;
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].track) kinematic_bodies.push_back(i);
         motions.resize(bodies.size());
@@ -457,7 +458,9 @@ void World::State::stop_if_not_finite() const {
                                steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
 }
 
-World::World(const SceneDescription& scene, int threads) : state_(std::make_unique<State>(scene, std::max(1, threads))) {}
+World::World(const SceneDescription& scene, int threads) : World(scene, scene.timing(), threads) {}
+World::World(const SceneDescription& scene, const FrameTiming& timing, int threads)
+    : state_(std::make_unique<State>(scene, timing, std::max(1, threads))) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 

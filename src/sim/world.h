@@ -14,6 +14,8 @@ class World {
 public:
     /// Builds the bodies: masses, inertia tensors, hulls. `threads` changes the time taken, never a byte of the result.
     explicit World(const SceneDescription& scene, int threads = 1);
+    /// The same with another rate of frames and steps than the scene's.
+    World(const SceneDescription& scene, const FrameTiming& timing, int threads);
     ~World();
     World(World&&) noexcept;
 

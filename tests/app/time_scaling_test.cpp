@@ -24,10 +24,10 @@ SceneDescription falling_box() {
     return scene;
 }
 
-std::vector<Snapshot> frames_of(const SceneDescription& scene) {
-    World world(scene);
+std::vector<Snapshot> frames_of(const SceneDescription& scene, const FrameTiming& timing) {
+    World world(scene, timing, 1);
     std::vector<Snapshot> frames{world.snapshot()};
-    while (std::int64_t(frames.size()) < scene.frame_count()) {
+    while (std::int64_t(frames.size()) < timing.frame_count(scene.simulation.duration)) {
         world.advance_frame();
         frames.push_back(world.snapshot());
     }
@@ -35,14 +35,13 @@ std::vector<Snapshot> frames_of(const SceneDescription& scene) {
 }
 
 TEST(Speed, KeepsTheStepWhereItCan) {
-    const std::vector<Snapshot> normal = frames_of(falling_box());
+    const SceneDescription scene = falling_box();
+    const std::vector<Snapshot> normal = frames_of(scene, scene.timing());
     for (const auto& [speed, steps] : {std::pair{0.25, 1}, {0.5, 2}, {2.0, 8}, {3.0, 12}}) {
-        SceneDescription scene = falling_box();
-        const double step = scene.step();
-        apply_speed(scene, speed);
-        EXPECT_EQ(scene.step(), step);
-        EXPECT_EQ(scene.simulation.steps_per_frame, steps);
-        const std::vector<Snapshot> frames = frames_of(scene);
+        const FrameTiming timing = timing_at_speed(scene, speed);
+        EXPECT_EQ(timing.step(), scene.step());
+        EXPECT_EQ(timing.steps_per_frame, steps);
+        const std::vector<Snapshot> frames = frames_of(scene, timing);
         EXPECT_EQ(std::int64_t(frames.size()), std::int64_t(60.0 / speed) + 1);
         // Frame n shows the moment n * speed of the normal run's frames, to the last bit where that has one.
         for (std::size_t n = 0; n < frames.size(); ++n) {
@@ -58,11 +57,10 @@ TEST(Speed, KeepsTheStepWhereItCan) {
 
 TEST(Speed, NeverMakesTheStepLonger) {
     for (double speed = slowest_speed; speed <= fastest_speed; speed *= 1.37) {
-        SceneDescription scene = falling_box();
-        const double step = scene.step(), fps = scene.output.fps;
-        apply_speed(scene, speed);
-        EXPECT_LE(scene.step(), step * (1.0 + 1e-9)) << speed;
-        EXPECT_DOUBLE_EQ(scene.step() * scene.simulation.steps_per_frame, speed / fps) << speed;
+        const SceneDescription scene = falling_box();
+        const FrameTiming timing = timing_at_speed(scene, speed);
+        EXPECT_LE(timing.step(), scene.step() * (1.0 + 1e-9)) << speed;
+        EXPECT_DOUBLE_EQ(timing.step() * timing.steps_per_frame, speed / scene.output.fps) << speed;
     }
 }
 
@@ -79,12 +77,11 @@ TEST(Shutter, OpensForTheNearestPartOfAFrame) {
 }
 
 TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
-    SceneDescription scene = falling_box();
-    const double step = scene.step();
-    divide_frames(scene, 4);
-    EXPECT_EQ(scene.step(), step);
-    EXPECT_EQ(scene.output.fps, 240.0);
-    const std::vector<Snapshot> normal = frames_of(falling_box()), parts = frames_of(scene);
+    const SceneDescription scene = falling_box();
+    const FrameTiming timing = divided(scene.timing(), 4);
+    EXPECT_EQ(timing.step(), scene.step());
+    EXPECT_EQ(timing.fps, 240.0);
+    const std::vector<Snapshot> normal = frames_of(scene, scene.timing()), parts = frames_of(scene, timing);
     ASSERT_EQ(parts.size(), 4 * (normal.size() - 1) + 1);
     for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
 }
@@ -92,7 +89,7 @@ TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
 TEST(Speed, TooManyFramesAreRefused) {
     SceneDescription scene = falling_box();
     scene.simulation.duration = 1e6;
-    EXPECT_THROW(apply_speed(scene, 1e-3), InputError);
+    EXPECT_THROW(timing_at_speed(scene, 1e-3), InputError);
 }
 
 }  // namespace

@@ -117,10 +117,10 @@ void run_render(const RenderCommand& command) {
     const double start = wall_seconds();
     const std::optional<fs::path> aovs_to = aov_folder(command);
     FileList inputs;
-    SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
     const double clip_fps = scene.output.fps;
-    apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
-    const FrameRange frames = frames_from(scene, command.start);
+    const FrameTiming timing = timing_at_speed(scene, command.speed);
+    const FrameRange frames = frames_from(timing, scene.simulation.duration, command.start);
     const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
@@ -143,11 +143,7 @@ void run_render(const RenderCommand& command) {
     // Before any thread. They open OpenGL while the bodies are built.
     RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
-    World world = [&] {
-        SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies
-        divide_frames(in_parts, shutter.parts);
-        return World(in_parts, threads);
-    }();
+    World world(scene, divided(timing, shutter.parts), threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;

@@ -13,7 +13,7 @@ struct FrameRange {
     std::int64_t count() const { return end - first; }
 };
 
-/// Those at `start` seconds or later. Throws InputError where there are none.
-FrameRange frames_from(const SceneDescription& scene, double start);
+/// Those at `start` or later (s), of a scene of that duration (s). Throws InputError where there are none.
+FrameRange frames_from(const FrameTiming& timing, double duration, double start);
 
 }  // namespace tumble

@@ -10,32 +10,29 @@
 #include <cmath>
 
 namespace tumble {
-
 namespace {
 
-/// Steps of at most the scene's length in a frame that lasts so many of the scene's frames.
-double steps_in(const SceneDescription& scene, double frames) {
-    return std::max(1.0, std::ceil(whole_where_meant(scene.simulation.steps_per_frame * frames)));
+/// The number of steps, each at most as long as the timing's, in a frame as long as `frames` of its frames.
+double steps_in(const FrameTiming& timing, double frames) {
+    return std::max(1.0, std::ceil(whole_where_meant(timing.steps_per_frame * frames)));
 }
 
 }  // namespace
 
-void divide_frames(SceneDescription& scene, int parts) {
-    scene.simulation.steps_per_frame = int(steps_in(scene, 1.0 / parts));
-    scene.output.fps *= parts;
+FrameTiming divided(const FrameTiming& timing, int parts) {
+    return {timing.fps * parts, int(steps_in(timing, 1.0 / parts))};
 }
 
-void apply_speed(SceneDescription& scene, double speed) {
-    if (speed == 1.0) return;
-    const double fps = scene.output.fps / speed;
-    const double frames = scene.simulation.duration * fps;
-    const double steps = steps_in(scene, speed);
-    if (frames > double(limits::frames))
+FrameTiming timing_at_speed(const SceneDescription& scene, double speed) {
+    const FrameTiming timing = scene.timing();
+    if (speed == 1.0) return timing;
+    const double fps = timing.fps / speed;
+    const double steps = steps_in(timing, speed);
+    if (scene.simulation.duration * fps > double(limits::frames))
         throw InputError(fmt::format("--speed: at {:g} the clip has more than {} frames", speed, limits::frames));
     if (steps > double(limits::steps_per_frame))
         throw InputError(fmt::format("--speed: at {:g} a frame takes more than {} steps", speed, limits::steps_per_frame));
-    scene.output.fps = fps;
-    scene.simulation.steps_per_frame = int(steps);
+    return {fps, int(steps)};
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// Slow motion and speed-up: a clip at its frame rate, of a motion that passes faster or slower than in life.
+// Slow motion and speed-up: a clip at its frame rate, of a motion that is slower or faster than the scene's.
 #pragma once
 
 #include "scene/description/description.h"
@@ -7,13 +7,12 @@ namespace tumble {
 
 inline constexpr double slowest_speed = 1e-3, fastest_speed = 1e3;
 
-/// Makes the scene's frames speed / fps seconds of its motion apart, in place of 1 / fps: its own rate becomes
-/// fps / speed, while the clip keeps fps. Time stays a whole number of steps, so that nothing drifts. The step stays
-/// as it is where steps_per_frame * speed is a whole number (the motion is then the same to the last bit), else it
-/// becomes the next smaller one that divides the frame. Throws InputError where that makes too many frames.
-void apply_speed(SceneDescription& scene, double speed);
+/// The timing of a simulation whose frames are speed / fps seconds of the scene's motion apart, for a clip of the scene's fps.
+/// Time remains a whole number of steps. The step is the scene's where steps_per_frame * speed is a whole number (the motion
+/// is then the same to the last bit), else the next smaller one that divides the frame. Throws InputError for too many frames.
+FrameTiming timing_at_speed(const SceneDescription& scene, double speed);
 
-/// Makes each frame of the scene so many (for the moments of a shutter); the step follows the same rule.
-void divide_frames(SceneDescription& scene, int parts);
+/// The timing with `parts` frames in place of each (for the samples of a shutter). The step follows the same rule.
+FrameTiming divided(const FrameTiming& timing, int parts);
 
 }  // namespace tumble

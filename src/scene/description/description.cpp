@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-std::int64_t SceneDescription::frame_count() const {
-    return std::int64_t(std::floor(whole_where_meant(simulation.duration * output.fps))) + 1;
+std::int64_t FrameTiming::frame_count(double duration) const {
+    return std::int64_t(std::floor(whole_where_meant(duration * fps))) + 1;
 }
 
 }  // namespace tumble

@@ -180,6 +180,16 @@ struct CordDescription {
     Color color{60, 60, 60};
 };
 
+/// When a simulation makes frames: frame n shows n / fps.
+struct FrameTiming {
+    double fps = 60.0;          // frames in a second of the scene's motion
+    int steps_per_frame = 1;
+
+    double step() const { return 1.0 / (fps * steps_per_frame); }   // s
+    /// Frames up to `duration` (s), which is forgiven its rounding: 4.35 s at 100 fps have 436.
+    std::int64_t frame_count(double duration) const;
+};
+
 struct SceneDescription {
     std::string file;             // where it came from, for messages
     std::string title;
@@ -192,9 +202,9 @@ struct SceneDescription {
     std::vector<BodyDescription> bodies;   // grids and scatters already expanded
     std::vector<CordDescription> cords;
 
-    double step() const { return 1.0 / (output.fps * simulation.steps_per_frame); }   // s
-    /// Frame n shows n / fps; the last one is at or before the duration (rounding forgiven: 4.35 s at 100 fps has 436).
-    std::int64_t frame_count() const;
+    FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }
+    double step() const { return timing().step(); }   // s
+    std::int64_t frame_count() const { return timing().frame_count(simulation.duration); }
 };
 
 }  // namespace tumble
