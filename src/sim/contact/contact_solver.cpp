@@ -59,7 +59,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     // Hysteresis: between the solvers the bodies are lifted out of their soft contacts and sink back in, and a heap
     // that alternates would rock without end. So directly solved scenes stay so a little beyond the limit.
     const std::size_t few = few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs;
-    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);   // what is factored
+    // pairs to factor
+    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);
     few_ = all_pairs <= few;
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {

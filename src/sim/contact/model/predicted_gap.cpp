@@ -71,7 +71,7 @@ Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVe
     const Vec3 arm = m.ball() - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
-    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face's turn is as much
+    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face rotates as fast
     const Vec3 axis = turn / w, beside = axis.cross(arm), across = arm - axis.dot(arm) * axis;
     const auto [sine, cosine] = sincos(w * h);
     const Vec3 round = ((cosine - 1.0) * across + (sine - w * h) * beside) / h;

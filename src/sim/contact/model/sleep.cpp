@@ -97,7 +97,8 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
         for (const std::uint32_t i : islands.bodies(island)) {
-            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);   // each step, whatever the others do
+            // in each step, whatever the other bodies do
+            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);
             const bool rests = follow(watches_[i].spans, bodies[i], h) && !under_way;
             still = still && rests && !bodies[i].flying;
         }
