@@ -263,8 +263,8 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
     }
     const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
     if (++impacts_in_frame_ > limit)
-        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
-                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
+        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; try impacts = \"stepped\" "
+                                   "for jammed bodies", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
 }
 
 // Zeno limit: hops are followed down to a fixed duration; in a long run of impacts the limit increases, up to the step.

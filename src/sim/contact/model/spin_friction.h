@@ -6,8 +6,8 @@
 //   f^2 + (T / l)^2 = (mu N k)^2,   T / f = l^2 w / v,
 // as in Howe and Cutkosky (1996), but with a lever l and a limit k that depend on the ratio of spin to slip. One
 // ellipsoid for all, k = 1 and l = d, gives a fast spin with little sliding half as much friction again as it has. l
-// and k are those of a disc of the same d, whose radius is 3/2 d: with x = (3/2 d w)^2 / (v^2 + (3/2 d w)^2) and y = 1
-// - x
+// and k are those of a disc of the same d, whose radius is 3/2 d: with x = (3/2 d w)^2 / (v^2 + (3/2 d w)^2)
+// and y = 1 - x
 //   l^2 / d^2 = (9/16 y^2 + 0.45 x^2) / (y^2 + 0.3 x^2)     (y -> 1: 9/16, x -> 1: 3/2, both exact),
 //   k^2 = 1 - t (0.58 + 0.42 t) / 3,  t = (l^2 / d^2 - 9/16) / (15/16)     (t = 0: 1, t = 1: 2/3, both exact),
 // with 0.3 and 0.42 fitted to the disc's integrals (Farkas, Bartels, Unger and Wolf 2003, "Frictional coupling between

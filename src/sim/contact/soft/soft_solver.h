@@ -5,8 +5,8 @@
 // velocities the part that only pushed overlaps apart ("Small Steps", Macklin and others 2019; soft constraints and
 // relaxation: Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
 //   b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
-// of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses, of b (1
-// + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Points that do not touch yet (s > 0) may approach by
+// of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses,
+// of b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Points that do not touch yet (s > 0) may approach by
 // s/d and no more.
 //
 // Friction: a force f at one point of the manifold, the centroid of its contact area, |f| <= mu sum N_i, and a
