@@ -3,8 +3,8 @@
 //
 // With u the velocities at the step's end, u* those with the forces alone, and M the masses, contact asks for
 //   M (u - u*) = J^T f,   0 <= f_n  perp  J_n u >= b,   friction against the slip within mu f_n
-// (torsional friction: soft_solver.h), b = -s/h for points s > 0 apart, 0 at the surface. Solved as an augmented Lagrangian: with an estimate e of the
-// impulses and a compliance R, u is the minimum of the convex function
+// (torsional friction: soft_solver.h), b = -s/h for points s > 0 apart, 0 at the surface. Solved as an augmented
+// Lagrangian: with an estimate e of the impulses and a compliance R, u is the minimum of the convex function
 //   (u - u*)^T M (u - u*)/2 + sum R/2 [e + (b - J u)/R]^2  over the contacts where the bracket is positive
 // with, for friction, the bracket's distance kept inside the limit; f = bracket is the next estimate, and friction's
 // limits follow f_n from round to round (Alart and Curnier 1991). Each minimum is found by Newton's method with line
