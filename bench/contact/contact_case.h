@@ -25,7 +25,7 @@ public:
 };
 
 /// pile: speed, by all ways of a program (threads, sleep). settled: sleeping bodies beside bodies that are kept awake.
-/// sleeping: only ways that sleep. The others: the program's most accurate way.
+/// sleeping: only ways that sleep. The others: the program's best way.
 enum class Task { pile, settled, sleeping, spheres, tower };
 
 struct ContactCase {

@@ -55,7 +55,7 @@ Arguments read_arguments(int argc, char** argv) {
         } else if (option == "--pictures") {
             a.pictures = value();
         } else {
-            throw std::runtime_error("what is " + option + "?");
+            throw std::runtime_error("unknown option: " + option);
         }
     }
     return a;
@@ -90,7 +90,7 @@ void measure_cost(const Arguments& a) {
     for (const double cost : costs) sum += cost;
     std::sort(costs.begin(), costs.end());
     const double frames = double(costs.size());
-    fmt::print("CPU ms a frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture in {:.0f} rectangles\n",
+    fmt::print("CPU ms per frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture in {:.0f} rectangles\n",
                costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
                pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
     if (!a.stages) return;

@@ -1,8 +1,8 @@
 // Draws falling boxes with MuJoCo, like its own sample `record`: OSMesa, mjr_render, mjr_readPixels, and a pipe into
 // ffmpeg. Boxes, camera, light, shadows, samples and the encoder's settings are those of the scenes in bench/render;
 // all other settings of MuJoCo are its defaults.
-//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [ORBIT
-// [POSES]]
+//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x EYE.y EYE.z
+//                       TARGET.x TARGET.y TARGET.z [ORBIT [POSES]]
 // ORBIT: angular velocity of the camera about the target, degrees/s, counterclockwise seen from above.
 // With POSES there is no simulation: the file has 7 doubles (position, quaternion w x y z; z up) for each box and
 // frame.
@@ -57,7 +57,7 @@ std::string model_of(const Arguments& a) {
         << "<material name='grid' texture='grid' texrepeat='1 1' texuniform='true'/></asset><worldbody>"
         << "<light directional='true' castshadow='true' pos='-6 6 14' dir='0.4 -0.3 -1'/>"
         << "<geom type='plane' size='40 40 1' material='grid' friction='0.7'/>";
-    const char* colors[] = {".78 .52 .24", ".85 .63 .36", ".18 .5 .53", ".89 .76 .44", ".71 .32 .23", ".3 .42 .56"};
+    const char* colors[] = {"0.78 0.52 0.24", "0.85 0.63 0.36", "0.18 0.5 0.53", "0.89 0.76 0.44", "0.71 0.32 0.23", "0.3 0.42 0.56"};
     for (int i = 0; i < boxes; ++i) {
         const int x = i % a.count[0], y = i / a.count[0] % a.count[1], z = i / (a.count[0] * a.count[1]);
         const auto place = [&](int k, int n) { return (k - 0.5 * (n - 1)) * a.spacing + 0.1 * part(random); };

@@ -2,7 +2,8 @@
 """Draws falling boxes with VTK, as a user's script would: one actor per box, vtkShadowMapPass, 4 samples, a window that is
 not shown (under xvfb, in llvmpipe), vtkWindowToImageFilter, and a pipe into ffmpeg. Boxes, camera, light and the encoder's
 settings are those of the scenes in bench/render. VTK simulates nothing: it draws the poses of a file.
-  xvfb-run -a bench/render_peers/vtk_clip.py POSES BOXES SIZE WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [ORBIT]
+  xvfb-run -a bench/render_peers/vtk_clip.py POSES BOXES SIZE WIDTHxHEIGHT FRAMES CLIP EYE.x EYE.y EYE.z
+                                          TARGET.x TARGET.y TARGET.z [ORBIT]
 POSES: 7 doubles (position, quaternion w x y z; z up) for each box and frame, as scripts/bench-render writes them.
 ORBIT: angular velocity of the camera about the target, degrees/s, counterclockwise seen from above."""
 

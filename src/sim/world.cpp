@@ -454,7 +454,7 @@ void World::State::check_finite() {
 void World::State::stop_if_not_finite() const {
     const std::uint32_t first = first_not_finite;
     if (first == UINT32_MAX) return;
-    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
+    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is not finite; "
                                "try a smaller step: more than {} steps_per_frame",
                                steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
 }

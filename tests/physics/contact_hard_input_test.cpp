@@ -112,8 +112,8 @@ TEST(ContactHardInput, TilesOfOneFloor) {
     for (std::size_t i = 21; i < s.bodies.size(); ++i) EXPECT_LE((s.bodies[i].center_of_mass - scene.bodies[i].position).norm(), 1e-5) << i;
 }
 
-// The same floor under boxes that slide, fast and slow, straight and diagonally, over joints: they stop after v^2 / (2
-// mu g) and keep their direction.
+// The same floor under boxes that slide, fast and slow, straight and diagonally, over joints: they stop after
+// v^2 / (2 mu g) and keep their direction.
 TEST(ContactHardInput, SlidingOverTiles) {
     for (const double speed : {3.0, 1.0, 0.3, 0.05})
         for (const double aside : {0.0, 0.2}) {

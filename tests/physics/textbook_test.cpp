@@ -136,9 +136,9 @@ TEST(Textbook, ABoxThrownFlatReboundsFlat) {
         }
 }
 
-// A ball that rolls down a rough ball leaves it where cos = 10/17 of the top's (solid, v^2 = 10/7 g (R + r) (cos_0 -
-// cos)), with the spin v / r. With exact impacts it must not be released repeatedly before, just above the surface:
-// that costs 2.4 % of the spin.
+// A ball that rolls down a rough ball leaves it where cos = 10/17 of the top's (solid, v^2 = 10/7 g (R + r)
+// (cos_0 - cos)), with the spin v / r. With exact impacts it must not be released repeatedly before, just above the
+// surface: that costs 2.4 % of the spin.
 TEST(Textbook, ABallRollsOffABall) {
     const double large = 1.0, small = 0.2, start = 0.05, path = large + small;
     for (const bool exact : {false, true}) {

@@ -42,8 +42,8 @@ TEST(QuaternionOf, AgreesWithTheMatrix) {
     }
 }
 
-// A rotation by h omega per step about a fixed axis: matrix form rotates by atan(h omega), quaternion form by 2 atan(h
-// omega / 2).
+// A rotation by h omega per step about a fixed axis: matrix form rotates by atan(h omega), quaternion form by
+// 2 atan(h omega / 2).
 TEST(AdvancePose, RotatesByItsStatedAngles) {
     Random random(103);
     for (int trial = 0; trial < 200; ++trial) {

@@ -108,7 +108,7 @@ TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
         ++all;
         ++corners[int(one_point(a, b, 1e-6)->corners)];
         EXPECT_NEAR(pressing(a, b), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial;
-        EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", reversed";
     }
     for (const int kind : corners) EXPECT_GE(kind, trials(20));   // crossing edges, and corners of either body
     EXPECT_GE(all, trials(150));
@@ -130,7 +130,7 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
         if (on(-1e-4)->on_ball != on(1e-4)->on_ball || on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0)) continue;
         ++all;
         EXPECT_NEAR(pressing(a, b), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial;
-        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", reversed";
     }
     EXPECT_GE(all, trials(200));
 }

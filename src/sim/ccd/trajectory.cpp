@@ -14,9 +14,9 @@ namespace {
 // factor of a few.
 constexpr double bounded_by_ends = 3.0;
 
-// The largest |m_i| of a torque-free body's momentum m in principal axes: the ends of the polhode, where the sphere |m|
-// = G meets the ellipsoid sum m_i^2 / I_i = 2 T (van Zon and Schofield 2007). The axis that the momentum circles about
-// is called 3, the middle one 2.
+// The largest |m_i| of a torque-free body's momentum m in principal axes: the ends of the polhode, where the sphere
+// |m| = G meets the ellipsoid sum m_i^2 / I_i = 2 T (van Zon and Schofield 2007). The axis that the momentum circles
+// about is called 3, the middle one 2.
 Vec3 momentum_ends(const Vec3& inertia, const Vec3& m) {
     int axis[3] = {0, 1, 2};
     std::sort(axis, axis + 3, [&](int l, int r) { return inertia[l] < inertia[r]; });

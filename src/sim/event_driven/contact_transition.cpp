@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-// Acceleration of the body's point at `arm` without contacts: g + alpha x r + omega x (omega x r), alpha = -I^-1 (omega
-// x L).
+// Acceleration of the body's point at `arm` without contacts: g + alpha x r + omega x (omega x r),
+// alpha = -I^-1 (omega x L).
 Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, bool supported) {
     if (supported || !body.dynamic()) return Vec3::Zero();
     const Vec3& omega = body.angular_velocity;
@@ -32,9 +32,9 @@ Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
 }
 
 // Contribution of the normal's rotation to the acceleration along n, for places with the relative velocity v. For the
-// gap between two points, d n, or between a point and a line along the unit e, less a radius: with s = d n.e, d'' = n.a
-// + (v^2 - (n.v)^2 - s'^2) / d. For any other gap: d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based Modeling",
-// resting contact).
+// gap between two points, d n, or between a point and a line along the unit e, less a radius: with s = d n.e,
+// d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. For any other gap: d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based
+// Modeling", resting contact).
 double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
     if (c.on_ball != OnBall::curve) return 2.0 * normal_rate(c, a, b).dot(v);
     const double distance = (b.position + c.place_b - a.position - c.place_a).norm();

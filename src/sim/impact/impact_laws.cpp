@@ -113,10 +113,10 @@ private:
         return any;
     }
 
-    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + q). The factor f =
-    // -d.y / d.d is one except for rounding and the error of sweeps, and makes e = 1 a Householder reflection, which
-    // keeps the energy for any d. Where restitutions differ d + q may gain energy: it is then scaled down until it does
-    // not.
+    // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + q). The factor
+    // f = -d.y / d.d is one except for rounding and the error of sweeps, and makes e = 1 a Householder reflection,
+    // which keeps the energy for any d. Where restitutions differ d + q may gain energy: it is then scaled down until
+    // it does not.
     bool reflect() {
         projection_.solve(active_, lambda_, bound(cluster_));
         const double f = 0.5 * reflection();

@@ -11,8 +11,8 @@ namespace {
 // Below this angle (rad) the series to second order is exact to rounding.
 constexpr double small_angle = 1e-4;
 
-// For q(u) = exp(phi(u)): the angular velocity in the rotating frame is J(phi) phi' with the right Jacobian J = I - (1
-// - cos t)/t^2 [phi] + (t - sin t)/t^3 [phi]^2, t = |phi| (Sola et al. 2018, "A micro Lie theory", eq. 143).
+// For q(u) = exp(phi(u)): the angular velocity in the rotating frame is J(phi) phi' with the right Jacobian
+// J = I - (1 - cos t)/t^2 [phi] + (t - sin t)/t^3 [phi]^2, t = |phi| (Sola et al. 2018, "A micro Lie theory", eq. 143).
 Vec3 body_spin(const Vec3& phi, const Vec3& rate) {
     const double t2 = phi.squaredNorm(), t = std::sqrt(t2);
     double a = 0.5 - t2 / 24.0, b = 1.0 / 6.0 - t2 / 120.0;

@@ -1,9 +1,10 @@
 // One contact point as impulses see it (notes section 4).
 //
-// The notes' convention: the normal n points away from A's surface, so towards B. Their eq. 8, v_rel = n . (p_a' -
-// p_b') with v_rel < 0 for a collision, asks for the opposite normal; with n away from A the relative velocity that is
-// negative for approaching bodies is v_rel = n . (p_b' - p_a'), and the impulse +j n acts on B, -j n on A. This code
-// uses the latter; j itself is eq. 20 unchanged (impact_laws.h, where several contacts act at once).
+// The notes' convention: the normal n points away from A's surface, so towards B. Their eq. 8,
+// v_rel = n . (p_a' - p_b') with v_rel < 0 for a collision, asks for the opposite normal; with n away from A the
+// relative velocity that is negative for approaching bodies is v_rel = n . (p_b' - p_a'), and the impulse +j n acts on
+// B, -j n on A. This code uses the latter; j itself is eq. 20 unchanged (impact_laws.h, where several contacts act at
+// once).
 #pragma once
 
 #include "sim/dynamics/body.h"
