@@ -16,7 +16,7 @@ struct LoadEstimate {
     /// Starting with the bodies farthest from a fixed support, each body distributes its carried mass in equal shares
     /// to its neighbors one level nearer.
     double ratio = 1.0;
-    int levels = 1;   // number of bodies from the farthest one to the fixed support, both ends of the chain included
+    int levels = 1;   // number of bodies in the longest of the shortest chains to a fixed support, which does not count
 };
 
 class LoadEstimates {

@@ -1,10 +1,11 @@
 // Energy budget of an island. Contact must not add energy, but the sweeps of the soft solver stop short of the solution
-// and may: furniture landing at 60 steps per second gained half a percent of the scene's energy in a step, and a needle
-// that spins by radians per substep was thrown up.
-// The bound is the greatest of the energy before the step's forces, the energy after them, and the initial energy plus
-// the forces' work along the coming displacement: lifted bodies pay for it. The excess is taken in proportion from the
-// bodies that gained energy, so that a body sliding past a settling heap keeps its own.
-// Where bodies overlap deeply, lifting is free: pushing such heaps apart would slow them otherwise.
+// and may: without a budget, furniture landing at 60 steps per second gains half a percent of the scene's energy in a
+// step, and a needle that spins by radians per substep is thrown up.
+// The budget is the lesser of two energies: the greater of those before and after the step's forces, and the initial
+// energy plus the forces' work along the coming displacement, so that lifted bodies pay for their lift. Where bodies
+// overlap deeply, lifting is free and only the first applies: pushing such heaps apart would slow them otherwise.
+// The excess is taken in proportion from the bodies that gained energy, so that a body sliding past a settling heap
+// keeps its own.
 #pragma once
 
 #include "sim/dynamics/body.h"
