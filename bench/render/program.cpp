@@ -1,4 +1,4 @@
-// bench_render: what drawing costs, and how good its edges are. One process, one thread.
+// bench_render: the cost of drawing and the quality of edges. One process, one thread.
 //   bench_render cost SCENE   [--size WxH] [--samples N] [--frames FIRST:END] [--rounds N] [--full] [--stages]
 //   bench_render edges SCENE  [--size WxH] [--samples N] [--frames FIRST:END] [--pictures FOLDER]
 #include "harness/clock.h"

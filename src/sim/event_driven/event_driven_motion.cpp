@@ -273,7 +273,7 @@ double EventDrivenMotion::landing_time(std::uint32_t i) const {
     return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
 }
 
-// Whether the body's last hop was below the Zeno limit, whatever pressed it back. Measured, because the formula of a
+// Whether the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
 // contact's acceleration does not include edges that rotate against each other.
 bool EventDrivenMotion::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
     const BodyEvent& f = fliers_[i];

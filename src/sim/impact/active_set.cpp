@@ -187,8 +187,8 @@ bool ActiveSet::take_in(std::size_t i) {
     }
 }
 
-// w = Q along + remainder. A second pass where the first has cancelled digits (Daniel, Gragg, Kaufman, Stewart 1976:
-// twice is enough). Returns false when w depends on the held rows.
+// w = Q along + remainder. A second pass where cancellation has cost digits in the first (Daniel, Gragg, Kaufman,
+// Stewart 1976: twice is enough). Returns false when w depends on the held rows.
 bool ActiveSet::split(const VelocityRow& row) {
     remainder_.setZero(size_);
     row.add_to(remainder_, 1.0);

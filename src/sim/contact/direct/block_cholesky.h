@@ -29,7 +29,7 @@ public:
 
     void set_zero();
     Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
-    /// The block of pair number k of analyse(). Its rows belong to body i, or to body j where `transposed`.
+    /// The block of pair number k of the analysis. Its rows belong to body i, or to body j where `transposed`.
     Block& coupling(std::size_t k) { return upper_[coupling_[k].block]; }
     bool transposed(std::size_t k) const { return coupling_[k].transposed; }
 

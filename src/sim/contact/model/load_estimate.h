@@ -29,7 +29,7 @@ public:
 private:
     struct Node {
         int level = -1, neighbours = 0;
-        std::uint32_t first = 0;   // index into neighbours_
+        std::uint32_t first = 0;   // index of the first neighbor
         double load = 0.0;         // kg
     };
     std::vector<Node> nodes_;      // by body; valid for the island's bodies
