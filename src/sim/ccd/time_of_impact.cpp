@@ -143,7 +143,7 @@ double least_time(double gap, const Ballpark& a, const Ballpark& b) {
     return speed + root > 0.0 ? 2.0 * gap / (speed + root) : infinity;
 }
 
-// The parts of a compound, each as a Traveller; other shapes unchanged.
+// The parts of a compound, one search each; other shapes unchanged.
 std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
     const Motion motion = motion_of(whole, 0.0);
     std::vector<Ballpark> parts;
