@@ -9,12 +9,12 @@ namespace {
 
 constexpr double g = 9.81;
 
-// Clearance (m) of a ball let go at height h over the ground that keeps the share e of its speed at each bounce: a
+// Clearance (m) of a ball released at height h over the ground that keeps the fraction e of its speed at each bounce: a
 // fall of t0 = sqrt(2 h / g), then hops of 2 t0 e, 2 t0 e^2, ... that end at t0 (1 + e) / (1 - e).
 double bouncing_clearance(double h, double e, double t) {
     double speed = std::sqrt(2.0 * g * h), start = std::sqrt(2.0 * h / g);
     if (t < start) return h - 0.5 * g * t * t;
-    if (e == 1.0) {  // all hops are alike: no summing up
+    if (e == 1.0) {  // all hops are equal: no sum is needed
         const double hop = 2.0 * start, s = std::fmod(t - start, hop);
         return speed * s - 0.5 * g * s * s;
     }
@@ -33,8 +33,8 @@ double lowest_point(const Body& body, const Motion& motion) {
            0.5 * (std::abs(up.x) * body.size.x + std::abs(up.y) * body.size.y + std::abs(up.z) * body.size.z);
 }
 
-// Largest energy error over m g 1 m while nothing touches (MuJoCo's contacts hold energy as springs); for straight
-// falls also the height against the parabolas and the spin.
+// Largest energy error over m g 1 m without contact (MuJoCo's contacts store energy as springs); for vertical falls
+// also the height against the parabolas and the spin.
 class ElasticObserver : public Observer {
 public:
     ElasticObserver(const Scene& scene, bool straight, bool box) : scene_(scene), straight_(straight), box_(box) {}
@@ -63,7 +63,7 @@ private:
     double start_ = 0.0, energy_ = 0.0, height_ = 0.0, spin_ = 0.0;
 };
 
-// A ball that bounces ever lower: height against the closed form, the moment from which on it lies still, and its path.
+// A ball that bounces ever lower: height against the closed form, the time from which it rests, and its path.
 class SettlingObserver : public Observer {
 public:
     SettlingObserver(const Scene& scene, double h, double e) : ball_(scene.bodies[0]), h_(h), e_(e) {}
@@ -72,7 +72,7 @@ public:
         const double t = double(step) / rate, clearance = motions[0].position.z - ball_.radius,
                      speed = motions[0].velocity.z;
         height_ = std::max(height_, std::abs(clearance - bouncing_clearance(h_, e_, t)));
-        // Still: slower than what gravity adds in two steps.
+        // At rest: slower than gravity's change of speed in two steps.
         if (std::abs(speed) > 2.0 * g / rate) rest_ = (double(step) + 1.0) / rate;
         if (step > 0) path_ += path_between(clearance_, speed_, clearance, speed, 1.0 / rate);
         clearance_ = clearance;
@@ -88,8 +88,8 @@ public:
     }
 
 private:
-    // The way between two states a step apart. Free: by the turning point. With a bounce between them: down from the
-    // first state, up to the second, and the hops in between where the step was long enough to hide some.
+    // Length of the path between two states a step apart. Free: through the turning point. With a bounce between them:
+    // down from the first state, up to the second, and the hops in between if the step hides any.
     double path_between(double z0, double v0, double z1, double v1, double h) const {
         if (std::abs(v1 - v0 + g * h) < 1e-6 * g * h)
             return v0 > 0.0 && v1 < 0.0 ? (v0 * v0 + v1 * v1) / (2.0 * g) : std::abs(z1 - z0);
@@ -106,7 +106,7 @@ private:
     double height_ = 0.0, rest_ = 0.0, path_ = 0.0, clearance_ = 0.0, speed_ = 0.0;
 };
 
-// The moment of rest where no step blurs it: bisection over the length of one single step.
+// The time of rest without the resolution of a step: bisection over the length of one single step.
 std::vector<Error> time_of_rest(const Scene& scene, const Variant& variant) {
     const double h = scene.bodies[0].position.z - scene.bodies[0].radius, e = scene.bodies[0].restitution;
     const double rest = std::sqrt(2.0 * h / g) * (1.0 + e) / (1.0 - e);
@@ -120,7 +120,7 @@ std::vector<Error> time_of_rest(const Scene& scene, const Variant& variant) {
     return {{"time of rest", std::abs(still - rest), "s"}};
 }
 
-// A cube shot at a thin wall: the energy it comes back with; 1 when it does not come back.
+// A cube shot at a thin wall: the energy of its rebound; 1 when it does not rebound.
 class WallObserver : public Observer {
 public:
     explicit WallObserver(const Scene& scene) : scene_(scene) {}

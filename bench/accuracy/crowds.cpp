@@ -1,4 +1,4 @@
-// Many bodies: energy that should stay as it was.
+// Many bodies: conservation of energy.
 #include "accuracy/accuracy_case.h"
 #include "harness/shapes.h"
 
@@ -8,7 +8,7 @@
 namespace tumble::bench {
 namespace {
 
-// SimBenchmark's metric (Kang and Hwangbo 2018): the mean over the steps of (E - E0)^2, looked at before each step.
+// SimBenchmark's metric (Kang and Hwangbo 2018): the mean over the steps of (E - E0)^2, sampled before each step.
 class MeanSquareObserver : public Observer {
 public:
     MeanSquareObserver(const Scene& scene, double seconds) : scene_(scene), seconds_(seconds) {}
@@ -62,7 +62,7 @@ private:
 void add_crowds(std::vector<AccuracyCase>& cases) {
     Body sphere = bench::sphere(0.1, 10.0, {});
 
-    // SimBenchmark "bouncing": 49 spheres let go with their centres at 5 m.
+    // SimBenchmark "bouncing": 49 spheres released with their centers at 5 m.
     AccuracyCase bouncing;
     bouncing.name = "SimBenchmark bouncing";
     for (int i = 0; i < 49; ++i) {
@@ -77,7 +77,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     bouncing.observe = [](const Scene& s, double seconds) { return std::make_unique<MeanSquareObserver>(s, seconds); };
     cases.push_back(bouncing);
 
-    // SimBenchmark "elastic 666": 1 mm of jitter upwards of the grid, as there.
+    // SimBenchmark "elastic 666": 1 mm of upward jitter of the grid, as in the original.
     AccuracyCase elastic;
     elastic.name = "SimBenchmark elastic 666";
     Jitter jitter;
@@ -91,7 +91,7 @@ void add_crowds(std::vector<AccuracyCase>& cases) {
     elastic.seconds = 10.0;
     elastic.quick_seconds = 0.6;
     elastic.quick_rates = {60.0};
-    elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};  // the last is what SimBenchmark publishes
+    elastic.rates = {60.0, 120.0, 240.0, 480.0, 1000.0};  // SimBenchmark publishes the last one
     elastic.observe = bouncing.observe;
     cases.push_back(elastic);
 

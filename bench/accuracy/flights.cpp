@@ -7,8 +7,8 @@
 namespace tumble::bench {
 namespace {
 
-// Largest errors over the frames of a 60 Hz clip (30 Hz at a step of 1/30 s). Of two turning bodies the largest angle
-// is soon pi where one flips before the other: the angle at the end tells such methods apart.
+// Largest errors over the frames of a 60 Hz clip (30 Hz at a step of 1/30 s). The largest angle between two rotating
+// bodies soon reaches pi where one flips before the other: the angle at the end distinguishes such methods.
 class FlightObserver : public Observer {
 public:
     FlightObserver(const Scene& scene, bool free) : scene_(scene), free_(free), reference_(scene) {}
@@ -72,14 +72,14 @@ Body brick() {
 }  // namespace
 
 void add_flights(std::vector<AccuracyCase>& cases) {
-    // Spun about the middle axis (y: 1/12 (1 + 0.04)), which it leaves and turns over, again and again.
+    // Spun about the middle axis (y: 1/12 (1 + 0.04)), which it leaves and flips over, again and again.
     Scene free;
     free.gravity = 0.0;
     free.bodies.push_back(brick());
     free.bodies[0].angular_velocity = {0.01, 5.0, 0.01};
     cases.push_back(flight("torque-free box", free, 10.0));
 
-    // Forces that are not constant: air that drags, and a push fixed in the turning body.
+    // Forces that are not constant: air drag, and a push fixed in the rotating body.
     Scene driven;
     driven.bodies.push_back(brick());
     driven.bodies[0].velocity = {3.0, 0.0, 6.0};

@@ -3,7 +3,7 @@
 namespace tumble::bench {
 namespace {
 
-constexpr int columns = 12;  // of the extrapolation: order 24
+constexpr int columns = 12;  // columns of the extrapolation: order 24
 
 QuadState plus(const QuadState& a, Quad s, const QuadState& b) {
     QuadState sum;
@@ -65,7 +65,7 @@ QuadState ReferenceFlight::rate(const QuadState& y) const {
         d[i] = y[3 + i];
         d[3 + i] = force[i] / body.mass;
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        d[10 + i] = (torque[i] - (I[k] - I[j]) * w[j] * w[k]) / I[i];  // Euler's equations, in the body
+        d[10 + i] = (torque[i] - (I[k] - I[j]) * w[j] * w[k]) / I[i];  // Euler's equations, body frame
     }
     // dq/dt = 1/2 q (0, w)
     d[6] = (-q[1] * w[0] - q[2] * w[1] - q[3] * w[2]) / 2;

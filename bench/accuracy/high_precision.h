@@ -20,7 +20,7 @@ using QuadState = std::array<Quad, 13>;
 class ReferenceFlight {
 public:
     explicit ReferenceFlight(const Scene& scene);
-    /// From now on by h seconds; exact to some 1e-25 as long as h |w| is below one.
+    /// Advances the motion by h seconds; exact to some 1e-25 while h |w| is below one.
     void advance(Quad h);
     const QuadState& state() const { return state_; }
 

@@ -7,10 +7,10 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double long_enough = 0.15;  // CPU s: the clock's own cost and resolution no longer show
+constexpr double long_enough = 0.15;  // CPU s; makes the clock's own cost and resolution negligible
 constexpr int fewest_runs = 3, most_runs = 2000;
 
-// The median over fresh worlds of the time of all steps together.
+// The median over fresh worlds of the total time of all steps.
 double time_of_stepping(const AccuracyCase& c, const Variant& variant, double rate, long steps) {
     std::vector<double> runs;
     double sum = 0.0;

@@ -1,4 +1,4 @@
-// Runs a case: once looked at, for its errors, and as often as it takes for a stable time of stepping.
+// Runs a case: once with observation, for its errors, and repeatedly until the time of stepping is stable.
 #pragma once
 
 #include "accuracy/accuracy_case.h"
@@ -9,8 +9,8 @@ namespace tumble::bench {
 
 struct Measured {
     std::vector<Error> errors;
-    double cpu = 0.0;    // CPU seconds a simulated second, of stepping alone
-    double spent = 0.0;  // CPU seconds of the first run, looking included
+    double cpu = 0.0;    // CPU seconds per simulated second, of stepping alone
+    double spent = 0.0;  // CPU seconds of the first run, with observation
 };
 
 Measured measure(const AccuracyCase& accuracy_case, const Variant& variant, double rate, double seconds, bool timed);

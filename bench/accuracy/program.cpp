@@ -10,7 +10,7 @@
 namespace tumble::bench {
 namespace {
 
-// A step is left out when it would take longer than this (CPU s), by what the step before it took.
+// A step is skipped if, by the time of the last step, it would take longer than this (CPU s).
 constexpr double patience = 6.0;
 
 void write_rows(const AccuracyCase& c, const std::string& program, const Variant& variant, double rate,
@@ -51,7 +51,7 @@ int run_accuracy(int argc, char** argv, const std::string& program, const std::v
             if (!variant.meets(c.demand) || !options.wants_way(variant.name)) continue;
             try {
                 climb(c, program, variant, options.quick);
-            } catch (const std::exception& e) {  // a world that blew up: its row is missing, the others go on
+            } catch (const std::exception& e) {  // a world that diverged: its row is missing, the others go on
                 std::fprintf(stderr, "%s, %s, %s: %s\n", c.name.c_str(), program.c_str(), variant.name.c_str(),
                              e.what());
             }

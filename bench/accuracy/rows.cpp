@@ -1,4 +1,4 @@
-// A ball that runs into touching balls, e = 1, no gravity: the outcome is known in closed form for each law.
+// A ball that runs into touching balls, e = 1, no gravity: each law has a closed-form result.
 #include "accuracy/accuracy_case.h"
 
 #include <algorithm>
@@ -48,16 +48,16 @@ void add_rows(std::vector<AccuracyCase>& cases) {
         std::vector<Vector> places{{-1.37, 0.0, 0.0}}, handed_on(std::size_t(n), Vector{}),
             newton(std::size_t(n), Vector{2.0 / n, 0.0, 0.0});
         for (int i = 1; i < n; ++i) places.push_back({double(i), 0.0, 0.0});
-        // Handed on: only the last one leaves. Newton's law for all contacts at once: those in front leave together
-        // with v, no contact opens among them, so m (1 - (n-1) v) is left to the first, and v - v_first = 1: v = 2/n.
+        // Propagating: only the last one leaves. Newton's law for all contacts at once: those in front leave together
+        // with v, no contact opens among them, so m (1 - (n-1) v) remains for the first, and v - v_first = 1: v = 2/n.
         handed_on.back() = {1.0, 0.0, 0.0};
         newton.front() = {2.0 / n - 1.0, 0.0, 0.0};
         const std::string name = "cradle of " + std::to_string(n);
         cases.push_back(row(name, Demand::row_propagating, places, handed_on));
         cases.push_back(row(name + ", simultaneous", Demand::row_simultaneous, places, newton));
     }
-    // Bernoulli 1742: the first comes back with a fifth, the two go off at 30 degrees with 2 sqrt(3) / 5, for both
-    // laws: the two blows are alike. j = 2 c v / (1 + 2 c^2), c = cos 30; the first keeps v - 2 c j.
+    // Bernoulli 1742: the first rebounds at a fifth, the two leave at 30 degrees with 2 sqrt(3) / 5, for both laws: the
+    // two impulses are equal. j = 2 c v / (1 + 2 c^2), c = cos 30; the first keeps v - 2 c j.
     const double c = 0.5 * std::sqrt(3.0), j = 2.0 * c / (1.0 + 2.0 * c * c);
     const std::vector<Vector> places{{-1.37, 0.0, 0.0}, {c, 0.5, 0.0}, {c, -0.5, 0.0}};
     const std::vector<Vector> outcome{{1.0 - 2.0 * c * j, 0.0, 0.0}, {c * j, 0.5 * j, 0.0}, {c * j, -0.5 * j, 0.0}};

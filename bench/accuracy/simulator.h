@@ -1,4 +1,4 @@
-// The ways (variants) in which a program can be asked to step, for the accuracy benchmark.
+// The variants in which a program can step, for the accuracy benchmark.
 #pragma once
 
 #include "harness/simulator.h"
@@ -10,17 +10,17 @@
 
 namespace tumble::bench {
 
-/// What a case asks of a program: free flights; impacts; a crowd's energy, looked at in the middle of impacts too;
-/// impacts that fall between steps; rows of touching bodies struck at once, whose outcome depends on the law: the blow
-/// is handed on, or Newton's law holds for all contacts at once.
+/// Demand of a case on a program: free flights; impacts; the energy of a crowd, sampled during impacts too; impacts
+/// between steps; rows of touching bodies hit at once, whose result depends on the law: propagating, or Newton's law
+/// for all contacts at once.
 enum class Demand { flight, impact, crowd, thin_wall, row_propagating, row_simultaneous };
 
 struct Variant {
     std::string name;  // integrator and impact mode, or the solver of a peer
     std::function<bool(Demand)> meets;
-    /// A world that takes `rate` steps a second; null where the program cannot hold the scene.
+    /// A world of `rate` steps per second; null where the program cannot represent the scene.
     std::function<std::unique_ptr<Simulator>(const Scene&, double rate)> make;
-    bool step_free = false;  // impacts have their own times: a step may be as long as one likes
+    bool step_free = false;  // impacts have their own times: a step may have any length
 };
 
 }  // namespace tumble::bench

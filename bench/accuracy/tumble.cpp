@@ -11,7 +11,7 @@ constexpr unsigned flights = 1u << int(Demand::flight), impacts = 1u << int(Dema
 constexpr unsigned walls = 1u << int(Demand::thin_wall);
 constexpr unsigned handed_on = 1u << int(Demand::row_propagating), newton = 1u << int(Demand::row_simultaneous);
 
-// Every integrator and impact mode that World offers, and what it is asked to do: one line each.
+// Every integrator and impact mode of World, with its demands: one line each.
 struct Way {
     const char* name;
     IntegratorKind integrator;

@@ -1,4 +1,4 @@
-// A case of the contact benchmark: a scene at one step, how often it is looked at, and what is told of it.
+// A case of the contact benchmark: a scene at one step, the interval of observation, and the reported quantities.
 #pragma once
 
 #include "harness/simulator.h"
@@ -16,7 +16,7 @@ struct Quantity {
     std::string unit;
 };
 
-/// Looks at the bodies at the start, now and then, and at the end.
+/// Observes the bodies at the start, at intervals, and at the end.
 class Witness {
 public:
     virtual ~Witness() = default;
@@ -24,15 +24,15 @@ public:
     virtual std::vector<Quantity> tell() const = 0;
 };
 
-/// pile: speed, by all ways of a program (threads, sleep); settled: what sleeps beside what is held awake; sleeping: only
-/// ways that sleep; the others: its best alone.
+/// pile: speed, by all ways of a program (threads, sleep). settled: sleeping bodies beside bodies that are kept awake.
+/// sleeping: only ways that sleep. The others: the program's best way.
 enum class Task { pile, settled, sleeping, spheres, tower };
 
 struct ContactCase {
     std::string name;
     Task task = Task::tower;
     Scene scene;
-    double rate = 60.0;     // steps a second
+    double rate = 60.0;     // steps per second
     double seconds = 10.0;  // simulated
     double quick_seconds = 0.5;
     double look_every = 0.1;  // s
@@ -41,7 +41,7 @@ struct ContactCase {
 
 std::vector<ContactCase> contact_cases();
 
-// What contact_cases() is put together from; a file each.
+// The parts of contact_cases(), one file each.
 void add_piles(std::vector<ContactCase>& cases);    // piles of 1000 and 8000, sleepers, energy in a pit
 void add_spheres(std::vector<ContactCase>& cases);  // 216 spheres at rest, SimBenchmark 666
 void add_towers(std::vector<ContactCase>& cases);   // stacks, mass ratios, pyramid, arch, card house

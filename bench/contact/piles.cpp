@@ -1,4 +1,4 @@
-// Many boxes: how fast, how deep.
+// Many boxes: speed and overlap.
 #include "contact/witness.h"
 #include "harness/random.h"
 #include "harness/shapes.h"
@@ -9,7 +9,7 @@
 namespace tumble::bench {
 namespace {
 
-// side^3 unit boxes dropped into a pit: in a grid with small tilts, or rotated at will.
+// side^3 unit boxes dropped into a pit: in a grid with small tilts, or with random rotations.
 ContactCase pile(const std::string& name, int side, bool rotated) {
     const double pitch = rotated ? 1.8 : 1.25, lowest = rotated ? 1.0 : 0.75, middle = 0.5 * (side - 1);
     ContactCase c;
@@ -21,7 +21,7 @@ ContactCase pile(const std::string& name, int side, bool rotated) {
     for (int k = 0; k < side; ++k)
         for (int j = 0; j < side; ++j)
             for (int i = 0; i < side; ++i) {
-                // z, y, x: the order in which the measurements behind the published tables drew them.
+                // z, y, x: the order of the draws in the measurements behind the published tables.
                 const double z = lowest + pitch * k + 0.05 * random.both();
                 const double y = (j - middle) * pitch + 0.05 * random.both();
                 const double x = (i - middle) * pitch + 0.05 * random.both();
@@ -34,7 +34,7 @@ ContactCase pile(const std::string& name, int side, bool rotated) {
     return c;
 }
 
-// A ball that bounces for ever, alone or beside boxes that lie still: only the ball should cost anything.
+// A ball that bounces without end, alone or beside boxes at rest: only the ball should have a cost.
 ContactCase sleepers(const std::string& name, int side) {
     ContactCase c;
     c.name = name;
@@ -51,7 +51,7 @@ ContactCase sleepers(const std::string& name, int side) {
     return c;
 }
 
-// Mechanical energy from look to look.
+// Change of the mechanical energy between observations.
 class Gain : public Witness {
 public:
     explicit Gain(const Scene& scene) : scene_(scene) {}
@@ -98,7 +98,7 @@ void add_piles(std::vector<ContactCase>& cases) {
     cases.push_back(pile("pile of 1000 rotated", 10, true));
     cases.push_back(pile("pile of 8000", 20, false));
     cases.push_back(pile("pile of 8000 rotated", 20, true));
-    for (const bool rotated : {false, true}) {   // given the time to come to rest
+    for (const bool rotated : {false, true}) {   // with time to come to rest
         cases.push_back(pile(rotated ? "pile of 1000 rotated, settled" : "pile of 1000, settled", 10, rotated));
         cases.back().task = Task::settled;
         cases.back().seconds = 30.0;

@@ -29,7 +29,7 @@ std::vector<Quantity> run(const ContactCase& c, const Way& way, const Options& o
     const auto witness = c.witness(c.scene);
     const double seconds = options.quick ? c.quick_seconds : c.seconds, late_from = seconds - 2.0 - 1e-9;
     const long steps = std::lround(seconds * c.rate), look = std::max(1L, std::lround(c.look_every * c.rate));
-    const long burst = std::min(look, std::max(1L, std::lround(0.5 * c.rate)));  // between looks at the clocks
+    const long burst = std::min(look, std::max(1L, std::lround(0.5 * c.rate)));  // steps between readings of the clocks
     std::vector<Motion> motions(c.scene.bodies.size());
     Spent spent;
     long done = 0;
@@ -80,7 +80,7 @@ int run_contact(int argc, char** argv, const std::string& program, const std::ve
             if (std::find(way.tasks.begin(), way.tasks.end(), c.task) == way.tasks.end()) continue;
             try {
                 write(c.name, program, way, run(c, way, options));
-            } catch (const std::exception& e) {  // a world that blew up
+            } catch (const std::exception& e) {  // a world that diverged
                 std::fprintf(stderr, "%s, %s, %s: %s\n", c.name.c_str(), program.c_str(), way.name.c_str(), e.what());
                 write(c.name, program, way, {{"ended by an error", 1.0, ""}});
             }

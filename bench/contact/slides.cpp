@@ -1,4 +1,4 @@
-// Friction that decides, rolling, and 600 s of rest.
+// Sticking or sliding, rolling, and 600 s of rest.
 #include "contact/witness.h"
 #include "harness/shapes.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-// The way down an incline from 1 s on, beside what Coulomb's law says, and the gap to the slope at the end.
+// Displacement down an incline from 1 s on, compared with Coulomb's law, and the gap to the slope at the end.
 class Slide : public Witness {
 public:
     Slide(const Vector& down, double acceleration) : down_(down), acceleration_(acceleration) {}
@@ -80,7 +80,7 @@ ContactCase rolling(const std::string& name, const Vector& along) {
         c.scene.bodies.push_back(ball);
     }
     Body ground = plane({0.0, 0.0, 1.0}, 0.0);
-    ground.friction = 0.2;  // with the plate: sqrt(0.2 * 0.8) = 0.4
+    ground.friction = 0.2;  // between ground and plate: sqrt(0.2 * 0.8) = 0.4
     c.scene.bodies.push_back(ground);
     for (Body& body : c.scene.bodies) body.restitution = 0.0;
     c.scene.push = PointForce{{0.0, 0.0, 0.0}, 150.0 * along};

@@ -1,4 +1,4 @@
-"""The contact benchmark in its quick form: small cases run, rows are well formed, nothing is lost or blows up.
+"""The contact benchmark in its quick form: small cases run, rows are well formed, no body is lost and none diverges.
 
     smoke_test.py BENCH_CONTACT
 """
@@ -16,7 +16,7 @@ CASES = ["a ball alone", "60 boxes in a pit: energy", "216 spheres at rest at 1/
 # (case, quantity, bound) of the quick form, by default settings.
 BOUNDS = [
     ("216 spheres at rest at 1/60", "largest penetration", 100.0),                  # mm
-    ("SimBenchmark 666 at 1/100", "penetration", 0.0153),         # what RaiSim reaches
+    ("SimBenchmark 666 at 1/100", "penetration", 0.0153),         # the value of RaiSim
     ("stack of 20", "drift", 0.5), ("a box at rest", "penetration", 1e-4), ("a box at rest", "drift", 1e-6),
     ("incline: friction 0.1 % above tan", "error of the distance", 1e-3),
     ("incline: friction 10 % below tan", "error of the distance", 0.01),

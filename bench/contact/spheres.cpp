@@ -76,7 +76,7 @@ void add_spheres(std::vector<ContactCase>& cases) {
         c.look_every = 1.0 / rate;
         c.witness = [](const Scene& scene) { return std::make_unique<Squares>(scene); };
         Random random(1);
-        for (int i = 0; i < 216; ++i) {  // up to 1 mm beside the grid: it should not stand as columns
+        for (int i = 0; i < 216; ++i) {  // up to 1 mm off the grid, so that it does not stand as columns
             const double x = 0.21 * (i % 6) + 0.001 * random.unit(), y = 0.21 * (i / 6 % 6) + 0.001 * random.unit();
             c.scene.bodies.push_back(sphere(0.1, 10.0, {x, y, 0.101 + 0.21 * (i / 36) + 0.001 * random.unit()}));
         }

@@ -1,4 +1,4 @@
-// What should stand: stacks, heavy on light, a pyramid, an arch, a house of cards.
+// Structures that should stand: stacks, heavy on light, a pyramid, an arch, a house of cards.
 #include "contact/witness.h"
 #include "harness/random.h"
 #include "harness/shapes.h"
@@ -26,9 +26,9 @@ ContactCase stack(int boxes) {
     return c;
 }
 
-// Tilted by up to 0.02 rad, shifted by up to 5 cm, with gaps of about 3 cm to fall through.
+// Tilted by up to 0.02 rad, shifted by up to 5 cm, with falls through gaps of about 3 cm.
 ContactCase loose_stack(int boxes) {
-    ContactCase c = standing("loose stack of " + std::to_string(boxes), 30.0, 4.0);  // gaps of 30 boxes: 0.9 m
+    ContactCase c = standing("loose stack of " + std::to_string(boxes), 30.0, 4.0);  // sum of the gaps of 30 boxes: 0.9 m
     Random random(11);
     for (int i = 0; i < boxes; ++i) {
         const double y = 0.05 * random.both(), x = 0.05 * random.both();
@@ -65,7 +65,7 @@ ContactCase pyramid(int base, double seconds) {
 ContactCase arch(int stones) {
     ContactCase c = standing("arch of " + std::to_string(stones) + " stones", 60.0, 0.5);
     const double half = 0.5 * pi / stones, inner = 4.0, outer = 5.0, deep = 1.0, spring = 1.0;
-    // Seen along y, a trapezium between the two chords: z outwards, its sides on rays of the circle.
+    // Seen along y, a trapezoid between the two chords: z outwards, its sides on rays of the circle.
     const double low = inner * std::cos(half), high = outer * std::cos(half);
     const double a = inner * std::sin(half), b = outer * std::sin(half);  // half chords
     const double center = low + (high - low) * (a + 2.0 * b) / (3.0 * (a + b));
@@ -88,7 +88,7 @@ ContactCase arch(int stones) {
     return c;
 }
 
-// Flat hoops of 16 boxes each, 2 m across, one on the other, each turned a little from the one below.
+// Flat hoops of 16 boxes each, 2 m across, one on the other, each rotated slightly relative to the one below.
 ContactCase hoops(int count) {
     ContactCase c = standing(std::to_string(count) + " stacked hoops", 60.0, 0.2);
     constexpr int pieces = 16;
@@ -110,13 +110,13 @@ ContactCase hoops(int count) {
     return c;
 }
 
-// Storeys of leaning pairs of cards with cards across their tops.
+// Stories of leaning pairs of cards with cards across their tops.
 ContactCase card_house(int storeys) {
     ContactCase c = standing("card house of " + std::to_string(storeys) + " storeys", 60.0, 0.2);
     const double length = 0.9, width = 0.6, thick = 0.02, lean = 0.3, mass = 1000.0 * length * width * thick;
     const double s = std::sin(lean), k = std::cos(lean);
-    const double up = 0.5 * (length * k + thick * s);     // of a leaning card's centre over its foot
-    const double aside = 0.5 * (thick * k + length * s);  // of its centre from the plane where the two meet
+    const double up = 0.5 * (length * k + thick * s);     // height of a leaning card's center over its foot
+    const double aside = 0.5 * (thick * k + length * s);  // distance of its center from the plane where the two meet
     const double pitch = 0.8, storey = 2.0 * up + thick;
     for (int level = 0; level < storeys; ++level) {
         const int pairs = storeys - level;

@@ -1,4 +1,4 @@
-// Seconds of CPU, over all threads of the process, and of the wall.
+// CPU seconds over all threads of the process, and wall-clock seconds.
 #pragma once
 
 #include <ctime>

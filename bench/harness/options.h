@@ -18,12 +18,13 @@ struct Options {
 
 struct CommandLine {
     std::string header;               // the first line of the results
-    std::vector<std::string> cases;   // what --list tells
-    std::string way = "way";          // the option that names one
-    bool patience = false;            // whether it may be set
+    std::vector<std::string> cases;   // lines of --list
+    std::string way = "way";          // name of the option that selects a way
+    bool patience = false;            // whether --patience exists
 };
 
-/// Reads the arguments; prints the header or the list where asked to. The exit status if there is nothing more to do.
+/// Reads the arguments; prints the header or the list on request. Returns the exit status if nothing more is to be
+/// done.
 std::optional<int> read_options(int argc, char** argv, const CommandLine& line, Options& options);
 
 /// A text as a field of a CSV line.

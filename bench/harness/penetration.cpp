@@ -9,7 +9,7 @@ namespace tumble::bench {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// Edges whose directions differ by less (sine, squared) span no axis of their own: a face's normal tells as much.
+// Edges whose directions differ by less (sine, squared) define no axis of their own: a face's normal is equivalent.
 constexpr double parallel = 1e-10;
 
 // A box or hexahedron in the world.
@@ -46,7 +46,7 @@ Solid placed(const Body& body, const Motion& motion) {
 double overlap(const Solid& a, const Solid& b, const Vector& axis) {
     double a_low = never, a_high = -never, b_low = never, b_high = -never;
     for (const Vector& c : a.corners) {
-        const double x = dot(axis, c - a.corners[0]);  // from one corner: digits are kept far from the origin
+        const double x = dot(axis, c - a.corners[0]);  // relative to one corner, which keeps digits far from the origin
         a_low = std::min(a_low, x);
         a_high = std::max(a_high, x);
     }
@@ -94,7 +94,7 @@ double plane_depth(const Body& plane, const Body& body, const Motion& motion) {
     return plane.offset - lowest;
 }
 
-// A pair that is worth looking at closely.
+// A pair that needs the exact test.
 bool close(const Body& a, const Motion& at, const Body& b, const Motion& bt, double near) {
     const double reach = a.reach() + b.reach() + near;
     const Vector d = at.position - bt.position;

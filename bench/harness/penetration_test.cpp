@@ -1,4 +1,4 @@
-// The judge of all overlaps, against overlaps that are known.
+// The measure of overlaps, against known overlaps.
 #include "harness/penetration.h"
 #include "harness/shapes.h"
 
@@ -38,7 +38,7 @@ TEST(Penetration, CrossedEdges) {  // each box stands on an edge; the edges cros
 TEST(Penetration, Spheres) {
     EXPECT_NEAR(depth_of(sphere(0.5, 1.0, {}), sphere(0.25, 1.0, {0.0, 0.7, 0.0})), 0.05, 1e-15);
     EXPECT_NEAR(depth_of(sphere(0.5, 1.0, {0.9, 0.0, 0.0}), box({1.0, 1.0, 1.0}, 1.0, {})), 0.1, 1e-15);
-    // A centre within the box: out by the nearest side.
+    // A center within the box: out by the nearest side.
     EXPECT_NEAR(depth_of(box({1.0, 1.0, 1.0}, 1.0, {}), sphere(0.1, 1.0, {0.3, 0.0, 0.0})), 0.3, 1e-15);
     EXPECT_NEAR(depth_of(plane({0.0, 0.0, 1.0}, 1.0), sphere(0.5, 1.0, {0.0, 0.0, 1.4})), 0.1, 1e-15);
 }
@@ -53,7 +53,7 @@ TEST(Penetration, AHexahedronThatIsABox) {
     EXPECT_NEAR(norm(stone.principal_inertia() - inertia), 0.0, 1e-14);
 }
 
-TEST(Penetration, CountsThePairsThatAreNear) {
+TEST(Penetration, CountsTheNearPairs) {
     Scene scene;
     for (const double x : {0.0, 0.99, 1.995, 3.5}) scene.bodies.push_back(box({1.0, 1.0, 1.0}, 1.0, {x, 0.0, 2.0}));
     scene.bodies.push_back(fixed_box({1.0, 1.0, 1.0}, {0.0, 0.98, 2.0}));
@@ -61,7 +61,7 @@ TEST(Penetration, CountsThePairsThatAreNear) {
     std::vector<Motion> motions;
     for (const Body& body : scene.bodies) motions.push_back({body.position, body.orientation, {}, {}});
     const Penetration p = penetration(scene, motions);
-    EXPECT_EQ(p.pairs, 6);  // .01, -.005, twice .02, and twice .01 beside the corner
+    EXPECT_EQ(p.pairs, 6);  // 0.01, -0.005, twice 0.02, and twice 0.01 beside the corner
     EXPECT_NEAR(p.largest, 0.02, 1e-14);
 }
 

@@ -8,7 +8,7 @@
 
 namespace tumble::bench {
 
-/// xorshift64 (Marsaglia 2003), seeded and drawn from as in the measurements behind the published tables.
+/// xorshift64 (Marsaglia 2003), with the seeds and the order of draws of the measurements behind the published tables.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15u + 1) {}
@@ -20,7 +20,7 @@ public:
     }
     double both() { return 2.0 * unit() - 1.0; }  // -1 .. 1
     double between(double low, double high) { return low + (high - low) * unit(); }
-    /// By up to `most` rad about an axis from the cube.
+    /// A rotation by up to `most` rad about an axis drawn from the cube.
     Orientation turned(double most) {
         const double x = both(), y = both(), z = both() + 1e-3;
         return turn({x, y, z}, most * unit());

@@ -8,7 +8,7 @@ namespace tumble::bench {
 namespace {
 
 // Integrals of x^2, y^2, z^2 over a hexahedron about the origin, over its volume: the sum of the tetrahedra that its
-// sides, cut in two, span with the origin.
+// sides, split in two, span with the origin.
 Vector mean_squares(const Corners& c) {
     Vector sum;
     double volume = 0.0;
@@ -27,7 +27,7 @@ Vector mean_squares(const Corners& c) {
     return 1.0 / volume * sum;
 }
 
-// Each part's share of the mass goes with its volume.
+// The mass of each part is proportional to its volume.
 Vector compound_inertia(const Body& body) {
     double volume = 0.0;
     for (const BoxPart& part : body.parts) volume += part.size.x * part.size.y * part.size.z;

@@ -1,5 +1,5 @@
 // The scenes of the benchmarks as plain numbers, for Tumble and its peers alike. SI units, world frame, z up.
-// Nothing here knows a simulation library, and there is no Eigen: DART brings its own with another alignment.
+// Independent of any simulation library, and without Eigen: DART includes its own with another alignment.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ Orientation operator*(const Orientation& a, const Orientation& b);  // first b, 
 Vector rotate(const Orientation& q, const Vector& v);
 Vector rotate_back(const Orientation& q, const Vector& v);
 
-/// hexahedron: a box with its corners moved, all faces flat; here the stones of arches. compound: several boxes.
+/// hexahedron: a box with moved corners and flat faces; used for the stones of arches. compound: several boxes.
 enum class Kind { plane, box, sphere, hexahedron, compound };
 
 /// Corner i of a box or hexahedron lies at the + end of x, y, z where bit 0, 1, 2 of i is set.
@@ -49,16 +49,16 @@ struct BoxPart {
 struct Body {
     Kind kind = Kind::sphere;
     Vector size;                   // box: edge lengths, m
-    Corners corners{};             // hexahedron, m, from its centre of mass, along its principal axes
-    std::vector<BoxPart> parts;    // compound, about its centre of mass, along its principal axes
+    Corners corners{};             // hexahedron, m, from its center of mass, along its principal axes
+    std::vector<BoxPart> parts;    // compound, about its center of mass, along its principal axes
     double radius = 0.0;           // sphere, m
-    Vector normal{0.0, 0.0, 1.0};  // plane: unit; solid are the points p with normal . p < offset
+    Vector normal{0.0, 0.0, 1.0};  // plane: unit; the solid is the set of points p with normal . p < offset
     double offset = 0.0;           // m
-    bool fixed = false;            // planes always are
-    double mass = 1.0;             // kg, spread evenly over the volume
-    double restitution = 1.0;      // a pair takes the larger of the moving ones'
-    double friction = 0.0;         // of its material; a pair takes sqrt(a b)
-    Vector position;               // m, of the centre of mass
+    bool fixed = false;            // planes are always fixed
+    double mass = 1.0;             // kg, uniform density
+    double restitution = 1.0;      // a pair uses the larger value of its moving bodies
+    double friction = 0.0;         // of its material; a pair uses sqrt(a b)
+    Vector position;               // m, of the center of mass
     Orientation orientation;
     Vector velocity;          // m/s
     Vector angular_velocity;  // rad/s, world frame
@@ -66,10 +66,10 @@ struct Body {
     bool moves() const { return !fixed && kind != Kind::plane; }
     Vector principal_inertia() const;  // kg m^2, about the body's own axes
     Corners outline() const;           // the corners of a box or hexahedron, body frame
-    double reach() const;              // m, of the farthest point from the centre; infinite for planes
+    double reach() const;              // m, distance of the farthest point from the center; infinite for planes
 };
 
-/// F = 1/2 density drag A |w - v| (w - v) at the centre of mass, A a quarter of the surface (Cauchy's mean projection).
+/// F = 1/2 density drag A |w - v| (w - v) at the center of mass, A a quarter of the surface (Cauchy's mean projection).
 struct Air {
     Vector velocity;  // m/s
     double density = 1.2, drag = 1.0;
@@ -82,11 +82,11 @@ struct PointForce {
 struct Scene {
     double gravity = 9.81;  // m/s^2, downwards
     std::vector<Body> bodies;
-    std::optional<Air> air;          // acts on all that moves
+    std::optional<Air> air;          // acts on all moving bodies
     std::optional<PointForce> push;  // acts on body 0
 };
 
-/// Where a body is and how it moves; world frame.
+/// Pose and velocities of a body; world frame.
 struct Motion {
     Vector position;
     Orientation orientation;
@@ -96,16 +96,16 @@ struct Motion {
 struct Wrench {
     Vector force, torque;
 };
-/// Air and push on a body, for the peers, which take forces from outside.
+/// Force of air and push on a body, for the peers, which get external forces from the harness.
 Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion);
 double mean_projected_area(const Body& body);
 
-/// What engines are told that take the smaller (or, of fixed bodies first, their own) friction of a pair: fixed bodies
-/// that of the pair with the first moving body, moving ones their own.
+/// Friction for engines that use the smaller friction of a pair or, for fixed bodies first, that body's own: for a
+/// fixed body the friction of its pair with the first moving body, for a moving body its own.
 double told_friction(const Scene& scene, const Body& body);
 
 /// Kinetic and potential energy, J.
 double energy(const Scene& scene, const std::vector<Motion>& motions);
-Vector angular_momentum(const Body& body, const Motion& motion);  // about its centre of mass, kg m^2/s
+Vector angular_momentum(const Body& body, const Motion& motion);  // about its center of mass, kg m^2/s
 
 }  // namespace tumble::bench

@@ -1,4 +1,4 @@
-// What a program under test has to offer: a world that steps.
+// Interface of a program under test: a world that steps.
 #pragma once
 
 #include "harness/scene.h"
@@ -11,7 +11,7 @@ class Simulator {
 public:
     virtual ~Simulator() = default;
     virtual void step() = 0;
-    virtual Motion motion(std::size_t body) const = 0;  // by the scene's numbering; of bodies that move
+    virtual Motion motion(std::size_t body) const = 0;  // index in the scene; for moving bodies
 };
 
 }  // namespace tumble::bench

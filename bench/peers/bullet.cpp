@@ -9,8 +9,8 @@ using namespace tumble::bench;
 
 struct Settings {
     int gyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    bool swept = false;   // a sphere swept along with fast bodies
-    bool elastic = true;  // set up for bounces; else for rest
+    bool swept = false;   // a sphere swept with fast bodies
+    bool elastic = true;  // settings for bounces; else for rest
     int iterations = 50;  // default 10
     bool sleep = false;
 };
@@ -30,10 +30,10 @@ public:
           world_(&dispatcher_, &broad_phase_, &solver_, &configuration_) {
         world_.setGravity(vec({0.0, 0.0, -scene.gravity}));
         btContactSolverInfo& info = world_.getSolverInfo();
-        info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower blows do not bounce
+        info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower impacts do not bounce
         info.m_numIterations = settings.iterations;
         if (settings.elastic)
-            info.m_erp2 = 0.0f;  // no pushing out of overlaps: that adds energy, up to 40-fold in the pit
+            info.m_erp2 = 0.0f;  // no position correction: that adds energy, up to 40-fold in the pit
         for (const Body& body : scene.bodies) add(body, settings);
     }
     ~BulletSimulator() override {
@@ -49,7 +49,7 @@ public:
                 bodies_[i]->applyTorque(vec(w.torque));
             }
         }
-        world_.stepSimulation(btScalar(h_), 0, btScalar(h_));  // no substeps: just this step
+        world_.stepSimulation(btScalar(h_), 0, btScalar(h_));  // no substeps: exactly this step
     }
 
     Motion motion(std::size_t i) const override {
@@ -72,7 +72,7 @@ private:
         if (body.kind == Kind::hexahedron) {
             auto hull = std::make_unique<btConvexHullShape>();
             for (const Vector& corner : body.corners) hull->addPoint(vec(corner));
-            hull->setMargin(btScalar(0.001));  // it grows by as much; default 4 cm
+            hull->setMargin(btScalar(0.001));  // the hull grows by this margin; default 4 cm
             shape = std::move(hull);
         }
         if (body.kind == Kind::compound) {
@@ -87,13 +87,13 @@ private:
         const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0, 0, 0);
         btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape.get(), inertia);
         info.m_startWorldTransform = pose(body.orientation, body.position);
-        info.m_friction = btScalar(std::sqrt(body.friction));           // a pair takes the product
-        info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair takes the product
+        info.m_friction = btScalar(std::sqrt(body.friction));           // a pair uses the product
+        info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair uses the product
         auto rigid = std::make_unique<btRigidBody>(info);
         rigid->setLinearVelocity(vec(body.velocity));
         rigid->setAngularVelocity(vec(body.angular_velocity));
         rigid->setDamping(0, 0);
-        // Else a contact found before it touches takes the bounce away.
+        // Otherwise a contact found before the touch cancels the bounce.
         if (settings.elastic) rigid->setContactProcessingThreshold(0);
         if (!settings.sleep) rigid->setActivationState(DISABLE_DEACTIVATION);
         rigid->setFlags(settings.gyroscopic);
@@ -142,7 +142,7 @@ Way way(const std::string& name, std::vector<Task> tasks, int iterations, bool s
     return {name, std::move(tasks), [=](const Scene& scene, double rate) { return make(scene, rate, settings); }};
 }
 
-// Set up for bounces where there are any, swept spheres on.
+// Settings for bounces where there are any, with swept spheres.
 std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
     Settings settings;
     settings.elastic = false;
@@ -157,7 +157,7 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
 int main(int argc, char** argv) {
     const std::vector<Task> all{Task::pile, Task::spheres, Task::tower}, sleeping{Task::pile, Task::sleeping};
 #ifdef BT_USE_DOUBLE_PRECISION
-    // Which gyroscopic term is taken matters in flight alone.
+    // The choice of the gyroscopic term matters in flight alone.
     const int body = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
     Peer peer{"Bullet", {}, {}, {}};
     peer.accuracy = {variant("gyro implicit body", {body}, {Demand::flight}),

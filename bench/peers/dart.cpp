@@ -19,7 +19,7 @@ public:
         world_->setGravity(Eigen::Vector3d(0.0, 0.0, -scene.gravity));
         world_->getConstraintSolver()->setCollisionDetector(dart::collision::DARTCollisionDetector::create());
         world_->getConstraintSolver()->getCollisionOption().maxNumContacts = 100000;
-        // Pushing overlaps out adds energy; 0.01 is the default.
+        // Position correction adds energy; 0.01 is the default.
         dart::constraint::ContactConstraint::setErrorReductionParameter(elastic ? 0.0 : 0.01);
         for (const Body& body : scene.bodies) add(body);
     }
@@ -47,7 +47,7 @@ public:
 
 private:
     void add(const Body& body) {
-        auto skeleton = dart::dynamics::Skeleton::create(std::to_string(bodies_.size()));  // a name, or it talks
+        auto skeleton = dart::dynamics::Skeleton::create(std::to_string(bodies_.size()));  // without a name it prints warnings
         dart::dynamics::ShapePtr shape;
         Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
         place.translation() = vec(body.position);
@@ -55,7 +55,7 @@ private:
             Eigen::Quaterniond(body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z).matrix();
         if (body.kind == Kind::sphere) shape = std::make_shared<dart::dynamics::SphereShape>(body.radius);
         if (body.kind == Kind::box) shape = std::make_shared<dart::dynamics::BoxShape>(vec(body.size));
-        if (body.kind == Kind::plane) {  // the detector knows no planes: a slab of 40 m whose upper side is the plane
+        if (body.kind == Kind::plane) {  // the detector has no planes: a slab of 40 m with its upper side on the plane
             shape = std::make_shared<dart::dynamics::BoxShape>(Eigen::Vector3d(40.0, 40.0, 2.0));
             place.translation() = (body.offset - 1.0) * vec(body.normal);
             place.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), vec(body.normal)).matrix();
@@ -79,7 +79,7 @@ private:
             node->createShapeNodeWith<dart::dynamics::CollisionAspect, dart::dynamics::DynamicsAspect>(shape);
         shape_node->getDynamicsAspect()->setFrictionCoeff(told_friction(scene_, body));
         shape_node->getDynamicsAspect()->setRestitutionCoeff(body.moves() ? body.restitution
-                                                                          : 1.0);  // a pair takes the product
+                                                                          : 1.0);  // a pair uses the product
         world_->addSkeleton(skeleton);
         bodies_.push_back(node);
     }
@@ -94,7 +94,7 @@ Way way(const std::string& name, std::vector<Task> tasks) {
             [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                 for (const Body& body : scene.bodies)
                     if (body.kind == Kind::hexahedron || body.kind == Kind::compound)
-                        return nullptr;  // boxes and spheres
+                        return nullptr;  // boxes and spheres only
                 return std::make_unique<DartSimulator>(scene, rate, false);
             },
             250};
@@ -109,7 +109,8 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Thin walls: nothing in DART looks between steps. Blows below 0.1 m/s never bounce (a constant of the library).
+    // Thin walls: DART has no continuous collision detection. Impacts below 0.1 m/s never bounce (a constant of the
+    // library).
     const Variant euler{"semi-implicit Euler", [](Demand demand) { return demand != Demand::thin_wall; },
                         [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                             return std::make_unique<DartSimulator>(scene, rate, true);

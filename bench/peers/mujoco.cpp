@@ -1,5 +1,5 @@
-// MuJoCo 2.2: Euler and RK4. Contacts are springs: e = 1 is an undamped one, as stiff as the step bears, e < 1 a damped
-// one with the logarithmic decrement of e.
+// MuJoCo 2.2: Euler and RK4. Contacts are springs: e = 1 is an undamped one, as stiff as the step allows, e < 1 a
+// damped one with the logarithmic decrement of e.
 #include "peers/peer.h"
 
 #include <mujoco/mujoco.h>
@@ -23,7 +23,7 @@ std::string text(const Vector& v) {
 
 struct Settings {
     std::string integrator = "Euler", solver = "Newton";
-    bool stiff = true;  // the shortest time constant it bears, two steps; else its default of 20 ms
+    bool stiff = true;  // the shortest stable time constant, two steps; else the default of 20 ms
 };
 
 // (-stiffness, -damping) of a contact, per unit of effective mass. The period is 12 steps (a stiffer spring gains
@@ -69,7 +69,7 @@ std::string model_of(const Scene& scene, double h, const Settings& settings) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const Body& body = scene.bodies[i];
         const Orientation& q = body.orientation;
-        std::ostringstream material;  // a pair takes that of the higher priority, or the larger friction
+        std::ostringstream material;  // a pair uses that of the higher priority, or the larger friction
         material << " friction='" << told_friction(scene, body) << "' priority='" << (body.moves() ? 0 : 1) << "'";
         std::string geom;
         if (body.kind == Kind::sphere) geom = "type='sphere' size='" + text({body.radius, 0.0, 0.0}) + "'";
@@ -115,7 +115,7 @@ public:
         for (const Body& body : scene.bodies) {
             joint_.push_back(body.moves() ? joints++ : -1);
             if (!body.moves()) continue;
-            const Vector w = rotate_back(body.orientation, body.angular_velocity);  // in the body's frame
+            const Vector w = rotate_back(body.orientation, body.angular_velocity);  // body frame
             const double velocity[6] = {body.velocity.x, body.velocity.y, body.velocity.z, w.x, w.y, w.z};
             std::copy(velocity, velocity + 6, data_->qvel + 6 * joint_.back());
         }
@@ -127,7 +127,7 @@ public:
 
     void step() override {
         const bool driven = scene_.air || scene_.push;
-        if (driven) {  // asked for at each stage of RK4 too
+        if (driven) {  // evaluated at each stage of RK4 too
             current_ = this;
             mjcb_passive = &MujocoSimulator::push;
         }
@@ -154,7 +154,7 @@ private:
         }
     }
 
-    static inline const MujocoSimulator* current_ = nullptr;  // MuJoCo's callback carries no pointer of ours
+    static inline const MujocoSimulator* current_ = nullptr;  // MuJoCo's callback has no user pointer
 
     Scene scene_;
     mjModel* model_ = nullptr;
@@ -165,8 +165,8 @@ private:
 Variant variant(const std::string& integrator) {
     return {integrator,
             [](Demand demand) {
-                // Crowds: the springs hold a share of the energy that should not be counted as lost. Thin walls:
-                // nothing in MuJoCo looks between steps.
+                // Crowds: the springs store energy that must not count as lost. Thin walls: MuJoCo has no continuous
+                // collision detection.
                 return demand != Demand::crowd && demand != Demand::thin_wall;
             },
             [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
@@ -182,8 +182,7 @@ Way way(const std::string& name, std::vector<Task> tasks, const Settings& settin
             300};
 }
 
-// In place of its log file and, on errors, of leaving the program; a world that blows up would be set back to its
-// start.
+// Replaces its log file and, on errors, the exit of the program. A world that diverges would be reset to its start.
 void complain(const char* text) { throw std::runtime_error(text); }
 
 }  // namespace

@@ -12,12 +12,12 @@ namespace {
 using namespace tumble::bench;
 
 struct Settings {
-    bool elastic = true;  // set up for bounces; else for rest
-    bool full = false;    // dWorldStep in place of the quick step
+    bool elastic = true;  // settings for bounces; else for rest
+    bool full = false;    // dWorldStep instead of the quick step
     bool sleep = false;
 };
 
-// A hexahedron as ODE wants it, and keeps pointers to.
+// A hexahedron in ODE's format, which keeps pointers to it.
 struct Hull {
     explicit Hull(const Corners& corners) {
         for (std::size_t i = 0; i < 8; ++i) {
@@ -51,7 +51,7 @@ public:
           space_(dHashSpaceCreate(nullptr)),
           contacts_(dJointGroupCreate(0)) {
         dWorldSetGravity(world_, 0.0, 0.0, -scene.gravity);
-        if (settings.elastic) {  // pushing overlaps out adds energy: SimBenchmark's elastic cases have it off too
+        if (settings.elastic) {  // position correction adds energy: SimBenchmark's elastic cases have it off too
             dWorldSetERP(world_, 0.0);
             dWorldSetCFM(world_, 0.0);
         }
@@ -101,7 +101,7 @@ private:
         const dQuaternion q{body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z};
         bodies_.push_back(body.moves() ? dBodyCreate(world_) : nullptr);
         if (!body.moves()) {
-            if (body.kind == Kind::plane) return;  // has no place of its own
+            if (body.kind == Kind::plane) return;  // a plane has no position of its own
             dGeomSetPosition(geom, body.position.x, body.position.y, body.position.z);
             dGeomSetQuaternion(geom, q);
             return;
@@ -142,7 +142,7 @@ private:
             contacts[i].surface = dSurfaceParameters{};
             contacts[i].surface.mode = dContactBounce | dContactApprox1;
             contacts[i].surface.mu = std::sqrt(first.friction * second.friction);
-            contacts[i].surface.bounce = restitution;  // from any speed on: bounce_vel is 0
+            contacts[i].surface.bounce = restitution;  // at any speed: bounce_vel is 0
             dJointAttach(dJointCreateContact(world->world_, world->contacts_, &contacts[i]), dGeomGetBody(a),
                          dGeomGetBody(b));
         }
@@ -174,7 +174,7 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
     return std::make_unique<OdeSimulator>(scene, rate, settings);
 }
 
-// In place of ending the program, and of talking at each step that its solver gives up.
+// Replaces the exit of the program, and a message at each step in which its solver fails.
 void fail(int, const char* text, va_list) { throw std::runtime_error(text); }
 void be_silent(int, const char*, va_list) {}
 
@@ -186,8 +186,8 @@ int main(int argc, char** argv) {
     dSetDebugHandler(fail);
     dSetMessageHandler(be_silent);
     Peer peer{"ODE", {}, {}, {}};
-    // The full step (dWorldStep) is left out: in flight it is the quick step, in crowds its dense matrix takes minutes,
-    // and on rows its LCP solver gives up ("internal error, s <= 0").
+    // The full step (dWorldStep) is excluded elsewhere: in flight it is the quick step, in crowds its dense matrix
+    // takes minutes, and on rows its LCP solver fails ("internal error, s <= 0").
     peer.accuracy = {{"quickstep", [](Demand) { return true; },
                       [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                           return std::make_unique<OdeSimulator>(scene, rate, Settings{});
@@ -195,7 +195,7 @@ int main(int argc, char** argv) {
     const Settings rest{false, false, false}, sleep{false, false, true}, full{false, true, false};
     peer.contact = {way("quickstep", {Task::pile, Task::spheres, Task::tower}, rest, 100000),
                     way("sleep", {Task::pile, Task::sleeping}, sleep, 100000),
-                    way("full step", {Task::tower}, full, 30)};  // its dense matrix takes minutes for more
+                    way("full step", {Task::tower}, full, 30)};  // its dense matrix takes minutes for more bodies
     peer.stability = {{"quickstep", true, make_steady}};
     const int code = run_peer(argc, argv, peer);
     dCloseODE();

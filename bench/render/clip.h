@@ -1,4 +1,4 @@
-// The poses of a clip, simulated beforehand, so that drawing is measured alone.
+// The poses of a clip, simulated beforehand, so that rendering is measured alone.
 #pragma once
 
 #include "scene/description/description.h"
@@ -8,7 +8,7 @@
 
 namespace tumble::bench {
 
-/// Frames `first` to before `end` of the scene, as they are drawn (render/drawn_poses.h).
+/// Frames `first` to before `end` of the scene, as they are drawn (src/render/scene/pose_filter.h).
 std::vector<Snapshot> drawn_clip(const SceneDescription& scene, int first, int end);
 
 }  // namespace tumble::bench

@@ -1,4 +1,4 @@
-// How far a picture is from a reference, where the eye looks.
+// Difference of an image from a reference, overall and at edges.
 #pragma once
 
 #include "core/image.h"
@@ -7,7 +7,7 @@
 
 namespace tumble::bench {
 
-/// Mean and spread of many pictures of one scene that were moved by parts of a pixel.
+/// Mean and standard deviation of many images of one scene with subpixel shifts.
 class PictureMean {
 public:
     void add(const Image& image);
@@ -15,18 +15,18 @@ public:
     /// The mean, rounded.
     Image mean() const;
 
-    /// Pixels on an edge: the brightness' standard deviation over the pictures is over 8 levels.
+    /// Pixels on an edge: the standard deviation of the brightness over the images exceeds 8 levels.
     std::vector<bool> edges() const;
 
 private:
     int width_ = 0, height_ = 0, count_ = 0;
-    std::vector<double> sum_, squares_;   // of the four channels; of the brightness
+    std::vector<double> sum_, squares_;   // sums of the four channels; of the squared brightness
 };
 
-/// Root of the mean squared difference over red, green and blue of the pixels chosen, levels.
+/// Root of the mean squared difference over red, green and blue of the selected pixels, levels.
 double rms_difference(const Image& a, const Image& b, const std::vector<bool>& chosen);
 
-/// Wang, Bovik, Sheikh, Simoncelli 2004, Image quality assessment: mean structural similarity of the brightness, over
+/// Wang, Bovik, Sheikh, Simoncelli 2004, "Image quality assessment": mean structural similarity of the brightness, over
 /// 8 x 8 windows.
 double structural_similarity(const Image& a, const Image& b);
 

@@ -1,4 +1,4 @@
-// bench_render: what drawing costs, and how good its edges are. One process, one thread.
+// bench_render: the cost of drawing and the quality of edges. One process, one thread.
 //   bench_render cost SCENE   [--size WxH] [--samples N] [--frames FIRST:END] [--rounds N] [--full] [--stages]
 //   bench_render edges SCENE  [--size WxH] [--samples N] [--frames FIRST:END] [--pictures FOLDER]
 #include "harness/clock.h"
@@ -28,7 +28,7 @@ struct Arguments {
 
 std::pair<int, int> two_numbers(const std::string& text, char between) {
     const std::size_t at = text.find(between);
-    if (at == std::string::npos) throw std::runtime_error("two numbers, please: " + text);
+    if (at == std::string::npos) throw std::runtime_error("two numbers are expected: " + text);
     return {std::stoi(text.substr(0, at)), std::stoi(text.substr(at + 1))};
 }
 
@@ -55,13 +55,13 @@ Arguments read_arguments(int argc, char** argv) {
         } else if (option == "--pictures") {
             a.pictures = value();
         } else {
-            throw std::runtime_error("what is " + option + "?");
+            throw std::runtime_error("unknown option: " + option);
         }
     }
     return a;
 }
 
-// CPU ms a frame: median, mean, the tenth and ninetieth of a hundred, and by stage; the clip over and over.
+// CPU ms per frame: median, mean, tenth and ninetieth percentile, and by pass; the clip is repeated.
 void measure_cost(const Arguments& a) {
     const SceneDescription scene = load_scene(a.scene, a.overrides);
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
@@ -75,7 +75,7 @@ void measure_cost(const Arguments& a) {
     double pixels = 0.0, rectangles = 0.0;
     PassTimes sum_of_times;
     for (int round = 0; round < a.rounds; ++round) {
-        renderer.render(clip.front(), frame);   // what is done once, and the leap back
+        renderer.render(clip.front(), frame);   // excludes the initial work, and the jump back to the start
         times = {};
         for (std::size_t i = 1; i < clip.size(); ++i) {
             const double start = cpu_seconds();
@@ -90,7 +90,7 @@ void measure_cost(const Arguments& a) {
     for (const double cost : costs) sum += cost;
     std::sort(costs.begin(), costs.end());
     const double frames = double(costs.size());
-    fmt::print("CPU ms a frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture in {:.0f} rectangles\n",
+    fmt::print("CPU ms per frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture in {:.0f} rectangles\n",
                costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
                pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
     if (!a.stages) return;
@@ -112,13 +112,13 @@ Image picture(const SceneDescription& scene, const Snapshot& snapshot, int sampl
     return image;
 }
 
-// Against the mean of 64 pictures of one sample, moved by parts of a pixel.
+// Against the mean of 64 images of one sample with subpixel shifts.
 void measure_edges(const Arguments& a) {
     const SceneDescription scene = load_scene(a.scene, a.overrides);
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
     for (const Snapshot& snapshot : {clip.front(), clip.back()}) {
         PictureMean many;
-        for (int i = 0; i < 64; ++i)   // an 8 x 8 lattice, sheared so that no two share a row or column
+        for (int i = 0; i < 64; ++i)   // an 8 x 8 lattice, sheared so that no two samples share a row or column
             many.add(picture(scene, snapshot, 1, false, ((i % 8) + (i / 8 + 0.5) / 8.0) / 8.0 - 0.5,
                              ((i / 8) + (i % 8 + 0.5) / 8.0) / 8.0 - 0.5));
         const Image reference = many.mean();
@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
         } else if (arguments.command == "edges") {
             tumble::bench::measure_edges(arguments);
         } else {
-            throw std::runtime_error("cost or edges, please");
+            throw std::runtime_error("the first argument must be cost or edges");
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "bench_render: {}\n", error.what());

@@ -1,10 +1,12 @@
-// Draws falling boxes by MuJoCo, the way its own sample `record` does: OSMesa, mjr_render, mjr_readPixels, and a pipe
-// into ffmpeg. Boxes, camera, light, shadows, samples and the encoder's settings are those of the scenes in bench/render;
-// MuJoCo draws them with everything at its defaults but for those.
-//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [ORBIT [POSES]]
-// ORBIT: degrees a second that the camera turns about the target, counter-clockwise seen from above.
-// With POSES nothing is simulated: the file has 7 doubles (position, quaternion w x y z; z up) for each box and frame.
-// MuJoCo 2.2 needs memory as the square of its contacts: a thousand boxes in a heap are beyond it.
+// Draws falling boxes with MuJoCo, like its own sample `record`: OSMesa, mjr_render, mjr_readPixels, and a pipe into
+// ffmpeg. Boxes, camera, light, shadows, samples and the encoder's settings are those of the scenes in bench/render;
+// all other settings of MuJoCo are its defaults.
+//   bench_render_mujoco NX NY NZ SPACING SIZE HEIGHT WIDTHxHEIGHT FRAMES CLIP EYE.x EYE.y EYE.z
+//                       TARGET.x TARGET.y TARGET.z [ORBIT [POSES]]
+// ORBIT: angular velocity of the camera about the target, degrees/s, counterclockwise seen from above.
+// With POSES there is no simulation: the file has 7 doubles (position, quaternion w x y z; z up) for each box and
+// frame.
+// MuJoCo 2.2 needs memory proportional to the square of its contacts: a thousand boxes in a heap are too many.
 #include <GL/osmesa.h>
 #include <mujoco/mujoco.h>
 
@@ -51,18 +53,18 @@ std::string model_of(const Arguments& a) {
     xml << "<mujoco><option timestep='" << 1.0 / (fps * steps_per_frame) << "' cone='elliptic'/><size nconmax='" << 10 * contacts
         << "' njmax='" << 30 * contacts << "' nstack='" << 100000 * boxes << "'/><visual><global offwidth='" << a.width << "' offheight='"
         << a.height_pixels << "'/><quality shadowsize='2048' offsamples='4'/></visual><asset>"
-        << "<texture name='grid' type='2d' builtin='checker' width='512' height='512' rgb1='.7 .7 .7' rgb2='.6 .6 .6'/>"
+        << "<texture name='grid' type='2d' builtin='checker' width='512' height='512' rgb1='0.7 0.7 0.7' rgb2='0.6 0.6 0.6'/>"
         << "<material name='grid' texture='grid' texrepeat='1 1' texuniform='true'/></asset><worldbody>"
-        << "<light directional='true' castshadow='true' pos='-6 6 14' dir='.4 -.3 -1'/>"
-        << "<geom type='plane' size='40 40 1' material='grid' friction='.7'/>";
-    const char* colors[] = {".78 .52 .24", ".85 .63 .36", ".18 .5 .53", ".89 .76 .44", ".71 .32 .23", ".3 .42 .56"};
+        << "<light directional='true' castshadow='true' pos='-6 6 14' dir='0.4 -0.3 -1'/>"
+        << "<geom type='plane' size='40 40 1' material='grid' friction='0.7'/>";
+    const char* colors[] = {"0.78 0.52 0.24", "0.85 0.63 0.36", "0.18 0.5 0.53", "0.89 0.76 0.44", "0.71 0.32 0.23", "0.3 0.42 0.56"};
     for (int i = 0; i < boxes; ++i) {
         const int x = i % a.count[0], y = i / a.count[0] % a.count[1], z = i / (a.count[0] * a.count[1]);
         const auto place = [&](int k, int n) { return (k - 0.5 * (n - 1)) * a.spacing + 0.1 * part(random); };
         const auto at = z_up(place(x, a.count[0]), a.height + a.spacing * y, place(z, a.count[2]));
         const double half = 0.5 * a.size * (0.975 + 0.125 * part(random));
         xml << "<body pos='" << text(at) << "' euler='" << 60.0 * part(random) << ' ' << 60.0 * part(random)
-            << " 0'><freejoint/><geom type='box' size='" << text({half, half, half}) << "' density='400' friction='.6'"
+            << " 0'><freejoint/><geom type='box' size='" << text({half, half, half}) << "' density='400' friction='0.6'"
             << (a.poses.empty() ? "" : " contype='0' conaffinity='0'") << " rgba='"
             << colors[i % 6] << " 1'/></body>";
     }
@@ -144,7 +146,7 @@ void run(const Arguments& a) {
         } else {
             for (int i = 0; i < steps_per_frame; ++i) mj_step(model, data);
         }
-        camera.azimuth = azimuth + a.orbit * n / fps;   // of the view, which turns as the eye does
+        camera.azimuth = azimuth + a.orbit * n / fps;   // azimuth of the view direction, which rotates as the eye does
         mjv_updateScene(model, data, &option, nullptr, &camera, mjCAT_ALL, &scene);
         mjr_render(view, &scene, &context);
         mjr_readPixels(rgb.data(), depth.data(), view, &context);

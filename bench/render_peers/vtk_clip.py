@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Draws falling boxes by VTK, the way a script of its users does: an actor a box, vtkShadowMapPass, 4 samples, a window that
-is not shown (under xvfb, in llvmpipe), vtkWindowToImageFilter, and a pipe into ffmpeg. Boxes, camera, light and the encoder's
-settings are those of the scenes in bench/render. VTK simulates nothing: it shows the poses of a file.
-  xvfb-run -a bench/render_peers/vtk_clip.py POSES BOXES SIZE WIDTHxHEIGHT FRAMES CLIP EYE.x .y .z TARGET.x .y .z [ORBIT]
+"""Draws falling boxes with VTK, as a user's script would: one actor per box, vtkShadowMapPass, 4 samples, a window that is
+not shown (under xvfb, in llvmpipe), vtkWindowToImageFilter, and a pipe into ffmpeg. Boxes, camera, light and the encoder's
+settings are those of the scenes in bench/render. VTK simulates nothing: it draws the poses of a file.
+  xvfb-run -a bench/render_peers/vtk_clip.py POSES BOXES SIZE WIDTHxHEIGHT FRAMES CLIP EYE.x EYE.y EYE.z
+                                          TARGET.x TARGET.y TARGET.z [ORBIT]
 POSES: 7 doubles (position, quaternion w x y z; z up) for each box and frame, as scripts/bench-render writes them.
-ORBIT: degrees a second that the camera turns about the target, counter-clockwise seen from above."""
+ORBIT: angular velocity of the camera about the target, degrees/s, counterclockwise seen from above."""
 
 import os
 import random
@@ -12,7 +13,7 @@ import struct
 import subprocess
 import sys
 
-# VTK finds its classes' OpenGL versions by these imports.
+# These imports register the OpenGL implementations of VTK's classes.
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
@@ -30,12 +31,12 @@ def actor_of(source, color):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(*(int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)))
-    actor.GetProperty().SetAmbient(0.3)   # else all that the sun does not reach is black
+    actor.GetProperty().SetAmbient(0.3)   # without it surfaces in shadow are black
     return actor
 
 
 def matrix_of(x, y, z, w, a, b, c, size):
-    """Of a pose and a size; row by row."""
+    """The matrix of a pose and a size, row by row."""
     rows = [[1 - 2 * (b * b + c * c), 2 * (a * b - w * c), 2 * (a * c + w * b)],
             [2 * (a * b + w * c), 1 - 2 * (a * a + c * c), 2 * (b * c - w * a)],
             [2 * (a * c - w * b), 2 * (b * c + w * a), 1 - 2 * (a * a + b * b)]]

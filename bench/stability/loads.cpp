@@ -1,4 +1,4 @@
-// What rests and should go on resting.
+// Bodies at rest that should stay at rest.
 #include "harness/shapes.h"
 #include "stability/stability_case.h"
 
@@ -7,7 +7,7 @@
 namespace tumble::bench {
 namespace {
 
-// The farthest any body has gone from where it began, over `limit` (m).
+// The largest displacement of any body from its start, over `limit` (m).
 auto farthest(const Scene& scene, double limit) {
     std::vector<Vector> starts;
     std::vector<std::size_t> moving;

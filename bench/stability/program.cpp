@@ -15,11 +15,11 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double patience = 5.0;  // CPU s a cell
+constexpr double patience = 5.0;  // CPU s per cell
 constexpr long random_scenes = 2000, quick_random_scenes = 84;
 constexpr const char* random_name = "random scenes";
 
-// late: stopped by patience; none: the program cannot hold the scene.
+// late: stopped by patience; none: the program cannot represent the scene.
 enum class Verdict { pass, fail, late, none };
 constexpr const char* verdict_names[] = {"pass", "fail", "late", "none"};
 
@@ -61,7 +61,7 @@ Outcome run(const Trial& trial, const StabilityWay& way, double rate) {
     return outcome;
 }
 
-// In a process of its own: there are worlds that end the program when they blow up (assertions in DART).
+// In a process of its own: some worlds end the program when they diverge (assertions in DART).
 Outcome run_apart(const Trial& trial, const StabilityWay& way, double rate) {
     const Outcome blown_up{HUGE_VAL, Verdict::fail, 0};
     int ends[2];
@@ -109,7 +109,7 @@ void map(const StabilityCase& c, const std::string& program, const StabilityWay&
         }
 }
 
-// Seeds are dealt out to the steps: scene i runs at the step i / 4 % 7, so that each has all four kinds.
+// Seeds are distributed over the steps: scene i runs at the step i / 4 % 7, so that each step has all four kinds.
 void map_random(const std::string& program, const StabilityWay& way, bool quick) {
     const std::vector<double> rates = stability_rates();
     const long each = long(rates.size()) * 4, all = quick ? quick_random_scenes : random_scenes;

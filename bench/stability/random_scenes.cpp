@@ -11,7 +11,7 @@
 namespace tumble::bench {
 namespace {
 
-// Mirror images are compared as long as rounding has not grown to sight: some two to five impacts.
+// Mirror images are compared until rounding becomes visible: some two to five impacts.
 constexpr double mirror_seconds = 0.75, mirror_tolerance = 1e-3;  // s, m
 constexpr double seconds = 1.5, half_width = 3.0, height = 14.0;
 
@@ -33,7 +33,7 @@ Body any_body(Random& random, const Vector& place, double speed) {
     return body;
 }
 
-// A place on a sphere.
+// A point on a sphere.
 Vector direction(Random& random) {
     for (;;) {
         const Vector v{random.both(), random.both(), random.both()};
@@ -90,7 +90,7 @@ Scene mirrored(Scene scene) {  // x to -x; the pit is its own image
 
 struct Momentum {
     Vector linear, angular;                  // the latter about the origin
-    double linear_sum = 0, angular_sum = 0;  // of the bodies' magnitudes: what errors are relative to
+    double linear_sum = 0, angular_sum = 0;  // sums of the bodies' magnitudes: errors are relative to them
 };
 
 Momentum momentum(const Scene& scene, const std::vector<Motion>& motions) {
@@ -110,7 +110,7 @@ Momentum momentum(const Scene& scene, const std::vector<Motion>& motions) {
 
 enum Invariant { finite_, energy_, momentum_, walls_, normals_, mirror_, invariants };
 
-// One scene, run to its end; true where the invariant was broken.
+// Runs one scene to its end; true where the invariant was broken.
 std::vector<bool> broken(Kin kin, long seed, const StabilityWay& way, double rate) {
     std::vector<bool> bad(invariants, false);
     Random random(std::uint64_t(seed) + 1000);

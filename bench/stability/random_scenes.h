@@ -1,4 +1,4 @@
-// Random scenes and the invariants of mechanics, looked at after each step.
+// Random scenes and the invariants of mechanics, checked after each step.
 #pragma once
 
 #include "stability/program.h"
@@ -8,16 +8,16 @@
 
 namespace tumble::bench {
 
-/// Which kind of scene, in which each invariant can be told.
+/// Kinds of scenes; each invariant applies to some of them.
 enum class Kin { pair, crowd, pit, mirror };
-/// pair: two smooth bodies that meet, nothing else; crowd: 3 to 10 that meet in one place, nothing external;
+/// pair: two smooth bodies that meet, and no others; crowd: 3 to 10 that meet in one place, without external forces;
 /// pit: 3 to 12 thrown into a walled pit; mirror: one or two in that pit, beside their mirror images.
 inline constexpr const char* kin_names[] = {"pair", "crowd", "pit", "mirror"};
 
-/// How many scenes failed each invariant.
+/// Number of scenes that violated each invariant.
 struct Count {
     std::string invariant, pass_line;
-    std::vector<long> failed;  // by kin
+    std::vector<long> failed;  // by kind
     std::vector<long> scenes;
 };
 

@@ -1,4 +1,4 @@
-"""The stability benchmark in its quick form: every case runs, rows are well formed, what must pass does.
+"""The stability benchmark in its quick form: every case runs, rows are well formed, required cells pass.
 
     smoke_test.py BENCH_STABILITY
 """
@@ -13,7 +13,7 @@ PROGRAM = sys.argv.pop(1)
 HEADER = ["case", "program", "way", "parameter", "pass line", "rate", "value", "worst", "verdict", "steps"]
 EXACT = "exact|exact [+] exact impacts"
 
-# (case, way, largest parameter): cells that must pass up to there. The maps of docs/results/stability.md say how far it goes.
+# (case, way, largest parameter): cells that must pass up to that parameter. The maps of docs/results/stability.md show the limits.
 MUST_PASS = [
     ("stack", ".*", 5), ("heavy on light", ".*", 1), ("far from the origin", ".*", 1e5), ("600 s of rest", ".*", 3),
     ("spin", EXACT, 1e5), ("spin", ".*", 1), ("inertia ratio", EXACT, 1e6), ("inertia ratio", ".*", 1),
@@ -42,7 +42,7 @@ class Smoke(unittest.TestCase):
             start = "random: " if case == "random scenes" else case
             self.assertTrue(any(row[0].startswith(start) for row in self.rows), case)
 
-    def test_what_must_pass_does(self):
+    def test_required_cells_pass(self):
         for case, way, most in MUST_PASS:
             rows = [r for r in self.rows if r[0] == case and re.fullmatch(way, r[2]) and float(r[6]) <= most]
             self.assertTrue(rows, (case, way))

@@ -1,4 +1,4 @@
-// Free rotation: what it must keep.
+// Free rotation: conserved quantities.
 #include "harness/shapes.h"
 #include "stability/stability_case.h"
 

@@ -1,4 +1,4 @@
-// A case of the stability map: a family of scenes over (step, parameter), and a pass line stated beforehand.
+// A case of the stability map: a family of scenes over (step, parameter), and a pass line fixed in advance.
 #pragma once
 
 #include "harness/simulator.h"
@@ -10,12 +10,12 @@
 
 namespace tumble::bench {
 
-/// One cell of a map: what is run, and what is watched.
+/// One cell of a map: the scene to run and its observation.
 struct Trial {
     Scene scene;
     double seconds = 5.0;
-    long look_every = 1;  // steps
-    /// How bad it is now, 1 being the pass line; the worst of all looks counts. The run ends where it is crossed.
+    long look_every = 1;  // in steps
+    /// Present error, with 1 as the pass line; the largest of all observations counts. The run ends where it exceeds 1.
     std::function<double(double time, const std::vector<Motion>& motions)> watch;
 };
 
@@ -24,14 +24,14 @@ struct StabilityCase {
     std::string parameter;  // with its unit
     std::string pass_line;  // in words, for the table
     std::vector<double> parameters;
-    std::vector<double> rates;  // steps a second
+    std::vector<double> rates;  // steps per second
     std::function<Trial(double parameter, double rate)> trial;
-    bool flight = false;  // nothing touches: every integrator has its own map
+    bool flight = false;  // without contact: every integrator has its own map
 };
 
 std::vector<StabilityCase> stability_cases();
 
-// What stability_cases() is put together from; a file each.
+// The parts of stability_cases(), one file each.
 void add_loads(std::vector<StabilityCase>& cases);    // stacks, mass ratios, scales, far from the origin, 600 s of rest
 void add_spins(std::vector<StabilityCase>& cases);    // spins, inertia ratios, a million steps of tumbling
 void add_strikes(std::vector<StabilityCase>& cases);  // thin walls, restitution, friction, deep overlap, needles

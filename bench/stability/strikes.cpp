@@ -1,4 +1,4 @@
-// What flies, slides, falls, or starts where it cannot be.
+// Bodies that fly, slide or fall, or start with an overlap.
 #include "harness/penetration.h"
 #include "harness/random.h"
 #include "harness/shapes.h"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double g = 9.81;
 
-// Ten spheres and ten cubes of 0.1 m, each from another distance, at a wall of 1 cm.
+// Ten spheres and ten cubes of 0.1 m, from different distances, at a wall of 1 cm.
 Trial thin_wall(double speed, double rate) {
     Trial trial;
     Scene& scene = trial.scene;
@@ -35,7 +35,7 @@ Trial thin_wall(double speed, double rate) {
     return trial;
 }
 
-// A ball let fall from 1 m: its first rebound, against e^2, and its energy.
+// A ball released at 1 m: its first rebound, against e^2, and its energy.
 Trial rebound(double e, double) {
     Trial trial;
     trial.scene.bodies = {sphere(0.5, 1.0, {0.0, 0.0, 1.5}), plane({0.0, 0.0, 1.0}, 0.0)};
@@ -53,7 +53,7 @@ Trial rebound(double e, double) {
     return trial;
 }
 
-// A box on a slope of atan(0.6): stick or slip, and how far.
+// A box on a slope of atan(0.6): stick or slip, and its displacement.
 Trial slope(double friction, double) {
     const double angle = std::atan(0.6);
     const Orientation q = turn({0.0, 1.0, 0.0}, angle);
@@ -71,7 +71,7 @@ Trial slope(double friction, double) {
     return trial;
 }
 
-// Two boxes in each other, without gravity.
+// Two boxes that overlap, without gravity.
 Trial overlapping(double share, double) {
     Trial trial;
     trial.scene.gravity = 0.0;
@@ -85,7 +85,7 @@ Trial overlapping(double share, double) {
     return trial;
 }
 
-// A needle of 1 m let fall on its tip; it should end on the floor, as it began no faster.
+// A needle of 1 m that falls on its tip; it should end on the floor, no faster than it started.
 Trial needle(double width, double) {
     Trial trial;
     trial.scene.bodies = {box({1.0, width, width}, 1.0, {0.0, 0.0, 1.0}), floor_box()};

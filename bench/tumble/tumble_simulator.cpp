@@ -65,7 +65,7 @@ BodyDescription described(const Body& body, std::size_t index) {
 
 SceneDescription described(const Scene& scene, double rate, const TumbleSettings& settings) {
     SceneDescription d;
-    d.output.fps = rate;  // a frame a step, so that step-free ways get no more help from frames than from steps
+    d.output.fps = rate;  // one frame per step, so that step-free ways gain no more from frames than from steps
     d.simulation.steps_per_frame = 1;
     d.simulation.gravity = Vec3(0.0, 0.0, -scene.gravity);
     d.simulation.integrator = settings.integrator;

@@ -41,35 +41,35 @@ struct World::State {
     SimulationSettings settings;
     double fps;
     double h;                         // s
-    std::int64_t steps = 0;           // time is counted in these, never summed up
-    Vec3 origin;                      // m, world: where the coordinates of the bodies begin
+    std::int64_t steps = 0;           // number of steps done; time is computed from it, never accumulated
+    Vec3 origin;                      // m, world: origin of the bodies' coordinates
     std::vector<Body> bodies;
-    std::vector<std::uint32_t> order;   // which of the scene's bodies each of them is
+    std::vector<std::uint32_t> order;   // by body: index in the scene
     ForceField forces;
     BroadPhase broad_phase;
     NarrowPhase narrow_phase;
-    std::vector<Manifold>* manifolds = nullptr;   // of this step; the narrow phase's
-    std::vector<Contact> contacts;    // their points, where impulses are resolved one by one
+    std::vector<Manifold>* manifolds = nullptr;   // of this step; owned by the narrow phase
+    std::vector<Contact> contacts;    // points of the manifolds, where impulses are resolved one by one
     ContactIslands islands;           // of the awake bodies
-    std::pair<std::uint64_t, std::uint64_t> seen_by_islands{UINT64_MAX, UINT64_MAX};   // changes of manifolds, of who sleeps
-    std::vector<Island> colliding;    // in this step
-    std::vector<std::uint32_t> struck;   // and their manifolds
-    std::vector<double> struck_impulses;   // N s, of these before the step
+    std::pair<std::uint64_t, std::uint64_t> seen_by_islands{UINT64_MAX, UINT64_MAX};   // change counters of manifolds and of sleep
+    std::vector<Island> colliding;    // islands with impacts in this step
+    std::vector<std::uint32_t> struck;   // indices of the manifolds of these islands
+    std::vector<double> struck_impulses;   // N s, impulses of these manifolds before the step
     ContactSolver contact_solver;
     SleepMonitor sleep;
     std::uint64_t seen_sleep_changes = UINT64_MAX;
-    std::vector<std::uint32_t> awake_bodies, moving_bodies, kinematic_bodies;   // ascending; moving: both others
+    std::vector<std::uint32_t> awake_bodies, moving_bodies, kinematic_bodies;   // ascending; moving: the other two together
     std::unique_ptr<EventDrivenMotion> flights;   // with exact impacts
-    FreeFlights free_flights;           // with exact motion between stepped ones
+    FreeFlights free_flights;           // for exact motion between stepped impacts
     CcdClamp motion_limit;
     std::vector<BodyVelocity> motions;
-    std::atomic<bool> any_fast{false};   // of the motions: each body's own thread tells
-    std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // body
+    std::atomic<bool> any_fast{false};   // of the motions; set by each body's own thread
+    std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // index of a body
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
-    std::vector<BodyVelocity> old_velocities;   // at the step's start, before its forces: what explicit Euler moves by
-    // Momenta before and after this step's forces: what the integrators of higher order begin with, and whether contact
-    // has added anything since.
+    std::vector<BodyVelocity> old_velocities;   // at the start of the step, before its forces: explicit Euler moves bodies by them
+    // Momenta before and after this step's forces: the start of the integrators of higher order, and a test whether
+    // contact has added anything since.
     struct Momenta {
         Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
         bool operator==(const Momenta&) const = default;
@@ -78,13 +78,14 @@ struct World::State {
         Momenta before, after;
     };
     std::vector<ForceStep> force_steps;
-    std::vector<Impulse> pulses;   // of this step, of forces that end some time; by body, empty in scenes without forces at points
+    // of this step, of forces that end at some time; by body, empty in scenes without forces at points
+    std::vector<Impulse> pulses;
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
         : settings(scene.simulation), fps(timing.fps), h(timing.step()),
           origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())), bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
           order(exact_impacts(scene) ? put_in_exact_order(bodies, settings.gravity) : put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
-          // Exact energies want exact manifolds: points that lie a thousandth off make nanometres of height.
+          // Exact energies need exact manifolds: points a thousandth off make nanometers of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
           islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver,
@@ -101,7 +102,7 @@ struct World::State {
     }
 
     double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
-    double gravity_step() const { return settings.gravity.norm() * h; }   // m/s, that gravity adds in a step
+    double gravity_step() const { return settings.gravity.norm() * h; }   // m/s, change of speed by gravity in a step
 
     void advance(std::int64_t to);
     void step();
@@ -116,14 +117,14 @@ struct World::State {
     bool by_whole_state(const Body& body) const {
         return body.integrator == IntegratorKind::exact || steps_whole_state(body.integrator);
     }
-    // Whether contact has added anything to what the step's forces did.
+    // Whether contact has added anything to the effect of the step's forces.
     bool touched(std::uint32_t i) const {
         const Body& body = bodies[i];
         return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
                !body.push_angular_velocity.isZero(0.0);
     }
-    // Whether the body's turn in flight is no even one, or too far for one tangent: where it stops on its way it has turned as in
-    // free rotation, which keeps the energy all along.
+    // Whether the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
+    // rotation is that of free rotation, which keeps the energy all along.
     bool turns_freely(std::uint32_t i) const {
         const Body& body = bodies[i];
         return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && !touched(i) &&
@@ -146,11 +147,11 @@ void World::State::step() {
     resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces();             // F and tau at t_n change P and L
     solve_resting_contacts();   // non-penetration and friction
-    move();                     // x and q to t_n+1; free flights from impact to impact
-    fall_asleep();              // islands at rest leave the loop
+    move();                     // x and q to t_n+1; ballistic bodies from impact to impact
+    fall_asleep();              // islands at rest are excluded from the simulation
 }
 
-// Steps only while something has to be stepped: bodies in free flight need none.
+// Steps only while a body needs stepping: bodies in free flight do not.
 void World::State::advance(std::int64_t to) {
     while (steps < to) {
         if (!flights || flights->stepping(bodies) || forces.ever_changes()) {
@@ -170,7 +171,7 @@ void World::State::place_kinematic_bodies() {
     for (const std::uint32_t i : kinematic_bodies) old_velocities[i] = place_on_track(bodies[i], time(steps), time(steps + 1), h);
 }
 
-// Whatever happens in a step happens to these: the time it takes goes with their number.
+// Lists of awake bodies. All loops of a step run over these, so its cost scales with the awake bodies.
 void World::State::list_awake() {
     if (sleep.changes() == seen_sleep_changes) return;
     seen_sleep_changes = sleep.changes();
@@ -196,13 +197,13 @@ void World::State::find_contacts() {
         manifolds = &narrow_phase.find(broad_phase.update(bodies, h, &pool), bodies, h, pool);
     };
     find();
-    // The woken ones need the contacts among themselves too, which were not looked for.
+    // Woken bodies need the contacts among themselves too, which were not searched.
     if (sleep.wake_touched(*manifolds, bodies, h, gravity_step())) find();
     if (flights) {
         make_contacts(*manifolds, bodies, contacts);
         flights->take_off(contacts, bodies, forces, steps);
     }
-    // The same pairs and the same bodies awake: the same islands. What flies takes part again at any moment.
+    // The same pairs and the same awake bodies give the same islands. Ballistic bodies may take part again at any time.
     const std::pair now(narrow_phase.changes(), sleep.changes());
     if (!flights && now == seen_by_islands) return;
     seen_by_islands = now;
@@ -213,7 +214,7 @@ void World::State::find_contacts() {
     islands.find(narrow_phase.touching(), bodies, stepped);
 }
 
-// Whether points that touch come nearer, faster than resting contact does, with restitution to answer it.
+// Whether touching points with restitution approach faster than resting contact does.
 bool World::State::collides(std::size_t island) const {
     const double threshold = tuning::restitution_threshold * gravity_step();
     const auto touching = islands.pairs(island);
@@ -257,7 +258,7 @@ void World::State::resolve_collisions() {
     for (const std::uint32_t k : struck) {
         for (int i = 0; i < (*manifolds)[k].count; ++i) {
             const Contact& c = contacts[next++];
-            // Eqs. 9 and 10: the impulses' share of P and L, equal and opposite to the last bit.
+            // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
             if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
         }
     }
@@ -268,8 +269,8 @@ void World::State::apply_forces() {
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         if (body.flying) return;
-        if (flights) body.derive();   // brought here from a flight, perhaps
-        else if (!struck.empty()) body.derive_velocities();   // collisions have changed momenta
+        if (flights) body.derive();   // possibly moved here from a flight
+        else if (!struck.empty()) body.derive_velocities();   // impacts have changed momenta
         old_velocities[i] = {body.velocity, body.angular_velocity};
         const Wrench wrench = forces.throughout(i, body, now, next);
         force_steps[i].before = {body.momentum, body.angular_momentum};
@@ -281,8 +282,8 @@ void World::State::apply_forces() {
     });
 }
 
-// Forces at points for the share of the step in which they act. After the bounces, which keep their speed against what acts
-// throughout: a blow is nothing that a bounce takes back.
+// Forces at points for the fraction of the step in which they act. After the bounces, which keep their speed against
+// the forces that act throughout: a bounce must not cancel a brief force.
 void World::State::apply_brief_forces() {
     const double now = time(steps), next = time(steps + 1);
     for (const std::uint32_t i : forces.pushed()) {
@@ -303,7 +304,7 @@ void World::State::solve_resting_contacts() {
     const double threshold = tuning::restitution_threshold * gravity_step();
     pool.for_each(colliding.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
         hold_bounces(colliding[i], contacts, bodies, threshold);
-        // What only bounces is not held by a contact: it turns as in flight, which adds nothing to its spin.
+        // No contact holds a body that only bounces: it rotates as in flight, which adds nothing to its spin.
         for (const std::uint32_t k : colliding[i].bodies) {
             if (!by_whole_state(bodies[k])) force_steps[k].after = {bodies[k].momentum, bodies[k].angular_momentum};
             if (bodies[k].integrator != IntegratorKind::explicit_euler) find_gyration(bodies[k], h);
@@ -315,8 +316,8 @@ void World::State::solve_resting_contacts() {
     forget_blows();
 }
 
-// What stopped a blow in this step is no guess for what will hold in the next: a contact may keep twice what it had, or twice
-// the weight of the lighter body.
+// An impulse that stopped an impact in this step is a bad initial guess for the next: a contact may keep at most twice
+// its last value, or twice the weight of the lighter body.
 void World::State::forget_blows() {
     for (std::size_t k = 0; k < struck.size(); ++k) {
         Manifold& m = (*manifolds)[struck[k]];
@@ -328,7 +329,7 @@ void World::State::forget_blows() {
     }
 }
 
-// The velocities that poses are moved with: numbers, or nothing may be looked for on the way.
+// Velocities for moving the poses. All must be finite before CCD.
 void World::State::step_motions() {
     any_fast = false;
     pool.for_bodies(moving_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
@@ -336,7 +337,7 @@ void World::State::step_motions() {
         motions[i] = {};
         look_at_numbers(i);
         if (body.flying) return;
-        // Between exact flights all held bodies move by the velocities they are solved for.
+        // With event-driven motion all bodies in contact move by the velocities of the solve.
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
@@ -344,7 +345,7 @@ void World::State::step_motions() {
         else if (!before && body.dynamic()) {
             const Vec3 mean = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
                                          : mean_angular_velocity(body, h, settings.rotation);
-            motions[i].angular_velocity = mean;   // by way of a name: find_gyration()
+            motions[i].angular_velocity = mean;   // through a named variable: see find_gyration()
         }
         motions[i].angular_velocity += body.push_angular_velocity;
         if (motion_limit.fast(i, motions[i], h) && !any_fast) any_fast = true;
@@ -352,7 +353,7 @@ void World::State::step_motions() {
     stop_if_not_finite();
 }
 
-// Between exact flights: of bodies held by contacts, which meet each other and what is fixed by steps. The flying ones
+// With event-driven motion: of bodies in contact, which meet each other and fixed bodies by steps. Ballistic bodies
 // find their impacts themselves.
 const std::vector<CcdFraction>& World::State::held_limits() {
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
@@ -364,8 +365,9 @@ const std::vector<CcdFraction>& World::State::held_limits() {
     return motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast);
 }
 
-// What has to stop on its way: in contact the work of the forces on the rest of the way is taken back, else they have acted for as
-// long as it moved. Forces at points that end some time give all of their impulse.
+// Removes the effect of the lost part of a step from a clamped body. In contact the work of the forces along the lost
+// displacement is removed; else the forces have acted for as long as it moved. Forces at points that end at some time
+// give all of their impulse.
 void World::State::lose_time(std::uint32_t i, double share, bool in_contact) {
     Body& body = bodies[i];
     const Momenta &before = force_steps[i].before, &after = force_steps[i].after;
@@ -397,10 +399,11 @@ void World::State::move() {
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         const double share = limits[i].share;
-        // Contact is solved for the velocities at the step's end: bodies in it move by those, symplectic Euler's way.
+        // Contact is solved for the velocities at the step's end: bodies in contact move by those, as in symplectic
+        // Euler.
         const bool in_contact = touched(i);
         const bool flies = by_whole_state(body) && !in_contact;
-        if (body.flew != flies) body.flew = flies;   // all threads read what lies beside it: written to only where it changes
+        if (body.flew != flies) body.flew = flies;   // all threads read the neighboring data: written only where it changes
         if (body.flew) {
             body.momentum = force_steps[i].before.momentum;
             body.angular_momentum = force_steps[i].before.angular_momentum;
@@ -435,10 +438,10 @@ void World::State::fall_asleep() {
     if (flights && sleep.changes() != changes) flights->lay_down(bodies, steps);
 }
 
-// The first body in order tells, whichever thread finds it.
+// Reports the first body in order, whichever thread finds it.
 void World::State::look_at_numbers(std::uint32_t i) {
     const Body& body = bodies[i];
-    // One number that is none makes the sum none.
+    // One value that is not finite makes the sum not finite.
     if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum() +
                       body.push_velocity.sum() + body.push_angular_velocity.sum()))
         return;
@@ -453,8 +456,8 @@ void World::State::check_finite() {
 void World::State::stop_if_not_finite() const {
     const std::uint32_t first = first_not_finite;
     if (first == UINT32_MAX) return;
-    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is no longer finite; "
-                               "a smaller step (steps_per_frame, now {}) may hold it",
+    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is not finite; "
+                               "try a smaller step: more than {} steps_per_frame",
                                steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
 }
 
@@ -473,7 +476,7 @@ Snapshot World::snapshot() const {
     for (std::size_t i = 0; i < s.bodies.size(); ++i) {
         const Body& body = s.bodies[i];
         BodyState state{s.origin + body.origin(), s.origin + body.position, body.orientation, body.velocity, body.angular_velocity};
-        if (body.track) {   // the path's own velocity at this moment, not the mean over the coming step
+        if (body.track) {   // the path's own velocity at this time, not the mean over the coming step
             const BodyVelocity now = velocity_on_track(body, snapshot.time);
             state.velocity = now.velocity;
             state.angular_velocity = now.angular_velocity;
@@ -485,7 +488,7 @@ Snapshot World::snapshot() const {
 
 Measurement World::measure() const {
     State& s = *state_;
-    // Contacts of the poses as they are now, not of the step that led here.
+    // Contacts of the present poses, not of the last step.
     Measurement m = measure_motion(s.bodies, s.settings.gravity, s.origin);
     BroadPhase broad_phase(BroadPhase::Pairs::all);
     NarrowPhase narrow_phase(s.pool.size(), NarrowPhase::Mode::measure);

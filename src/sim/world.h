@@ -1,4 +1,4 @@
-// The simulation: bodies in motion and the one function that moves them on.
+// The simulation: the bodies, and the function that advances them by a step.
 #pragma once
 
 #include "scene/description/description.h"

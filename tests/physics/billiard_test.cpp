@@ -1,5 +1,6 @@
-// Galperin's billiard ("Playing pool with pi", 2003): a heavy body drives a light one, both elastic, against a wall. The two places, times
-// the roots of the masses, are one point that flies straight in a wedge of the angle arctan sqrt(m / M) between two mirrors.
+// Galperin's billiard ("Playing pool with pi", 2003): a heavy body drives a light one, both elastic, against a wall.
+// The two positions, times the roots of the masses, are the coordinates of one point that moves straight in a wedge of
+// the angle arctan sqrt(m / M) between two mirrors.
 #include "exact_scenes.h"
 
 #include <fmt/format.h>
@@ -39,15 +40,17 @@ SceneDescription billiard(bool boxes, ImpactMode impacts, double ratio) {
     return scene;
 }
 
-// Light and heavy after the last impact. Unfolded, the point goes on as it came, along the wall's mirror, and stands in the last image of
-// the wedge that it reaches: it has passed n mirrors, theta apart. Each reflection turns the direction about its mirror.
+// Velocities of the light and the heavy body after the last impact. Unfolded, the point continues straight, along the
+// wall's mirror, and ends in the last image of the wedge that it reaches: it has passed n mirrors, theta apart. Each
+// reflection rotates the direction about its mirror.
 struct Velocities {
     double light, heavy;
 };
 Velocities in_the_end(double ratio) {
     const double theta = std::atan(1.0 / std::sqrt(ratio));
     const double count = std::ceil(std::numbers::pi / theta - 1e-9) - 1.0;
-    // In (sqrt(M) V, v) it comes at the angle pi; the mirror between the two at theta makes 2 theta - a of a, the wall's at 0 makes -a.
+    // In (sqrt(M) V, v) it arrives at the angle pi; the mirror between the two at theta maps a to 2 theta - a, the
+    // wall's at 0 maps a to -a.
     const bool odd = std::fmod(count, 2.0) == 1.0;
     const double angle = odd ? (count + 1.0) * theta - std::numbers::pi : std::numbers::pi - count * theta;
     return {std::sqrt(ratio) * std::sin(angle), std::cos(angle)};
@@ -55,8 +58,9 @@ Velocities in_the_end(double ratio) {
 
 }  // namespace
 
-// Faces come to meet at traces of an angle, by rounding: those must not grow from impact to impact, nor tell what becomes of the next.
-TEST(Galperin, EndsAsTheUnfoldedWedgeSays) {
+// Rounding makes faces meet at negligible angles: these must neither grow from impact to impact nor decide the next
+// one.
+TEST(Galperin, EndsAsInTheUnfoldedWedge) {
     for (const double ratio : {1.0, 16.0, 100.0, 1e4, 1e6}) {   // 3, 12, 31, 314, 3141 impacts
         const Velocities right = in_the_end(ratio);
         for (const bool boxes : {false, true}) {
@@ -73,8 +77,8 @@ TEST(Galperin, EndsAsTheUnfoldedWedgeSays) {
     }
 }
 
-// Faces that meet at an angle far below sight meet all at once.
-TEST(Galperin, ABoxThatIsAllButFlatComesBackFlat) {
+// Faces that meet at an angle far below visibility meet all at once.
+TEST(Galperin, ANearlyFlatBoxReboundsFlat) {
     for (const double tilt : {1e-10, 1e-8, 3e-7}) {   // rad
         SceneDescription scene = walled_scene();
         make_exact(scene);

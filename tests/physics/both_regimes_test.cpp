@@ -1,5 +1,5 @@
-// Bodies at rest and bodies in flight in one scene: what rests is stepped, what flies goes from impact to impact, and each
-// passes into the other.
+// Bodies at rest and in flight in one scene: resting bodies are stepped, ballistic ones move from impact to impact, and
+// each may switch to the other.
 #include "exact_scenes.h"
 #include "sim/random_shapes.h"
 
@@ -41,7 +41,7 @@ TEST(BothRegimes, BallBouncesOnAStandingStack) {
     EXPECT_LE(world.measure().max_penetration, 1e-4);
 }
 
-// The slide's length v^2 / (2 mu g), within a step's share, beside a ball that bounces all the time.
+// The slide's length v^2 / (2 mu g), within a step's displacement, beside a ball that bounces all the time.
 TEST(BothRegimes, SlidingBoxBesideABouncingBall) {
     SceneDescription scene = ground_scene(0.0, 0.4);
     BodyDescription& box = add_box(scene, {1.0, 0.5, 1.0}, {0.0, 0.25, 0.0});
@@ -58,8 +58,8 @@ TEST(BothRegimes, SlidingBoxBesideABouncingBall) {
     EXPECT_LE(world.snapshot().bodies[1].velocity.norm(), 1e-9);
 }
 
-// A platform that rises at 1 m/s: a ball let go over it bounces as over a standing one, in the platform's frame; in time
-// it rests and is carried.
+// A platform that rises at 1 m/s: a ball released over it bounces as over a standing one, in the platform's frame;
+// finally it rests and is carried.
 TEST(BothRegimes, RisingPlatformCarriesABall) {
     for (const int steps : {1, 4, 16}) {
         SceneDescription scene = ground_scene(0.0, 0.0, steps);
@@ -78,7 +78,7 @@ TEST(BothRegimes, RisingPlatformCarriesABall) {
     }
 }
 
-// Hit by a platform at speed u, a ball at rest leaves at (1 + e) u, at the moment they touch.
+// Hit by a platform at speed u, a ball at rest leaves at (1 + e) u, at the time of the touch.
 TEST(BothRegimes, PlatformHitsABall) {
     for (const double u : {0.5, 5.0, 200.0})
         for (const double e : {0.0, 0.5, 1.0}) {
@@ -119,7 +119,7 @@ TEST(BothRegimes, BodiesInTheWindBounceAndLoseEnergy) {
     }
 }
 
-// A force that starts in mid-clip, off the frames' times, on a body in flight and on one that has long been at rest.
+// A force that starts in mid-clip, between frame times, on a body in flight and on one that has long been at rest.
 TEST(BothRegimes, ForceAtAPointStartsInMidClip) {
     for (const int steps : {1, 16}) {
         SceneDescription scene = ground_scene(0.0, 0.0, steps);
@@ -142,13 +142,13 @@ TEST(BothRegimes, ForceAtAPointStartsInMidClip) {
         EXPECT_NEAR(s.bodies[2].velocity.z(), speed, 1e-9) << steps;
         EXPECT_NEAR(s.bodies[2].center_of_mass.z(), speed * (0.5 * span + 0.7), 1e-9) << steps;
         EXPECT_NEAR(s.bodies[2].center_of_mass.y(), 50.0 + 12.5 - 0.5 * gravity * 6.25, 1e-9) << steps;
-        // What rests is stepped: the force's beginning and end count by the step.
+        // Resting bodies are stepped: the start and end of the force are rounded to the step.
         EXPECT_NEAR(s.bodies[1].velocity.z(), speed, 3.0 * scene.step()) << steps;
         EXPECT_NEAR(s.bodies[1].center_of_mass.y(), 0.5, 1e-5) << steps;
     }
 }
 
-// Boxes long asleep are woken by the blow, share its momentum, and those out of reach sleep on.
+// An impact wakes boxes long asleep, and they share its momentum; those out of reach sleep on.
 TEST(BothRegimes, ImpactWakesSleepers) {
     SceneDescription scene = ground_scene(0.0, 0.0);
     add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5, 0.0}, 1.0);
@@ -175,8 +175,8 @@ TEST(BothRegimes, ImpactWakesSleepers) {
     EXPECT_EQ(s.bodies[2].velocity, Vec3(0.0, 0.0, 0.0));
 }
 
-// All others asleep, nothing is stepped: what falls meets them all the same, at any step.
-TEST(BothRegimes, WhatFallsLandsOnSleepers) {
+// With all others asleep, nothing is stepped: a falling body meets them all the same, at any step.
+TEST(BothRegimes, FallingBodiesLandOnSleepers) {
     for (const int steps : {1, 16})
         for (const double e : {0.0, 0.5}) {
             SceneDescription scene = ground_scene(0.0, 0.5, steps);
@@ -185,22 +185,24 @@ TEST(BothRegimes, WhatFallsLandsOnSleepers) {
             ball.restitution = e;
             add_fixed_box(scene, {2.0, 0.2, 2.0}, {5.0, -0.1, 0.0}, 0.0);
             add_box(scene, {0.5, 0.5, 0.5}, {5.0, 0.25, 0.0}).friction = 0.5;
-            add_box(scene, {0.2, 0.1, 0.2}, {5.0, 8.0, 0.1}, 0.1).restitution = e;   // falls when all else has come to rest again
+            // falls when all others have come to rest again
+            add_box(scene, {0.2, 0.1, 0.2}, {5.0, 8.0, 0.1}, 0.1).restitution = e;
             make_exact(scene);
             World world(scene);
             for (int frame = 0; frame < 300; ++frame) {
                 world.advance_frame();
-                // Held, and stepped, at one step a frame the small box may tumble a fifth of its thickness deep.
+                // In contact, and stepped, at one step per frame the small box may tumble a fifth of its thickness
+                // deep.
                 ASSERT_LE(world.measure().max_penetration, steps == 1 ? 2.5e-2 : 1e-4) << steps << " " << e << " " << frame;
             }
             const Snapshot s = world.snapshot();
             EXPECT_NEAR(s.bodies[2].center_of_mass.y(), 0.6, 1e-4) << steps << " " << e;
-            const double high = s.bodies[5].center_of_mass.y() - 0.5;   // flat, or on a side, for it tumbled
+            const double high = s.bodies[5].center_of_mass.y() - 0.5;   // flat, or on a side, because it tumbled
             EXPECT_NEAR(high, high < 0.075 ? 0.05 : 0.1, 1e-4) << steps << " " << e;
         }
 }
 
-// What lands heavily on a box does not press it into the ground in what is left of the step.
+// A heavy landing on a box does not press it into the ground in the rest of the step.
 TEST(BothRegimes, LandingFindsTheSupportBelow) {
     for (const bool sleep : {true, false}) {
         SceneDescription scene = ground_scene(0.0, 0.5, 1);
@@ -216,8 +218,8 @@ TEST(BothRegimes, LandingFindsTheSupportBelow) {
     }
 }
 
-// A ball lands on the end of a plank that lies on a block. Pressed between the two the plank stops on its way, step after step:
-// what gravity does meanwhile it does not gather.
+// A ball lands on the end of a plank that lies on a block. Pressed between the two the plank is clamped step after
+// step: it must not gain the work of gravity of the lost time.
 TEST(BothRegimes, SeeSawGainsNothing) {
     for (const int steps : {1, 2, 4}) {
         SceneDescription scene;
@@ -240,8 +242,8 @@ TEST(BothRegimes, SeeSawGainsNothing) {
     }
 }
 
-// A plank on a block, hit at its end, swings down to the floor within the step: it stops there. (A half-space pushes out again
-// whatever is below.)
+// A plank on a block, hit at its end, swings down to the floor within the step: it stops there. (A half-space pushes
+// out any body below it.)
 TEST(BothRegimes, StruckPlankStopsAtTheFloor) {
     for (const int steps : {1, 2, 4})
         for (const double speed : {3.0, 10.0}) {

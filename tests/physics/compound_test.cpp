@@ -1,4 +1,5 @@
-// Bodies of several shapes in motion: like the single shape they add up to, and like nothing convex.
+// Bodies of several shapes in motion: like the single shape that they add up to, and in ways that no convex body can
+// move.
 #include "exact_scenes.h"
 #include "scene/load.h"
 #include "sim/random_shapes.h"
@@ -18,7 +19,7 @@ BodyDescription& add_compound(SceneDescription& scene, const CompoundShape& shap
     return body;
 }
 
-// The largest difference of position and orientation between body `i` of two worlds over so many frames.
+// The largest difference of position and orientation of body `i` between two worlds over this number of frames.
 double difference(const SceneDescription& a, const SceneDescription& b, std::size_t i, int frames) {
     World first(a), second(b);
     double most = 0.0;
@@ -58,7 +59,7 @@ TEST(Compound, ABoxOfEightBoxesBouncesAndRestsLikeTheBox) {
             body.restitution = 0.5;
             body.friction = 0.5;
         }
-        // More points share the same load: alike as far as the contact solver is exact.
+        // More points share the same load: equal up to the error of the contact solver.
         EXPECT_LT(difference(whole, parts, 1, 150), 1e-6) << int(impacts);
         World world(parts);
         run(world, parts, 3.0);
@@ -70,7 +71,7 @@ TEST(Compound, ATableStandsOnFourLegsAndCarriesABox) {
     SceneDescription scene = ground_scene(0.0, 0.6);
     add_compound(scene, table(), {0.0, 0.05, 0.0});
     add_box(scene, {0.4, 0.4, 0.4}, {0.5, 1.2, 0.2}, 20.0).friction = 0.6;
-    add_box(scene, {0.3, 0.3, 0.3}, {0.0, 0.15, 0.0}, 5.0);   // between the legs, where a hull would be
+    add_box(scene, {0.3, 0.3, 0.3}, {0.0, 0.15, 0.0}, 5.0);   // between the legs, inside of a hull
     World world(scene);
     run(world, scene, 3.0);
     const Snapshot s = world.snapshot();
@@ -83,9 +84,9 @@ TEST(Compound, ATableStandsOnFourLegsAndCarriesABox) {
     EXPECT_LT(m.kinetic, 1e-6);
 }
 
-// Two wheels on an axle, rolling without slip: nothing drives them, nothing brakes them. On a slope of one in a hundred they gain
-// g sin / (1 + I/(m r^2)) a second.
-TEST(Compound, WheelsRollEvenly) {
+// Two wheels on an axle, rolling without slip: nothing drives them, nothing brakes them. On a slope of one in a hundred
+// they gain g sin / (1 + I/(m r^2)) per second.
+TEST(Compound, WheelsRollUniformly) {
     const double r = 0.1, angle = std::atan(0.01), axle = 0.02, wheel = 4.0 / 3.0 * M_PI * r * r * r, rod = axle * axle * 0.6;
     const double inertia = (2.0 * 0.4 * wheel * r * r + rod * axle * axle / 6.0) / ((2.0 * wheel + rod) * r * r);
     for (const double slope : {0.0, angle}) {
@@ -104,7 +105,7 @@ TEST(Compound, WheelsRollEvenly) {
     }
 }
 
-// A hoop of 24 convex parts, read from its file, on a peg that sticks out of the wall.
+// A hoop of 24 convex parts, loaded from its file, on a peg that protrudes from the wall.
 TEST(Compound, AHoopHangsOnAPeg) {
     const SceneDescription scene = parse_scene(R"(
         format = 1
@@ -123,7 +124,7 @@ TEST(Compound, AHoopHangsOnAPeg) {
     World world(scene);
     run(world, scene, 4.0);
     const BodyState hoop = world.snapshot().bodies[1];
-    // The tube is a ring of radius 0.5 and at least 0.14 cos(22.5 degrees) thick to each side.
+    // The tube is a ring of radius 0.5 with a thickness of at least 0.14 cos(22.5 degrees) to each side.
     EXPECT_LT((hoop.origin - Vec3(0.0, -0.32, 0.0)).norm(), 0.05);
 }
 
@@ -133,7 +134,7 @@ TEST(Compound, HookedLinksDoNotFallApart) {
         scene.simulation.impacts = impacts;
         if (impacts == ImpactMode::exact) scene.simulation.integrator = IntegratorKind::exact;
         add_compound(scene, square_link(1.0, 0.2), Vec3::Zero()).type = BodyType::fixed;
-        // Each lies in the plane across the one above, and reaches through it.
+        // Each lies in the plane perpendicular to the one above, and reaches through it.
         add_compound(scene, square_link(1.0, 0.2), {0.0, -0.55, 0.0}).rotation = turn(Vec3::UnitY(), 0.5 * M_PI);
         add_compound(scene, square_link(1.0, 0.2), {0.0, -1.1, 0.0}).angular_velocity = {0.0, 0.5, 0.0};
         World world(scene);
@@ -146,7 +147,7 @@ TEST(Compound, HookedLinksDoNotFallApart) {
 
 TEST(Compound, HookedLBlocksHoldEachOther) {
     SceneDescription scene;
-    // A hook that points up, fixed, and one that hangs over its tip.
+    // A fixed hook that points up, and one that hangs over its tip.
     const CompoundShape hook = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()), part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {0.3, 0.3, 0.0}),
                                             part(BoxShape{Vec3(0.2, 1.0, 0.3)}, {-0.3, -0.4, 0.0})});
     add_compound(scene, hook, Vec3::Zero(), 0.8).type = BodyType::fixed;
@@ -159,8 +160,8 @@ TEST(Compound, HookedLBlocksHoldEachOther) {
     EXPECT_LT(world.measure().max_penetration, 2e-3);
 }
 
-// A frictionless box over a floor of twelve boxes side by side: the seams do not catch it.
-TEST(Compound, SeamsBetweenPartsAreSmooth) {
+// A frictionless box over a floor of twelve boxes side by side: internal edges do not catch it.
+TEST(Compound, InternalEdgesBetweenPartsAreSmooth) {
     std::vector<CompoundPart> parts;
     for (int i = 0; i < 12; ++i) parts.push_back(part(BoxShape{Vec3(0.5, 0.2, 2.0)}, {0.5 * i, -0.1, 0.0}));
     SceneDescription scene;
@@ -174,7 +175,8 @@ TEST(Compound, SeamsBetweenPartsAreSmooth) {
     EXPECT_LT(box.orientation.vec().norm(), 1e-3);
 }
 
-// Steps far longer than a wall is thick: spinning links and dumbbells thrown at a wall with a frame come back.
+// Displacements per step far longer than a wall is thick: spinning links and dumbbells thrown at a wall with a frame
+// rebound.
 TEST(Compound, NothingTunnelsThroughAThinPart) {
     Random random(7);
     const CompoundShape wall = compound_of({part(BoxShape{Vec3(0.005, 40.0, 40.0)}, Vec3::Zero()), part(BoxShape{Vec3(0.1, 0.1, 40.0)}, {0.0, 20.0, 0.0})});
@@ -204,7 +206,7 @@ TEST(Compound, NothingTunnelsThroughAThinPart) {
 }
 
 // A ball and a link fall on a thin table top with a leg.
-TEST(Compound, AThinTopStopsWhatFallsFast) {
+TEST(Compound, AThinTopStopsFastFallingBodies) {
     for (const bool fixed : {true, false}) {
         SceneDescription scene = empty_scene(1);
         const CompoundShape gate = compound_of({part(BoxShape{Vec3(2.0, 0.02, 2.0)}, Vec3::Zero()), part(BoxShape{Vec3(0.02, 1.0, 0.02)}, {0.9, -0.5, 0.9})});
@@ -226,7 +228,7 @@ TEST(Compound, AThinTopStopsWhatFallsFast) {
     }
 }
 
-// Without losses the energy stays, whatever part hits what; and nothing overlaps.
+// Without losses the energy is constant, whichever part hits; and nothing overlaps.
 TEST(Compound, ExactImpactsKeepTheEnergy) {
     SceneDescription scene = ground_scene(1.0, 0.0);
     make_exact(scene);

@@ -1,4 +1,4 @@
-// Contact takes energy out and never puts any in: heaps of boxes, balls and hulls, looked at after every step.
+// Contact removes energy and never adds any: heaps of boxes, balls and hulls, checked after every step.
 #include "sim/random_shapes.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
@@ -55,8 +55,8 @@ Look look(const World& world) {
     return l;
 }
 
-/// The largest gain of energy in a step, over the heap's weight (m): and over what overlaps pushed out and bodies on their
-/// way can lift it, the deepest overlap plus h times the fastest speed (1).
+/// The largest gain of energy in a step, over the heap's weight (m): beyond the lift possible by removing overlaps and
+/// by motion in the step, the deepest overlap plus h times the fastest speed (1).
 struct Gain {
     double height = 0.0, share = 0.0;
 };
@@ -84,7 +84,8 @@ Gain watch(const SceneDescription& scene, double seconds) {
 
 }  // namespace
 
-// Few bodies, inelastic: solved directly or nearly so, and energy falls at every step, but for a micrometre of height (measured: 2e-7 m at 1/60 s).
+// Few bodies, inelastic: solved directly or nearly so, and energy falls at every step, up to a micrometer of height
+// (measured: 2e-7 m at 1/60 s).
 TEST(ContactEnergy, NeverGrowsInSmallInelasticHeaps) {
     for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
         for (const double friction : {0.0, 0.5})
@@ -92,9 +93,9 @@ TEST(ContactEnergy, NeverGrowsInSmallInelasticHeaps) {
                 EXPECT_LE(watch(heap(kind, 9, friction, 0.0, steps, 7), 1.5).height, 1e-6) << name(kind) << " " << friction << " " << steps;
 }
 
-// Soft contact and bounces may gain in a step what is left of an overlap to push out, or what gravity would have taken
-// from a bounce; over some steps all of it is lost again.
-TEST(ContactEnergy, GainsNoMoreThanPushOutAndAStepsFall) {
+// Soft contact and bounces may gain in a step the lift of a remaining overlap, or the energy that gravity would have
+// taken from a bounce; over some steps all of it is lost again.
+TEST(ContactEnergy, GainsNoMoreThanPushOutAndTheFallOfAStep) {
     for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
         for (const double friction : {0.0, 0.5})
             for (const double restitution : {0.0, 0.3, 0.8})
@@ -102,9 +103,9 @@ TEST(ContactEnergy, GainsNoMoreThanPushOutAndAStepsFall) {
                     << name(kind) << " " << friction << " " << restitution;
 }
 
-// One step a frame: what lands and bounces in heaps gained up to .4 % of the energy in a step before islands were held to what
-// they have (energy_limit.h). What is left lifts what is at rest out of overlaps.
-TEST(ContactEnergy, HeapsOfOneStepAFrameGainNothing) {
+// One step per frame. Landing and bouncing bodies in heaps gain up to 0.4 % of the energy in a step without the energy
+// budget (energy_budget.h). The remaining gain is the lift of resting bodies out of overlaps.
+TEST(ContactEnergy, HeapsAtOneStepPerFrameGainNothing) {
     for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
         for (const double friction : {0.0, 0.5})
             for (const double restitution : {0.0, 0.3}) {
@@ -120,9 +121,10 @@ TEST(ContactEnergy, HeapsOfOneStepAFrameGainNothing) {
             }
 }
 
-// At 8 m/s and one step a frame bodies land as deep in each other as a heap may begin. They were then asked nothing: pairs that had
-// wedged were thrown apart with up to 1.5 % of the scene's energy. What is left is lifted, without speed (measured: 1.2e-4).
-TEST(ContactEnergy, DeepLandingsThrowNobody) {
+// At 8 m/s and one step per frame bodies land as deep in each other as a heap may start. Without the budget, wedged
+// pairs are thrown apart with up to 1.5 % of the scene's energy. The remaining gain is lift without speed (measured:
+// 1.2e-4).
+TEST(ContactEnergy, DeepLandingsThrowNoBody) {
     for (const Kind kind : {Kind::boxes, Kind::mixed})
         for (const double friction : {0.0, 0.5})
             for (std::uint64_t seed = 11; seed <= 23; ++seed) {
@@ -138,7 +140,7 @@ TEST(ContactEnergy, DeepLandingsThrowNobody) {
             }
 }
 
-// What a settling heap pays for, its overlaps pushed out, must not be taken from whoever slides on it.
+// The energy that a settling heap loses for removing its overlaps must not be taken from a body that slides on it.
 TEST(ContactEnergy, APuckSlidesOnWhileTheHeapSettles) {
     for (const int steps : {1, 4}) {
         SceneDescription scene = ground_scene(0.0, 0.5, steps);
@@ -157,9 +159,9 @@ TEST(ContactEnergy, APuckSlidesOnWhileTheHeapSettles) {
     }
 }
 
-// From second to second it only falls, and in the end it has come to rest: by then, for a box that hangs between two corners in line
-// with its centre turns about them for seconds, unbraked as points of contact are, and two that lean on each other near the angle of
-// friction slip by millimetres a second for 20 s.
+// From second to second the energy only falls, and in the end the heap has come to rest, with two exceptions by then: a
+// box that hangs between two corners in line with its center rotates about them for seconds, because point contacts do
+// not brake it; and two that lean on each other near the angle of friction slip by millimeters per second for 20 s.
 TEST(ContactEnergy, HeapsComeToRest) {
     for (const double restitution : {0.0, 0.5}) {
         const SceneDescription scene = heap(Kind::boxes, 27, 0.5, restitution, 2, 3);
@@ -176,9 +178,9 @@ TEST(ContactEnergy, HeapsComeToRest) {
     }
 }
 
-// Heaps that once rocked for ever: points that a manifold left out sank and were taken in for others that sank next, heavy boxes
-// whirled on light ones and stiffly on the floor, and a heap went from one solver to the other and back.
-TEST(ContactEnergy, NoHeapRocksForEver) {
+// Heaps at risk of rocking without end: a reduced point sinks and replaces another, which sinks next; heavy boxes whirl
+// on light ones and stiffly on the floor; a heap alternates between the solvers.
+TEST(ContactEnergy, NoHeapRocksWithoutEnd) {
     struct Case {
         double restitution;
         int steps;
@@ -193,9 +195,9 @@ TEST(ContactEnergy, NoHeapRocksForEver) {
     }
 }
 
-// Thin bodies at one step a frame: those that are held up where they touch must neither be left approaching for ever (a
-// manifold along a face sees a gap where edges meet) nor gather the speed of a fall that they do not make.
-TEST(ContactEnergy, DominoesOfOneStepAFrameGainNothing) {
+// Thin bodies at one step per frame. Bodies held at their contacts must neither stay approaching without end (a
+// manifold along a face has a gap where edges meet) nor gain the speed of a fall that they do not make.
+TEST(ContactEnergy, DominoesAtOneStepPerFrameGainNothing) {
     SceneDescription scene = ground_scene(0.0, 0.6, 1);
     scene.simulation.sleep = false;
     for (int i = 0; i < 12; ++i) {
@@ -216,7 +218,8 @@ TEST(ContactEnergy, DominoesOfOneStepAFrameGainNothing) {
     EXPECT_LE(least, 0.5 * start);   // all have fallen
 }
 
-// Smooth planks that tumble far in a step: what a turn by one tangent adds to their spin, impacts would make speed of.
+// Smooth planks that tumble far in a step: rotation along one tangent would add spin, and impacts would turn it into
+// speed.
 TEST(ContactEnergy, FastTumblingPlanksGainNothing) {
     Random random(5);
     SceneDescription scene = heap(Kind::boxes, 6, 0.0, 0.9, 1, 5);
@@ -234,8 +237,9 @@ TEST(ContactEnergy, FastTumblingPlanksGainNothing) {
     }
 }
 
-// A heap whose bodies bounce among others: a bounce is held against gravity, not against what the body meets next.
-TEST(ContactEnergy, BouncesInAHeapPushNobodyAlong) {
+// A heap whose bodies bounce among others: a bounce is restored against gravity, not against the next body that it
+// meets.
+TEST(ContactEnergy, BouncesInAHeapPushNoBodyAlong) {
     for (const double friction : {0.0, 0.5})
         for (const std::uint64_t seed : {1, 2, 3}) {
             SceneDescription scene = heap(Kind::boxes, 12, friction, 0.5, 16, seed);
@@ -252,8 +256,8 @@ TEST(ContactEnergy, BouncesInAHeapPushNobodyAlong) {
         }
 }
 
-// A spinning box that hits a rough floor obliquely turns spin into speed and back, and gains nothing by it: of a collision,
-// restitution under a friction that acts later would (Kane and Levinson 1985). In flight it moves exactly.
+// A spinning box that hits a rough floor obliquely converts spin into speed and back, and gains no energy: it would if
+// restitution and friction acted one after the other (Kane and Levinson 1985). In flight it moves exactly.
 TEST(ContactEnergy, RoughBouncesGainNothing) {
     Random random(31);
     for (int trial = 0; trial < 60; ++trial) {
@@ -271,15 +275,16 @@ TEST(ContactEnergy, RoughBouncesGainNothing) {
         for (int step = 0; step < 240; ++step) {
             world.step();
             const double now = energy(world);
-            EXPECT_LE(now, before + 1e-3 * start) << trial << " " << step;   // what pushing out a millimetre lifts
+            EXPECT_LE(now, before + 1e-3 * start) << trial << " " << step;   // lift by removing an overlap of one millimeter
             before = now;
         }
     }
 }
 
-// What comes back slower than gravity adds in a step is no bounce: it lands at the surface, and nothing has to be lifted out of the floor
-// (2e-3 of the energy in a step, .01 until it lay on top, where it was left to overlap for its bounce).
-TEST(ContactEnergy, WhatHardlyBouncesLandsAtTheSurface) {
+// A rebound slower than gravity's change of speed in a step is no bounce: the body lands at the surface, and needs no
+// lift out of the floor. (Left to overlap for its bounce it would gain 2e-3 of the energy in a step, 0.01 until it lies
+// on top.)
+TEST(ContactEnergy, ABodyThatHardlyBouncesLandsAtTheSurface) {
     Random random(8);
     for (int trial = 0; trial < 40; ++trial) {
         SceneDescription scene = ground_scene(0.0, 0.5, 1);

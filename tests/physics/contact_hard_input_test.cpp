@@ -1,4 +1,5 @@
-// Contact under bad and hard input: overlaps at the start, exact coincidences, extreme shapes and sizes, seams, belts.
+// Contact under bad and hard input: overlaps at the start, exact coincidences, extreme shapes and sizes, internal
+// edges, belts.
 #include "core/deterministic_math.h"
 #include "sim/contact/model/settings.h"
 #include "sim/random_shapes.h"
@@ -27,7 +28,7 @@ bool finite(const Snapshot& s) {
     return true;
 }
 
-/// The fastest way of a centre in the steps to come, m/s, push-out included.
+/// The fastest motion of a center in the next steps, m/s, position correction included.
 struct Watch {
     double fastest = 0.0;
     void follow(World& world, double h, int steps) {
@@ -45,9 +46,9 @@ struct Watch {
 
 }  // namespace
 
-// Two boxes or balls overlapping by half in free space: pushed apart no faster than push_limit radii a second, left with
-// no speed, and no overlap.
-TEST(ContactHardInput, OverlapsDissolveWithoutABang) {
+// Two boxes or balls that overlap by half in free space: pushed apart no faster than push_limit radii per second, left
+// with no speed, and no overlap.
+TEST(ContactHardInput, OverlapsDissolveSlowly) {
     for (const bool boxes : {false, true})
         for (const double depth : {0.1, 0.5, 0.9})
             for (const int steps : {1, 4, 16}) {
@@ -65,8 +66,8 @@ TEST(ContactHardInput, OverlapsDissolveWithoutABang) {
             }
 }
 
-// A heap that begins in a heap: boxes dealt out into too small a place. Many pushes add up in it: no box goes faster than
-// some limits (measured: 24 m/s, 5.5 limits), and all is apart in the end.
+// A crowd that starts as a heap: boxes placed in too small a volume. Many pushes add up in it: no box moves faster than
+// a few limits (measured: 24 m/s, 5.5 limits), and all are separated in the end.
 TEST(ContactHardInput, ACrowdDissolves) {
     Random random(3);
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
@@ -80,7 +81,7 @@ TEST(ContactHardInput, ACrowdDissolves) {
     for (const BodyState& b : world.snapshot().bodies) EXPECT_LE(b.center_of_mass.norm(), 15.0);
 }
 
-// The same box twice: no direction is better than another, one is taken.
+// The same box twice: all directions are equal, one is chosen.
 TEST(ContactHardInput, ABoxExactlyInsideAnother) {
     for (const double small : {1.0, 0.5, 0.01})
         for (const int steps : {1, 16}) {
@@ -97,7 +98,7 @@ TEST(ContactHardInput, ABoxExactlyInsideAnother) {
         }
 }
 
-// A floor of tiles whose faces are one plane: boxes rest on the joint of two, on the corner of four and flush with edges.
+// A floor of tiles with coplanar faces: boxes rest on the joint of two, on the corner of four and flush with edges.
 TEST(ContactHardInput, TilesOfOneFloor) {
     SceneDescription scene = empty_scene(4);
     scene.simulation.gravity = Vec3(0.0, -g, 0.0);
@@ -111,8 +112,8 @@ TEST(ContactHardInput, TilesOfOneFloor) {
     for (std::size_t i = 21; i < s.bodies.size(); ++i) EXPECT_LE((s.bodies[i].center_of_mass - scene.bodies[i].position).norm(), 1e-5) << i;
 }
 
-// The same floor under boxes that slide, fast and slow, straight and across, over joints: they stop after v^2 / (2 mu g)
-// and keep their way.
+// The same floor under boxes that slide, fast and slow, straight and diagonally, over joints: they stop after
+// v^2 / (2 mu g) and keep their direction.
 TEST(ContactHardInput, SlidingOverTiles) {
     for (const double speed : {3.0, 1.0, 0.3, 0.05})
         for (const double aside : {0.0, 0.2}) {
@@ -122,7 +123,7 @@ TEST(ContactHardInput, SlidingOverTiles) {
             for (int i = -1; i < 8; ++i)
                 for (int k = -2; k < 4; ++k) add_box(scene, {1.0, 1.0, 1.0}, {double(i), -0.5, double(k)}).type = BodyType::fixed;
             const Vec3 direction = Vec3(1.0, 0.0, aside).normalized();
-            const Vec3 start(0.2 - 0.3 * way, 0.3, 0.2 - 0.1 * way);   // its front reaches a joint at 0.3 of the way
+            const Vec3 start(0.2 - 0.3 * way, 0.3, 0.2 - 0.1 * way);   // its front reaches a joint at 0.3 of the displacement
             add_box(scene, {0.6, 0.6, 0.6}, start).velocity = speed * direction;
             set_friction(scene, mu);
             World world(scene);
@@ -170,8 +171,8 @@ TEST(ContactHardInput, NeedlesAndPlatesLieStill) {
         EXPECT_LE((s.bodies[i].center_of_mass - scene.bodies[i].position).norm(), 2e-6) << i;
 }
 
-// They fall in a heap, 1 : 50 thin: finite, above the floor, at rest in the end. (Needles of 1 : 1000, whose moments are
-// 1 : 1e6, gain energy in contact: the pose's step is of first order, and what it strays L turns into spin.)
+// They fall in a heap, 1 : 50 thin: finite, above the floor, at rest in the end. (Needles of 1 : 1000, whose moments
+// are 1 : 1e6, gain energy in contact: the pose's step is of first order, and its error turns L into spin.)
 TEST(ContactHardInput, NeedlesAndPlatesFallInAHeap) {
     Random random(8);
     SceneDescription scene = ground_scene(0.0, 0.6, 4);
@@ -193,7 +194,7 @@ TEST(ContactHardInput, NeedlesAndPlatesFallInAHeap) {
 }
 
 // 1 m on 100 m; and 100 m, 1 m and 1 mm beside each other, 1e15 in mass. Each rests within a hundred-thousandth of its size.
-TEST(ContactHardInput, AMillimetreAndAHundredMetres) {
+TEST(ContactHardInput, AMillimeterAndAHundredMeters) {
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
     const double sizes[] = {100.0, 1.0, 100.0, 1.0, 0.001};
     const Vec3 places[] = {{0.0, 50.0, 0.0}, {0.0, 100.5, 0.0}, {200.0, 50.0, 0.0}, {251.0, 0.5, 0.0}, {252.0, 0.5e-3, 0.0}};
@@ -205,7 +206,8 @@ TEST(ContactHardInput, AMillimetreAndAHundredMetres) {
     for (std::size_t k = 0; k < 5; ++k) EXPECT_LE((s.bodies[k + 1].center_of_mass - places[k]).norm(), 1e-5 * sizes[k]) << k;
 }
 
-// Dust of 1e-24 kg and moons of 1e24 kg pile up as crates do: powers of two in mass change no digit of what single precision does.
+// Dust of 1e-24 kg and moons of 1e24 kg pile up as crates do: powers of two in mass change no digit in single
+// precision.
 TEST(ContactHardInput, DustAndMoons) {
     const auto heap = [](double mass) {
         SceneDescription scene = ground_scene(0.0, 0.5, 4);
@@ -224,18 +226,18 @@ TEST(ContactHardInput, DustAndMoons) {
     }
 }
 
-// Boxes and balls resting on and sliding over the seams of a triangle mesh: no bumps, no turning aside.
-TEST(ContactHardInput, SeamsOfAMesh) {
+// Boxes and balls resting on and sliding over the internal edges of a triangle mesh: no bumps, no deflection.
+TEST(ContactHardInput, InternalEdgesOfAMesh) {
     for (const double friction : {0.0, 0.2})
         for (const int steps : {1, 16}) {
             SceneDescription scene = empty_scene(steps);
             scene.simulation.gravity = Vec3(0.0, -g, 0.0);
             add_body(scene, MeshShape{asset_of(grid_mesh(16, 8.0, 0.0))}, Vec3::Zero()).type = BodyType::fixed;
             const Vec3 velocity(2.5, 0.0, 0.7);
-            add_box(scene, {0.7, 0.4, 0.9}, {-4.0, 0.2, 0.1}).velocity = velocity;   // over the seams
+            add_box(scene, {0.7, 0.4, 0.9}, {-4.0, 0.2, 0.1}).velocity = velocity;   // over internal edges
             add_box(scene, {0.6, 0.6, 0.6}, {0.0, 0.3, -4.0});                       // on a vertex of six
             add_sphere(scene, 0.5, {1.0, 0.5, 5.0});                                 // on a vertex
-            add_sphere(scene, 0.5, {-3.3, 0.5, 5.0}).velocity = Vec3(0.9, 0.0, 0.0); // along a seam
+            add_sphere(scene, 0.5, {-3.3, 0.5, 5.0}).velocity = Vec3(0.9, 0.0, 0.0); // along an internal edge
             set_friction(scene, friction);
             World world(scene);
             run(world, scene, 1.0);
@@ -250,8 +252,8 @@ TEST(ContactHardInput, SeamsOfAMesh) {
         }
 }
 
-// A belt that starts at full speed: mu g until the box goes with it, then as one.
-TEST(ContactHardInput, ABeltTakesABoxAlong) {
+// A belt that starts at full speed: mu g until the box moves with it, then as one.
+TEST(ContactHardInput, ABeltCarriesABoxAlong) {
     for (const int steps : {1, 4, 16}) {
         SceneDescription scene = empty_scene(steps);
         scene.simulation.gravity = Vec3(0.0, -g, 0.0);
@@ -275,7 +277,7 @@ TEST(ContactHardInput, ABeltTakesABoxAlong) {
     }
 }
 
-// A turntable: within mu g / omega^2 of the axis boxes go round with it, farther out they slide off.
+// A turntable: within mu g / omega^2 of the axis boxes are carried round, farther out they slide off.
 TEST(ContactHardInput, ATurntable) {
     SceneDescription scene = empty_scene(4);
     scene.simulation.gravity = Vec3(0.0, -g, 0.0);
@@ -312,8 +314,8 @@ TEST(ContactHardInput, NoGravity) {
     EXPECT_LE((s.bodies[3].velocity - Vec3(0.5, 0.0, 0.1)).norm(), 1e-12);
 }
 
-// Gravity switched off, over and on again under a stack that had fallen asleep, by forces on every body (a scene's gravity
-// does not change): it wakes each time, stays while nothing pulls, rises and falls as one, and rests again.
+// Gravity switched off, reversed and on again under a stack that has fallen asleep, by forces on every body (a scene's
+// gravity is constant): the stack wakes each time, stays without a force, rises and falls as one, and rests again.
 TEST(ContactHardInput, GravitySwitched) {
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
     for (int i = 0; i < 5; ++i) add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5 + i, 0.0}).mass = 2.0;
@@ -339,7 +341,7 @@ TEST(ContactHardInput, GravitySwitched) {
     EXPECT_EQ(world.measure().kinetic, 0.0);
 }
 
-// A hundred thousand bodies, a part of them in touch: three steps, and each is where it belongs.
+// A hundred thousand bodies, some of them touching: three steps, and each is at its expected place.
 TEST(ContactHardInput, AHundredThousandBodies) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     scene.bodies.reserve(100001);
@@ -358,8 +360,9 @@ TEST(ContactHardInput, AHundredThousandBodies) {
     }
 }
 
-// Small bodies that overlap are pushed apart under load, too: a cube of 2 mm carries one of 4 mm, eight times as heavy, that
-// began a millimetre inside of it. The push-out, 5 radii a second, is slow against what gravity adds in a substep.
+// Small bodies that overlap are pushed apart under load, too: a cube of 2 mm carries one of 4 mm, eight times as heavy,
+// that starts a millimeter inside it. The position correction, 5 radii per second, is slow compared with gravity's gain
+// per substep.
 TEST(ContactHardInput, SmallBodiesDoNotSinkIntoEachOther) {
     for (const int steps : {1, 16}) {
         SceneDescription scene = ground_scene(0.0, 0.5, steps);

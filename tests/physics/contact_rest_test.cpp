@@ -1,4 +1,4 @@
-// Rest and Coulomb's law to the last digit: no sinking, no drift, stick or slip where the angle says.
+// Rest and Coulomb's law to the last digit: no sinking, no drift, stick or slip according to the angle.
 #include "core/deterministic_math.h"
 #include "scene/load.h"
 #include "sim/random_shapes.h"
@@ -35,7 +35,7 @@ struct Slope {
 
 }  // namespace
 
-// 600 s, awake: within a micrometre of where it was put, and there it stays. Coarse and fine steps, level and tilted.
+// 600 s, awake: within a micrometer of its initial place, and there it stays. Coarse and fine steps, level and tilted.
 TEST(ContactRest, ABoxRestsForTenMinutes) {
     for (const int steps : {1, 4})
         for (const double angle : {0.0, 0.3}) {
@@ -58,8 +58,8 @@ TEST(ContactRest, ABoxRestsForTenMinutes) {
         }
 }
 
-// More corners than manifolds have room for: a coin comes to rest however it falls, and lies on its face. Its points gathered
-// where it was deepest; it rocked for ever, or lay in the ground.
+// More corners than manifolds have room for: a coin comes to rest after any fall, and lies on its face. Were its points
+// to gather where it is deepest, it would rock without end, or lie in the ground.
 TEST(ContactRest, ACoinLiesDown) {
     constexpr int corners = 64;
     TriangleMesh mesh;
@@ -89,8 +89,9 @@ TEST(ContactRest, ACoinLiesDown) {
         }
 }
 
-// At one step a frame they move too far between steps for their points to be followed. They lay up to 2 cm deep, rocking for ever.
-TEST(ContactRest, MeshesOfManyCornersLieDownAtOneStepAFrame) {
+// At one step per frame they move too far between steps for their points to be refreshed: at risk of lying up to 2 cm
+// deep, rocking without end.
+TEST(ContactRest, MeshesOfManyCornersLieDownAtOneStepPerFrame) {
     const struct { const char *file, *rotation; } cases[] = {{"bowl.obj", "[0.2142, 0.5094, 0.2049, -0.8079]"},
                                                              {"bowl.obj", "[0.0013, 0.3053, -0.2801, -0.9101]"},
                                                              {"torus.obj", "[0.3204, 0.5405, -0.7768, -0.042]"}};
@@ -154,7 +155,8 @@ TEST(ContactRest, FineStepsChangeNothing) {
     EXPECT_LE(world.measure().max_penetration, 1e-6);
 }
 
-// Friction 0.1 % above tan(theta) holds for ever; 0.1 % below it slides with g (sin - mu cos), a thousandth of g sin.
+// Friction 0.1 % above tan(theta) holds without end; 0.1 % below it slides with g (sin - mu cos), a thousandth of g
+// sin.
 TEST(ContactRest, StickOrSlipToAThousandth) {
     for (const int steps : {1, 16})
         for (const double angle : {0.2, 0.5, 0.8})
@@ -162,7 +164,7 @@ TEST(ContactRest, StickOrSlipToAThousandth) {
                 const Slope slope{angle};
                 const double mu = share * std::tan(angle);
                 SceneDescription scene = slope.scene(mu, steps);
-                // Flat enough not to topple, and turned about the normal: the disc is round.
+                // Flat enough not to topple, and rotated about the normal: the disc is round.
                 for (int k = 0; k < 4; ++k) {
                     BodyDescription& box = add_box(scene, {1.0, 0.2, 0.6}, slope.at(0.0, 0.1, 2.0 * k), 1.0 + k);
                     box.friction = mu;
@@ -171,7 +173,7 @@ TEST(ContactRest, StickOrSlipToAThousandth) {
                 World world(scene);
                 const double seconds = 3.0, n = std::round(seconds * 60.0 * steps);
                 run(world, scene, seconds);
-                // Symplectic Euler's way: a t^2 (1 + 1/n) / 2.
+                // As in symplectic Euler: a t^2 (1 + 1/n) / 2.
                 const double a = std::max(0.0, g * (std::sin(angle) - mu * std::cos(angle)));
                 const double way = 0.5 * a * seconds * seconds * (1.0 + 1.0 / n);
                 for (std::size_t k = 1; k <= 4; ++k) {

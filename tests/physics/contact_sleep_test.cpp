@@ -1,4 +1,4 @@
-// Sleep seen from outside: it changes nothing that can be seen, and ends exactly when it must.
+// Sleep seen from outside: it changes nothing visible, and ends exactly when it must.
 #include "core/deterministic_math.h"
 #include "sim/dynamics/body_builder.h"
 #include "sim/detection/broad_phase.h"
@@ -52,7 +52,7 @@ TEST(Sleep, WakesInTheStepInWhichAForceBegins) {
     EXPECT_NEAR(world.snapshot().bodies[2].velocity.x(), 1.5, 1e-6);   // the impulse of half a second
 }
 
-// A force that ends wakes what leaned on it: a box held against a slope's pull.
+// The end of a force wakes the bodies that it supported: a box held against a slope's pull.
 TEST(Sleep, WakesWhenAForceEnds) {
     const double angle = 0.3;
     SceneDescription scene = ground_scene(0.0, 0.0, 4);
@@ -67,8 +67,8 @@ TEST(Sleep, WakesWhenAForceEnds) {
     EXPECT_NEAR(world.snapshot().bodies[1].velocity.norm(), 9.81 * std::sin(angle), 0.01);
 }
 
-// A thousandth too steep, or not steep enough: a box slides off from rest by (sin - mu cos) g t^2 / 2, half a millimetre in
-// the first second, or stays. It must not fall asleep on its way.
+// A thousandth too steep, or not steep enough: a box slides off from rest by (sin - mu cos) g t^2 / 2, half a
+// millimeter in the first second, or stays. It must not fall asleep while sliding.
 TEST(Sleep, NotWhileSlidingOffSlowly) {
     const double tangent = 0.1, angle = arc_tangent(tangent);
     for (const double share : {0.999, 1.001}) {
@@ -83,8 +83,9 @@ TEST(Sleep, NotWhileSlidingOffSlowly) {
     }
 }
 
-// The same from a hundredth of a meter to ten kilometers, much closer to the angle of friction, standing there or dropped, with
-// every step and integrator: sleep changes no digit of what slides, and the way is that of mechanics.
+// The same from a hundredth of a meter to ten kilometers, much closer to the angle of friction, standing there or
+// dropped, with every step and integrator: sleep changes no digit of a slide, and the displacement is that of
+// mechanics.
 TEST(Sleep, NotWhileSlidingOffAtAnyScale) {
     const double tangent = 0.1, angle = arc_tangent(tangent);
     for (const double size : {0.01, 1.0, 300.0, 1e4})
@@ -109,7 +110,8 @@ TEST(Sleep, NotWhileSlidingOffAtAnyScale) {
                 }
 }
 
-// Balls on slopes that no eye sees: one rolls off from rest, 5/7 g sin(angle), one is thrown up and comes back. A stack slides as one.
+// Balls on invisibly small slopes: one rolls off from rest, 5/7 g sin(angle), one is thrown up and comes back. A stack
+// slides as one.
 TEST(Sleep, NotWhileRollingOffOrTurningBack) {
     for (const double slope : {1e-5, 1e-8})
         for (const double back : {0.0, 1.3}) {
@@ -137,7 +139,7 @@ TEST(Sleep, NotWhileRollingOffOrTurningBack) {
     }
 }
 
-// The lower box is hit away: the upper one, asleep on it, falls at once.
+// An impact removes the lower box: the upper one, asleep on it, falls at once.
 TEST(Sleep, FallsWhenItsSupportIsHitAway) {
     SceneDescription scene = stack(2, 0.0);
     scene.bodies[1].mass = 0.5;
@@ -152,7 +154,7 @@ TEST(Sleep, FallsWhenItsSupportIsHitAway) {
     EXPECT_GT(world.snapshot().bodies[1].center_of_mass.x(), 2.0);
 }
 
-// A shelf stands for two seconds and then is drawn away: what slept on it falls freely.
+// A shelf stands for two seconds and is then drawn away: bodies that slept on it fall freely.
 TEST(Sleep, FallsWhenItsShelfMovesOff) {
     for (const bool down : {false, true}) {
         SceneDescription scene = ground_scene(0.0, 0.0, 4);
@@ -167,14 +169,14 @@ TEST(Sleep, FallsWhenItsShelfMovesOff) {
         EXPECT_TRUE(all_asleep(world, 2, 2)) << down;
         EXPECT_NEAR(world.snapshot().bodies[2].center_of_mass.y(), 4.6, 1e-6);
         run(world, scene, 0.5);
-        // Down: free fall from 2 s on. Aside at 100 m/s: from when its middle is past the edge, 15 ms later.
+        // Down: free fall from 2 s on. Aside at 100 m/s: from the time when its middle is past the edge, 15 ms later.
         const double fall = 4.6 - 0.5 * 9.81 * 0.25;
         EXPECT_NEAR(world.snapshot().bodies[2].center_of_mass.y(), fall, down ? 0.02 : 0.1) << down;
     }
 }
 
-// A ball rolls by with a finger's breadth between: nobody wakes. The next one touches.
-TEST(Sleep, WakesWhenTouchedNotWhenPassed) {
+// A ball rolls by with a small gap: no body wakes. The next one touches.
+TEST(Sleep, WakesWhenTouchedAndNotWhenPassed) {
     for (const double miss : {0.001, -0.001}) {
         SceneDescription scene = stack(1, 0.0);
         BodyDescription& ball = add_sphere(scene, 0.4, {-10.0, 0.4, 0.5 + 0.4 + miss});
@@ -189,9 +191,9 @@ TEST(Sleep, WakesWhenTouchedNotWhenPassed) {
     }
 }
 
-// Heaps fall to rest with and without sleep: until the first sleeps both are the same to the last bit; then bodies stay
-// within what counts as rest (sim/contact/model/settings.h), since all that sleeps has stopped moving.
-TEST(Sleep, OnOrOffChangesNoPlaceByMoreThanATenthOfAMillimetre) {
+// Heaps fall to rest with and without sleep: until the first body sleeps both are the same to the last bit; then bodies
+// stay within the tolerance of rest (sim/contact/model/settings.h), because all sleeping bodies have stopped moving.
+TEST(Sleep, OnOrOffChangesNoPlaceByMoreThanATenthOfAMillimeter) {
     double most = 0.0;
     for (int trial = 0; trial < 4; ++trial) {
         Random random{std::uint64_t(trial)};
@@ -217,8 +219,8 @@ TEST(Sleep, OnOrOffChangesNoPlaceByMoreThanATenthOfAMillimetre) {
     RecordProperty("most", std::to_string(most));
 }
 
-// 10,000 boxes asleep on the floor and a ball that bounces beside and over them: its path is the one it has alone, bit by
-// bit, and nobody wakes.
+// 10,000 boxes asleep on the floor and a ball that bounces beside and over them: its path is the one that it has alone,
+// bit by bit, and no box wakes.
 TEST(Sleep, SleepersDoNotDisturbABall) {
     std::vector<Vec3> path;
     for (const int side : {1, 100}) {
@@ -241,8 +243,8 @@ TEST(Sleep, SleepersDoNotDisturbABall) {
     }
 }
 
-// What is looked at: of 10,000 sleepers none is in the list of the awake, and no pair of theirs but the ball's own.
-TEST(Sleep, SleepersAreNotLookedAt) {
+// Bodies visited: of 10,000 sleeping ones none is in the list of awake bodies, and no pair but those of the ball.
+TEST(Sleep, SleepersAreNotVisited) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     add_sphere(scene, 0.5, {3.0, 1.6, 3.0});
     for (int i = 0; i < 10000; ++i) add_box(scene, {1.0, 1.0, 1.0}, {1.01 * (i % 100), 0.5, 1.01 * (i / 100)});

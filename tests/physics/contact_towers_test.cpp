@@ -1,4 +1,4 @@
-// What should stand, stands: stacks, heavy on light, an arch, cards, hoops. All with default settings.
+// Stable structures stand: stacks, heavy on light, an arch, cards, hoops. All with default settings.
 #include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
@@ -24,7 +24,7 @@ void set_friction(SceneDescription& scene, double friction) {
     }
 }
 
-/// The largest distance of any body from where it was at first.
+/// The largest distance of any body from its initial place.
 double drift(const World& world, const SceneDescription& scene) {
     const Snapshot now = world.snapshot();
     double most = 0.0;
@@ -40,7 +40,7 @@ SceneDescription stack(int count, int steps) {
     return scene;
 }
 
-/// A wedge of an arch: a trapezium between chords of two circles, 1 m deep, its centre of mass at the origin.
+/// A wedge of an arch: a trapezoid between chords of two circles, 1 m deep, its center of mass at the origin.
 TriangleMesh stone(double inner_half, double outer_half, double low, double high) {
     TriangleMesh m = box_mesh({-1.0, -1.0, -0.5}, {1.0, 1.0, 0.5});
     for (Vec3& v : m.vertices) {
@@ -134,7 +134,7 @@ TEST(Towers, AHouseOfCardsStands) {
     EXPECT_LE(drift(world, scene), 0.02);
 }
 
-// Flat hoops of sixteen boxes each, one on the other, each turned against the one below.
+// Flat hoops of sixteen boxes each, one on the other, each rotated relative to the one below.
 TEST(Towers, FiveHoopsStand) {
     SceneDescription scene = floor_scene(0.5, 1);
     constexpr int pieces = 16;
@@ -171,7 +171,7 @@ TEST(Towers, BallsRollOnADraggedPlate) {
         force.end = std::numeric_limits<double>::infinity();
         scene.forces.push_back(force);
         World world(scene);
-        // The plate's push beyond what its floor takes, shared with the balls' two sevenths.
+        // The push on the plate beyond its floor's friction, shared with the balls' two sevenths.
         const double second = (150.0 - 0.4 * 35.0 * 9.81) / (3.5 * 10.0 + 25.0);
         double squared = 0.0;
         constexpr int steps = 1000;

@@ -1,4 +1,4 @@
-// Exact impacts where a scene lies elsewhere, and where its bodies are listed in another order: the same motion.
+// Exact impacts for a displaced scene, and for bodies listed in another order: the same motion.
 #include "exact_scenes.h"
 #include "sim/random_shapes.h"
 
@@ -16,7 +16,7 @@ namespace {
 enum class Kind { boxes, balls, mixed };
 enum class Layout { apart, heap, row, tower };
 
-// Eight bodies that fall on the ground, in a heap, in a tower, or run into each other in a row.
+// Eight bodies that fall on the ground, in a heap, in a tower, or collide with each other in a row.
 SceneDescription eight(Kind kind, Layout layout, double restitution, double friction) {
     Random random(std::uint64_t(100 * int(kind) + 10 * int(layout) + int(10.0 * restitution)));
     SceneDescription scene = ground_scene(restitution, friction);
@@ -64,7 +64,8 @@ std::vector<Snapshot> film(const SceneDescription& scene) {
     return frames;
 }
 
-// How far (m) any body's place, and its turn on an arm of 0.2 m, is ever from the other film's, which lies `way` away.
+// Largest difference (m) of any body's place, and of its rotation at an arm of 0.2 m, from the other film, which is
+// displaced by `way`.
 template <class Place>
 double apart(const std::vector<Snapshot>& one, const std::vector<Snapshot>& other, const Vec3& way, Place&& place) {
     double most = 0.0;
@@ -82,7 +83,8 @@ SceneDescription moved(SceneDescription scene, const Vec3& way) {
     return scene;
 }
 
-// Whether a picometre at the start is more than a micrometre within the second: the scene's own chaos, at one place and in one order.
+// Whether a picometer at the start becomes more than a micrometer within the second: the scene's own chaos, without
+// displacement or reordering.
 bool chaotic(const SceneDescription& scene, const std::vector<Snapshot>& film_of_it) {
     Random random(12);
     for (int trial = 0; trial < 3; ++trial) {
@@ -95,7 +97,7 @@ bool chaotic(const SceneDescription& scene, const std::vector<Snapshot>& film_of
 
 }  // namespace
 
-TEST(ExactFrame, AKilometreAwayTheMotionIsTheSame) {
+TEST(ExactFrame, AKilometerAwayTheMotionIsTheSame) {
     const Vec3 way(1000.0, 0.0, -700.0);
     const auto all = scenes();
     std::size_t steady = 0;
@@ -106,12 +108,12 @@ TEST(ExactFrame, AKilometreAwayTheMotionIsTheSame) {
         EXPECT_LE(apart(here, film(moved(scene, way)), way, same), 1e-6) << scene.title;
     }
     EXPECT_GT(steady, 0u);
-    if (all.size() >= 20) {   // debug builds take a few scenes only
+    if (all.size() >= 20) {   // debug builds run only a few scenes
         EXPECT_GE(10 * steady, 8 * all.size());
     }
 }
 
-TEST(ExactFrame, TheOrderOfTheBodiesIsOfNoAccount) {
+TEST(ExactFrame, TheOrderOfTheBodiesDoesNotMatter) {
     Random random(7);
     for (const SceneDescription& scene : scenes()) {
         const auto listed = film(scene);
@@ -130,8 +132,8 @@ TEST(ExactFrame, TheOrderOfTheBodiesIsOfNoAccount) {
     }
 }
 
-// Of bodies that lie far apart only one can be near the origin that the scene is computed from. A box that rattles down a kilometre
-// from it has gaps of a picometre at best, and still comes to rest as it does alone.
+// Of bodies far apart only one can be near the origin of the computation. A box that rattles down a kilometer from it
+// has gaps resolved to a picometer at best, and still comes to rest as it does alone.
 TEST(ExactFrame, ABoxFarFromTheOthersRattlesDownAsItDoesAlone) {
     Random random(3);
     for (const double restitution : {0.2, 0.4, 0.7})
@@ -152,8 +154,8 @@ TEST(ExactFrame, ABoxFarFromTheOthersRattlesDownAsItDoesAlone) {
         }
 }
 
-// Energies and momenta are the world's, wherever the scene is computed.
-TEST(ExactFrame, MeasuresAreTheWorlds) {
+// Energies and momenta are in the world's frame, whatever the frame of the computation.
+TEST(ExactFrame, MeasuresAreInTheWorldFrame) {
     SceneDescription scene = empty_scene(1);
     scene.simulation.gravity = Vec3(0.0, -9.81, 0.0);
     make_exact(scene);

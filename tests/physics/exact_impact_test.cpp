@@ -10,8 +10,8 @@ using namespace tumble::testing;
 
 namespace {
 
-// SimBenchmark "bouncing" (Kang and Hwangbo 2018): 49 spheres let go with their centres at 5 m; the mean over the steps of
-// (E - E0)^2, looked at before each step.
+// SimBenchmark "bouncing" (Kang and Hwangbo 2018): 49 spheres released with their centers at 5 m; the mean over the
+// steps of (E - E0)^2, sampled before each step.
 double bouncing_metric(const SceneDescription& scene, double duration) {
     World world(scene);
     const auto energy_now = [&] {
@@ -39,8 +39,9 @@ SceneDescription bouncing(int side, double rate) {
 
 }  // namespace
 
-// ODE's published column, to every digit printed; where its spheres sink into the ground by more than a radius, in steps of .1 and
-// .01 s, ours stop at it, and less energy is lost and won. All spheres do the same: 49 have 49^2 times the metric of one.
+// ODE's published column, to every digit printed. In steps of 0.1 and 0.01 s its spheres sink into the ground by more
+// than a radius; these stop at the ground and lose and gain less energy. All spheres move alike: 49 have 49^2 times the
+// metric of one.
 TEST(SimBenchmarkBouncing, SteppedIsThePublishedColumn) {
     const auto printed = [](double metric) { return fmt::format("{:.6g}", metric); };
     EXPECT_LT(bouncing_metric(bouncing(7, 10.0), 20.0), 2.03326e+06);
@@ -91,7 +92,7 @@ TEST(FlatBox, FollowsTheParabolasWithoutSpin) {
     }
 }
 
-// Boxes in any position bounce a hundred times: the energy stays within 1e-10 m g h, horizontal momentum stays nought.
+// Boxes in any orientation bounce a hundred times: the energy stays within 1e-10 m g h, horizontal momentum stays zero.
 TEST(TiltedBox, EnergyIsKeptOverAHundredImpacts) {
     Random random(3);
     const Vec3 sizes[] = {{1.0, 1.0, 1.0}, {1.0, 0.6, 0.2}, {0.1, 0.1, 2.0}, {1.0, 1.0, 0.02}};
@@ -121,9 +122,9 @@ TEST(TiltedBox, EnergyIsKeptOverAHundredImpacts) {
     }
 }
 
-// h = 5 m, e = 0.8: the hops shrink without end, and are over after t0 (1 + e) / (1 - e) = 9.086738 s. Each trial ends
-// its n-th step just before or just after.
-TEST(SettlingBall, RestsAtItsTimeWhateverTheStep) {
+// h = 5 m, e = 0.8: the hops shrink without limit, and end after t0 (1 + e) / (1 - e) = 9.086738 s. Each trial ends its
+// n-th step just before or just after.
+TEST(SettlingBall, RestsAtItsTimeAtAnyStep) {
     const double rest = time_of_rest(5.0, 0.8);
     EXPECT_NEAR(rest, 9.086738, 5e-7);
     for (const int steps : {1, 7, 273, 545, 2181, 8723}) {   // of 9 s to 1/960 s
@@ -161,7 +162,7 @@ TEST(SettlingBall, HeightIsTheClosedFormAtAnyStep) {
     }
 }
 
-// The way up and down: h (1 + e^2) / (1 - e^2) = 22.77778 m. At 5000 frames a second no hop longer than 1e-7 m hides
+// The path up and down: h (1 + e^2) / (1 - e^2) = 22.77778 m. At 5000 frames per second no hop longer than 1e-7 m hides
 // between two frames.
 TEST(SettlingBall, PathIsTheClosedForm) {
     const double rate = 5000.0;
@@ -187,7 +188,7 @@ TEST(SettlingBall, PathIsTheClosedForm) {
 
 namespace {
 
-// The velocities of balls of 1 kg and 0.5 m a while after the first has run into the others, in both modes.
+// The velocities of balls of 1 kg and 0.5 m some time after the first has hit the others, in both modes.
 void expect_outcome(const std::vector<Vec3>& places, double speed, ImpactLaw law, const std::vector<Vec3>& outcome) {
     for (const double rate : {3.0, 60.0, 960.0}) {
         SceneDescription scene = empty_scene(1);
@@ -216,14 +217,14 @@ std::vector<Vec3> along_x(const std::vector<double>& speeds) {
 
 }  // namespace
 
-TEST(Cradle, PropagatingHandsTheBlowOn) {
+TEST(Cradle, PropagatingTransmitsTheImpulse) {
     for (const double gap : {0.0, 0.3, 1.0}) {
         expect_outcome(row(3, gap), 3.0, ImpactLaw::propagating, along_x({0.0, 0.0, 1.0}));
         expect_outcome(row(5, gap), 3.0, ImpactLaw::propagating, along_x({0.0, 0.0, 0.0, 0.0, 1.0}));
     }
 }
 
-// Newton's law at all contacts at once: the others stay together and move off at 2 / n, the first keeps the distance.
+// Newton's law at all contacts at once: the others stay together and move off at 2 / n, the first keeps its distance.
 TEST(Cradle, SimultaneousIsNewtonsLaw) {
     for (const double gap : {0.0, 0.3, 1.0}) {
         expect_outcome(row(3, gap), 3.0, ImpactLaw::simultaneous, along_x({-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0}));
@@ -231,8 +232,8 @@ TEST(Cradle, SimultaneousIsNewtonsLaw) {
     }
 }
 
-// One ball on two that touch: v, at 30 degrees to each line of centres. With J = 2 v cos30 / (1 + 2 cos^2 30) for each, the
-// first comes back at v / 5 and the others part at 2 sqrt(3) / 5 v along their lines.
+// One ball on two that touch: v, at 30 degrees to each line of centers. With J = 2 v cos30 / (1 + 2 cos^2 30) for each,
+// the first rebounds at v / 5 and the others part at 2 sqrt(3) / 5 v along their lines.
 TEST(BernoullisThreeBalls, AreSymmetricUnderBothLaws) {
     const double c = 0.5 * std::sqrt(3.0), j = 2.0 * std::sqrt(3.0) / 5.0;
     const std::vector<Vec3> places{{-2.0 - c, 0.0, 0.0}, {0.0, 0.5, 0.0}, {0.0, -0.5, 0.0}};
@@ -240,7 +241,7 @@ TEST(BernoullisThreeBalls, AreSymmetricUnderBothLaws) {
     for (const ImpactLaw law : {ImpactLaw::propagating, ImpactLaw::simultaneous})
         for (const double speed : {1.0, 5.0, 1e-3}) {
             std::vector<Vec3> nearer = places;
-            nearer[0].x() = -c - speed;   // a second away
+            nearer[0].x() = -c - speed;   // one second away
             expect_outcome(nearer, speed, law, outcome);
         }
 }

@@ -1,4 +1,4 @@
-// Exact impacts against what mechanics keeps: momentum, energy, the way back in time, and what must not matter: the step,
+// Exact impacts against invariants of mechanics: momentum, energy, reversibility, and independence of the step and of
 // the threads.
 #include "exact_scenes.h"
 #include "sim/random_scenes.h"
@@ -11,7 +11,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// Spinning boxes, hulls and balls in a cell grid that fly at the middle, nothing else.
+// Spinning boxes, hulls and balls in a cell grid that fly towards the middle, without other bodies.
 SceneDescription swarm(Random& random, int bodies, double restitution, double speed) {
     SceneDescription scene = empty_scene(1);
     for (int i = 0; i < bodies; ++i) {
@@ -77,12 +77,12 @@ TEST(FreeSpace, InelasticSwarmKeepsMomentumAndLosesEnergy) {
             for (int frame = 0; frame < 120; ++frame) {
                 world.advance_frame();
                 const Measurement m = world.measure();
-                // Pushing out overlaps raises it, too: over twelve seeds by up to 5e-6 in a frame.
+                // The position correction raises it, too: over twelve seeds by up to 5e-6 in a frame.
                 ASSERT_LE(m.kinetic, before + (e > 0.0 ? 1e-12 : 1e-5) * start.kinetic) << e << " " << friction << " " << frame;
                 before = m.kinetic;
                 ASSERT_LE((m.momentum - start.momentum).norm(), 1e-11 * (1.0 + start.momentum.norm()));
-                // Bodies that stay together (e = 0, or friction) are stepped: pushing out their overlaps, and the substeps
-                // of contact, move the centres, and with them x cross P.
+                // Bodies that stay together (e = 0, or friction) are stepped: the position correction, and the substeps
+                // of contact, move the centers, and with them x cross P.
                 ASSERT_LE((m.angular_momentum - start.angular_momentum).norm(), (e > 0.0 && friction == 0.0 ? 1e-11 : 1e-2) * (1.0 + start.angular_momentum.norm()))
                     << e << " " << friction << " " << frame;
             }
@@ -91,7 +91,7 @@ TEST(FreeSpace, InelasticSwarmKeepsMomentumAndLosesEnergy) {
     }
 }
 
-// Where nothing rests, the step is only when the bodies are looked at.
+// Without resting bodies, the step only determines when the bodies are sampled.
 TEST(FreeSpace, StepsPerFrameDoNotMatter) {
     for (const std::uint64_t seed : {11, 12, 13}) {
         Snapshot ends[3];
@@ -127,7 +127,7 @@ TEST(FreeSpace, StepsPerFrameDoNotMatterUnderGravity) {
     EXPECT_LE(largest_difference(ends[0], ends[1]), 1e-9);
 }
 
-// Elastic impacts without friction have no direction of time: all velocities turned round lead back to the start.
+// Elastic impacts without friction are time-reversible: reversing all velocities leads back to the start.
 TEST(FreeSpace, ElasticMotionRunsBackwards) {
     for (const std::uint64_t seed : {21, 22, 23, 24}) {
         Random random(seed);
@@ -152,13 +152,13 @@ TEST(FreeSpace, ElasticMotionRunsBackwards) {
             error = std::max(error, (end.bodies[i].velocity + start.bodies[i].velocity).norm());
             error = std::max(error, end.bodies[i].orientation.angularDistance(start.bodies[i].orientation));
         }
-        EXPECT_LE(error, 1e-8) << seed;   // rounding, grown by the impacts' own instability
+        EXPECT_LE(error, 1e-8) << seed;   // rounding, amplified by the impacts' own instability
     }
 }
 
-// Heaps, with and without friction: energy never rises beyond what the resting solver's push-out lifts (measured: 7e-7 of
-// the scale at 4 steps a frame without restitution, 5e-6 with it; 7e-9 at 16). Overlaps are those of held bodies that meet
-// within a step: 1.5e-2, 8e-3 m at 4 steps a frame, 2e-3 at 16.
+// Heaps, with and without friction: energy never rises beyond the lift by the resting solver's position correction
+// (measured: 7e-7 of the scale at 4 steps per frame without restitution, 5e-6 with it; 7e-9 at 16). Overlaps are those
+// of bodies in contact that meet within a step: 1.5e-2, 8e-3 m at 4 steps per frame, 2e-3 at 16.
 TEST(Heap, EnergyNeverRises) {
     struct Kind {
         double restitution, friction, tolerance;
@@ -186,8 +186,8 @@ TEST(Heap, EnergyNeverRises) {
     }
 }
 
-// A needle of 1 : 1000 that falls on its tip comes to lie, whatever the step: it neither goes through the floor nor is thrown
-// back up by what a step's turn makes of its spin.
+// A needle of 1 : 1000 that falls on its tip comes to lie, at any step: it neither penetrates the floor nor is thrown
+// back up by the rotation error of a step.
 TEST(Needle, ComesToLieOnTheFloor) {
     for (const double rate : {30.0, 120.0, 480.0}) {
         for (const double angle : {0.8, 0.9, 1.0, 1.1}) {

@@ -1,4 +1,4 @@
-// What the tests of exact impacts share: scenes in either mode, the energy, closed forms of bouncing.
+// Shared by the tests of exact impacts: scenes in either mode, the energy, closed forms of bouncing.
 #pragma once
 
 #include "support/scenes.h"
@@ -7,7 +7,7 @@
 
 namespace tumble::testing {
 
-constexpr double gravity = 9.81;   // m/s^2, as the scenes have it by default
+constexpr double gravity = 9.81;   // m/s^2, the scenes' default
 
 /// Exact flights, and impacts at their own times.
 inline void make_exact(SceneDescription& scene) {
@@ -15,7 +15,7 @@ inline void make_exact(SceneDescription& scene) {
     scene.simulation.impacts = ImpactMode::exact;
 }
 
-/// Steps of h seconds, one a frame.
+/// Steps of h seconds, one per frame.
 inline void set_step(SceneDescription& scene, double rate) {
     scene.output.fps = rate;
     scene.simulation.steps_per_frame = 1;
@@ -34,12 +34,12 @@ inline double energy(const World& world) {
     return m.kinetic + m.potential;
 }
 
-/// Clearance (m) of a body let go at height h over the ground that keeps the share e of its speed at each bounce: a fall
-/// of t0 = sqrt(2 h / gravity), then hops of 2 t0 e, 2 t0 e^2, ..., which end at t0 (1 + e) / (1 - e).
+/// Clearance (m) of a body released at height h over the ground that keeps the fraction e of its speed at each bounce:
+/// a fall of t0 = sqrt(2 h / gravity), then hops of 2 t0 e, 2 t0 e^2, ..., which end at t0 (1 + e) / (1 - e).
 inline double bouncing_clearance(double h, double e, double t) {
     double speed = std::sqrt(2.0 * gravity * h), start = std::sqrt(2.0 * h / gravity);
     if (t < start) return h - 0.5 * gravity * t * t;
-    if (e == 1.0) {   // all hops are alike: nothing to sum up
+    if (e == 1.0) {   // all hops are equal: no sum is needed
         const double hop = 2.0 * start, s = std::fmod(t - start, hop);
         return speed * s - 0.5 * gravity * s * s;
     }

@@ -1,4 +1,4 @@
-// Forces over spans of time: whatever the span, the step and the mode, the impulse given is the force times the span.
+// Forces over spans of time: for any span, step and mode, the impulse is the force times the span.
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,8 @@ ForceDescription& push(SceneDescription& scene, std::size_t body, const Vec3& fo
     return scene.forces.emplace_back(f);
 }
 
-// Within one step, across a boundary, whole steps, many steps, longer than a frame; first and second: start and span, s.
+// Within one step, across a boundary, whole steps, many steps, longer than a frame; first and second: start and span,
+// s.
 constexpr std::array<std::pair<double, double>, 8> spans = {{{0.0101, 4e-4}, {0.0166, 4e-4}, {0.0, 4e-4}, {1.0 / 60.0, 4e-4},
                                                              {0.0301, 5e-3}, {0.05, 0.05}, {0.0333, 0.1234}, {0.07, 1e-9}}};
 
@@ -67,7 +68,7 @@ TEST(ForceSpan, GivesItsImpulseInFlight) {
             push(scene, 0, Vec3(0.6, 0.8, 0.0) * impulse / span, start, span);
             World world(scene);
             run(world, scene, 0.2);
-            const double rounding = 1e-13 + 1e-17 / span;   // of the span's own ends
+            const double rounding = 1e-13 + 1e-17 / span;   // of the ends of the span
             expect_velocity(world, 0, Vec3(0.6, 0.8, 0.0), rounding, text(mode) + " " + std::to_string(start));
         }
 }
@@ -85,7 +86,7 @@ TEST(ForceSpan, GivesItsImpulseOnAFloor) {
         }
 }
 
-// Against friction: v = J/m - mu g t, whatever the step. Between the blow and the step's end lies less than a step.
+// Against friction: v = J/m - mu g t, at any step. Between the force and the step's end lies less than a step.
 TEST(ForceSpan, GivesItsImpulseAgainstFriction) {
     for (const Mode& mode : modes()) {
         SceneDescription scene = ground_scene(0.0, 0.1);
@@ -98,7 +99,7 @@ TEST(ForceSpan, GivesItsImpulseAgainstFriction) {
     }
 }
 
-// A blow that lies within one step wakes a sleeping stack.
+// A brief force within one step wakes a sleeping stack.
 TEST(ForceSpan, WakesASleeper) {
     for (const Mode& mode : modes()) {
         SceneDescription scene = ground_scene(0.0, 0.0);
@@ -113,7 +114,7 @@ TEST(ForceSpan, WakesASleeper) {
     }
 }
 
-// Several that overlap, one for ever, in one step and in others.
+// Several that overlap, one without end, in one step and in others.
 TEST(ForceSpan, SeveralAddUp) {
     for (const Mode& mode : modes()) {
         SceneDescription scene = empty_scene();
@@ -130,11 +131,12 @@ TEST(ForceSpan, SeveralAddUp) {
     }
 }
 
-// At a point of a body that spins: the force's moment is that of the place where the point then is; so is a force that turns along.
-// By 1/3 rad in a step of a frame: at the step's beginning both would be off by a quarter.
-TEST(ForceSpan, ActsWhereTheBodyThenIs) {
+// At a point of a spinning body: the force's moment is that of the point's place at its time; so is a force that
+// rotates with it. By 1/3 rad in a step of a frame: evaluated at the step's start both would be off by a quarter.
+TEST(ForceSpan, ActsAtThePlaceOfItsTime) {
     for (const Mode& mode : modes()) {
-        if (mode.integrator == IntegratorKind::explicit_euler) continue;   // its turns are tangents: 1/80 rad a step too little
+        // its rotations are tangents: 1/80 rad per step too little
+        if (mode.integrator == IntegratorKind::explicit_euler) continue;
         const double spin = 20.0, start = 0.0141, span = 4e-4, middle = start + 0.5 * span;
         for (const bool turns : {false, true}) {
             SceneDescription scene = empty_scene();
@@ -150,7 +152,8 @@ TEST(ForceSpan, ActsWhereTheBodyThenIs) {
             const Vec3 force = turns ? Vec3(c, s, 0.0) * j : Vec3(j, 0.0, 0.0);
             const Vec3 arm = turns ? Vec3(0.0, 0.0, 0.4) : Vec3(0.4 * c, 0.4 * s, 0.0);
             const Measurement after = world.measure();
-            // About the center of mass; the turn during the span itself, 8e-3 rad and what the force adds, is second order.
+            // About the center of mass; the rotation during the span itself, 8e-3 rad plus the force's contribution, is
+            // of second order.
             const Vec3 at = world.snapshot().bodies[0].center_of_mass;
             const Vec3 spin_change = after.angular_momentum - at.cross(after.momentum) - before;
             EXPECT_LT((after.momentum - force).norm(), 3e-4) << text(mode) << turns;
@@ -159,7 +162,8 @@ TEST(ForceSpan, ActsWhereTheBodyThenIs) {
     }
 }
 
-// A ball that bounces at speed stops in its steps where it touches. A force along the frictionless floor goes on meanwhile.
+// A fast bouncing ball is clamped in the steps of its bounces. A force along the frictionless floor continues
+// meanwhile.
 TEST(ForceSpan, GivesItsImpulseAcrossBounces) {
     for (const Mode& mode : modes()) {
         SceneDescription scene = ground_scene(0.8, 0.0);
@@ -177,8 +181,8 @@ TEST(ForceSpan, GivesItsImpulseAcrossBounces) {
     }
 }
 
-// Upward in the step of the bounce: the bounce does not take it back. 1 m/s more than without.
-TEST(ForceSpan, ABounceDoesNotTakeItBack) {
+// Upward in the step of the bounce: the bounce does not cancel it. 1 m/s more than without.
+TEST(ForceSpan, ABounceDoesNotCancelIt) {
     for (const Mode& mode : modes()) {
         double speeds[2];
         for (const bool pushed : {false, true}) {
@@ -196,15 +200,15 @@ TEST(ForceSpan, ABounceDoesNotTakeItBack) {
     }
 }
 
-// Struck in the step of its force, before it and after it: the two together have the whole impulse.
-TEST(ForceSpan, GivesItsImpulseToABodyThatIsStruckInTheStep) {
+// Hit in the step of its force, before it and after it: the two together have the whole impulse.
+TEST(ForceSpan, GivesItsImpulseToABodyThatIsHitInTheStep) {
     for (const Mode& mode : modes())
         for (const double start : {0.0021, 0.0061, 0.0114}) {
             SceneDescription scene = empty_scene();
             set(scene, mode);
             add_box(scene, {1.0, 1.0, 1.0}, Vec3::Zero(), mass).restitution = 0.7;
             BodyDescription& ball = add_sphere(scene, 0.2, {-0.72, 0.1, 0.0}, 1.0);
-            ball.velocity = Vec3(2.0, 0.3, 0.0);   // there after 10 ms
+            ball.velocity = Vec3(2.0, 0.3, 0.0);   // arrives after 10 ms
             ball.restitution = 0.7;
             push(scene, 0, Vec3(0.0, impulse / 4e-4, 0.5 * impulse / 4e-4), start, 4e-4);
             push(scene, 0, Vec3(0.0, 0.0, 1.0), 0.0, 0.1);
@@ -215,8 +219,8 @@ TEST(ForceSpan, GivesItsImpulseToABodyThatIsStruckInTheStep) {
         }
 }
 
-// A box that stands on a slippery floor is struck from below and freed in the step in which it is pushed: that acts once.
-TEST(ForceSpan, ActsOnceOnABodyThatIsFreedInTheStep) {
+// A box on a frictionless floor is hit from below and released in the step of a push: the push acts once.
+TEST(ForceSpan, ActsOnceOnABodyThatIsReleasedInTheStep) {
     for (const Mode& mode : modes())
         for (const double start : {0.1021, 0.1114}) {
             SceneDescription scene = ground_scene(0.0, 0.0);

@@ -20,7 +20,7 @@ SceneDescription falling(IntegratorKind integrator, RotationForm form, int steps
     return scene;
 }
 
-// A spinning prism, I = diag(i1, i1, i3), tilted and turning about an axis that is not its own.
+// A spinning prism, I = diag(i1, i1, i3), tilted and rotating about an axis that is not a principal one.
 SceneDescription top(IntegratorKind integrator, RotationForm form, int steps_per_frame) {
     SceneDescription scene = empty_scene(steps_per_frame);
     scene.simulation.integrator = integrator;
@@ -79,8 +79,8 @@ TEST(FreeRotation, AngularMomentumStaysToTheLastBitAndRotationsStayRotations) {
     }
 }
 
-// A symmetric top precesses about L at |L| / I1 (Landau and Lifshitz, "Mechanics", section 33). Explicit Euler turns by the
-// tangent, to first order; symplectic Euler by the mean angular velocity, to third.
+// A symmetric top precesses about L at |L| / I1 (Landau and Lifshitz, "Mechanics", section 33). Explicit Euler rotates
+// by the tangent, to first order; symplectic Euler by the mean angular velocity, to third.
 TEST(FreeRotation, SymmetricTopPrecessesAtTheClosedFormRate) {
     for (const auto integrator : {IntegratorKind::explicit_euler, IntegratorKind::symplectic_euler}) {
         for (const auto form : {RotationForm::quaternion, RotationForm::matrix}) {
@@ -102,9 +102,9 @@ TEST(FreeRotation, SymmetricTopPrecessesAtTheClosedFormRate) {
     }
 }
 
-// About a principal axis nothing changes but the angle. A step of explicit Euler advances it by 2 atan(h w / 2), or atan(h w);
+// About a principal axis only the angle changes. A step of explicit Euler advances it by 2 atan(h w / 2), or atan(h w);
 // symplectic Euler by h w.
-TEST(FreeRotation, OneStepTurnsByTheAngleOfItsForm) {
+TEST(FreeRotation, OneStepRotatesByTheAngleOfItsForm) {
     for (const auto integrator : {IntegratorKind::explicit_euler, IntegratorKind::symplectic_euler})
         for (const auto form : {RotationForm::quaternion, RotationForm::matrix}) {
             SceneDescription scene = empty_scene(1);
@@ -121,7 +121,7 @@ TEST(FreeRotation, OneStepTurnsByTheAngleOfItsForm) {
         }
 }
 
-// The notes' reason for symplectic Euler: on an orbit-like motion (here wind-free, a spinning asymmetric body) explicit
+// The notes' reason for symplectic Euler: for free rotation (here a spinning asymmetric body without wind) explicit
 // Euler gains kinetic energy steadily.
 TEST(FreeRotation, ExplicitEulerDriftsMoreThanSymplecticEuler) {
     double gain[2];
@@ -150,17 +150,17 @@ TEST(PointForce, GivesTorqueDuringItsSpan) {
     const Measurement m = world.measure();
     EXPECT_NEAR(m.momentum.z(), 1e-3, 1e-12);
     const Vec3 spin = m.angular_momentum - world.snapshot().bodies[0].center_of_mass.cross(m.momentum);
-    EXPECT_NEAR(spin.y(), -0.5e-3, 1e-6);   // the arm turns a little while the force stays
+    EXPECT_NEAR(spin.y(), -0.5e-3, 1e-6);   // the arm rotates a little while the force stays
 }
 
-TEST(PointForce, BodyFrameForceTurnsWithTheBody) {
+TEST(PointForce, BodyFrameForceRotatesWithTheBody) {
     SceneDescription scene = empty_scene(16);
     BodyDescription& body = add_sphere(scene, 0.5, Vec3::Zero(), 2.0);
-    body.angular_velocity = Vec3(0.0, 2.0 * pi, 0.0);   // one turn a second
+    body.angular_velocity = Vec3(0.0, 2.0 * pi, 0.0);   // one revolution per second
     scene.forces.push_back({0, Vec3::Zero(), Vec3(4.0, 0.0, 0.0), true, 0.0, 1.0});
     World world(scene);
     run(world, scene, 1.0);
-    EXPECT_LT(world.measure().momentum.norm(), 0.02);   // a whole turn pushes nowhere; h-order remainder
+    EXPECT_LT(world.measure().momentum.norm(), 0.02);   // a whole revolution cancels; remainder of order h
 }
 
 // Quadratic drag: v(t) = v_t tanh(g t / v_t), v_t = sqrt(2 m g / (rho C_d A)).

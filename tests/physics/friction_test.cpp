@@ -62,7 +62,7 @@ TEST(Friction, SphereGoesFromSlidingToRolling) {
     EXPECT_NEAR(b.angular_velocity.z(), -10.0, 2e-3);
 }
 
-// Without friction nothing turns and nothing slows.
+// Without friction nothing rotates and nothing slows.
 TEST(Friction, NoneMeansNone) {
     SceneDescription scene = ground_scene(0.0, 0.0);
     BodyDescription& box = add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5, 0.0});
@@ -75,7 +75,7 @@ TEST(Friction, NoneMeansNone) {
     EXPECT_LT(b.angular_velocity.norm(), 1e-12);
 }
 
-// The friction of a bounce is bounded by the collision's impulse: a dropped spinning ball gains mu (1 + e) v at most.
+// The friction of a bounce is bounded by the impact's impulse: a dropped spinning ball gains mu (1 + e) v at most.
 TEST(Friction, BounceOfASpinningBall) {
     SceneDescription scene = ground_scene(0.5, 0.2, 64);
     BodyDescription& ball = add_sphere(scene, 0.5, {0.0, 1.5, 0.0});
@@ -87,15 +87,16 @@ TEST(Friction, BounceOfASpinningBall) {
     EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 0.2 * 1.5 * landing, 0.02 * landing);
 }
 
-// What slides and spins has less friction against either, and ends both at about the same time: each bit of a plate's face, under
-// even pressure, rubs against its own slip. Were there friction enough for both, a spin would change nothing of the slide.
+// A body that slides and spins has less friction against either, and ends both at about the same time: each element of
+// a plate's face, under uniform pressure, has friction against its own slip. With enough friction for both, a spin
+// would not change the slide.
 TEST(Friction, SlidingAndSpinningShareIt) {
     const double mu = 0.2, side = 0.4, inertia = side * side / 6.0, dt = 1e-3;   // of the unit mass
     struct Case {
         double speed, spin;   // m/s, rad/s
     };
     for (const Case& start : {Case{3.0, 20.0}, Case{3.0, 5.0}, Case{1.0, 30.0}, Case{1.0, 10.0}}) {
-        // The reference: bits at (x, z), turned; v and w by the forces -mu g u / |u|, over all bits.
+        // The reference: elements at (x, z), rotated; v and w by the forces -mu g u / |u|, over all elements.
         double v = start.speed, w = start.spin, angle = 0.0, way = 0.0, time = 0.0;
         for (; v > 0.02 || w > 0.2; time += dt) {
             double force = 0.0, torque = 0.0;
@@ -115,7 +116,7 @@ TEST(Friction, SlidingAndSpinningShareIt) {
         }
         for (const auto solver : {ContactSolverChoice::by_island, ContactSolverChoice::soft, ContactSolverChoice::direct})
             for (const int steps : {1, 4, 16}) {
-                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // turns too far in a step for one solve
+                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // rotates too far in a step for one solve
                 SceneDescription scene = ground_scene(0.0, mu, steps);
                 scene.simulation.contact_solver = solver;
                 BodyDescription& plate = add_box(scene, {side, 0.01, side}, {0.0, 0.005, 0.0});
@@ -123,13 +124,13 @@ TEST(Friction, SlidingAndSpinningShareIt) {
                 plate.velocity = {start.speed, 0.0, 0.0};
                 plate.angular_velocity = {0.0, start.spin, 0.0};
                 World world(scene);
-                int sliding = 0;   // frames
+                int sliding = 0;   // number of frames
                 for (int frame = 1; frame < 180; ++frame) {
                     world.advance_frame();
                     if (world.snapshot().bodies[1].velocity.norm() > 0.02) sliding = frame;
                 }
                 const Vec3 x = world.snapshot().bodies[1].center_of_mass;
-                // With one ellipsoid for all ratios of spin to slip the ways are up to 16 % too short.
+                // With one ellipsoid for all ratios of spin to slip the displacements are up to 16 % too short.
                 EXPECT_NEAR(x.x(), way, 0.02 * way + start.speed / (60.0 * steps)) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
                 EXPECT_NEAR(x.z(), 0.0, 0.02 * way) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
                 EXPECT_NEAR(sliding / 60.0, time, 0.12 * time) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;

@@ -1,5 +1,5 @@
-// Bad and hard input for impacts: extreme speeds, spins, masses, shapes, places and scales. In every case the state stays
-// finite, the run ends, nothing passes through the ground, and momentum is kept where nothing external acts.
+// Bad and hard input for impacts: extreme speeds, spins, masses, shapes, places and scales. In every case the state
+// stays finite, the run ends, nothing passes through the ground, and momentum is kept where nothing external acts.
 #include "exact_scenes.h"
 #include "sim/ccd/trajectory.h"
 #include "sim/random_shapes.h"
@@ -30,7 +30,7 @@ struct Encounter {
     Vec3 shape = Vec3(1.0, 1.0, 1.0);
 };
 
-// Returns the largest overlap seen, in sizes.
+// Returns the largest overlap that occurred, in sizes.
 double meet(const Encounter& e, double energy_tolerance, double momentum_tolerance) {
     SceneDescription scene = empty_scene(4);
     set_step(scene, std::max(1.0, 10.0 * e.speed / e.size));
@@ -53,9 +53,9 @@ double meet(const Encounter& e, double energy_tolerance, double momentum_toleran
         overlap = std::max(overlap, world.measure().max_penetration / e.size);
         const Measurement m = world.measure();
         EXPECT_LE((m.momentum - start.momentum).norm(), momentum_tolerance * momentum);
-        // What stays together is stepped, and its overlaps are pushed out: x cross P changes with the centres.
-        // Stuck together for a while they are stepped: pushing out what a step of 1/20 s turns into each other moves the
-        // centres (measured 1.3e-6 of the scale).
+        // Bodies that stay together for a while are stepped, and the position correction removes the overlap that
+        // rotation in a step of 1/20 s makes. It moves the centers, and with them x cross P (measured 1.3e-6 of the
+        // scale).
         const double angular_tolerance = e.restitution > 0.0 ? std::max(1e-5, momentum_tolerance) : 0.05;
         EXPECT_LE((m.angular_momentum - start.angular_momentum).norm(), angular_tolerance * angular);
         EXPECT_LE(m.kinetic, start.kinetic * (1.0 + energy_tolerance));
@@ -66,7 +66,7 @@ double meet(const Encounter& e, double energy_tolerance, double momentum_toleran
 
 }  // namespace
 
-TEST(HardInput, SpeedsOfANanometreAndAMillionMetresASecond) {
+TEST(HardInput, SpeedsOfANanometerAndAMillionMetersPerSecond) {
     for (const bool boxes : {false, true})
         for (const double speed : {1e-9, 1e-6, 1e-3, 1e3, 1e6})
             for (const double offset : {0.0, 0.2, 0.4})
@@ -80,7 +80,7 @@ TEST(HardInput, SpeedsOfANanometreAndAMillionMetresASecond) {
                 }
 }
 
-// Passing at the very distance of a touch, a little more or less; from a touch and along it.
+// Passing at exactly the distance of a touch, a little more or less; starting from a touch and along it.
 TEST(HardInput, GrazingEncounters) {
     for (const bool boxes : {false, true})
         for (const double speed : {1.0, 100.0})
@@ -112,7 +112,7 @@ TEST(HardInput, TouchingAndOverlappingStarts) {
                 }
 }
 
-// Nothing moves: nothing happens, for ever.
+// Without motion nothing ever happens.
 TEST(HardInput, TouchingAtRestInFreeSpace) {
     for (const bool exact : {true, false}) {
         SceneDescription scene = empty_scene(4);
@@ -143,7 +143,7 @@ TEST(HardInput, MassesOfOneToAHundredMillion) {
                 }
 }
 
-// A light ball between a heavy one that comes and a wall: some 15,000 blows of the light one in exact arithmetic.
+// A light ball between an approaching heavy one and a wall: some 15,000 impacts of the light one in exact arithmetic.
 TEST(HardInput, LightBallBetweenAHeavyOneAndAWall) {
     for (const double ratio : {1e2, 1e4, 1e6}) {
         SceneDescription scene = empty_scene(1);
@@ -157,7 +157,7 @@ TEST(HardInput, LightBallBetweenAHeavyOneAndAWall) {
         const double start = energy(world);
         run(world, scene, 8.0);
         EXPECT_NEAR(energy(world) / start, 1.0, 1e-10) << ratio;
-        // The two go off together: the last blow leaves the light one no faster than the heavy one.
+        // The two leave together: after the last impact the light one is no faster than the heavy one.
         EXPECT_GT(world.snapshot().bodies[2].velocity.x(), 0.9) << ratio;
         EXPECT_LE(world.snapshot().bodies[1].velocity.x(), world.snapshot().bodies[2].velocity.x() + 1e-9) << ratio;
         EXPECT_GT(world.snapshot().bodies[1].center_of_mass.x(), 0.5) << ratio;
@@ -179,8 +179,8 @@ TEST(HardInput, NeedlesAndPlates) {
                 }
 }
 
-// What the search for impacts relies on: |omega| and |omega|^2 + |alpha| never exceed their bounds, and those are not
-// looser than tenfold, also for needles.
+// Precondition of the search for impacts: |omega| and |omega|^2 + |alpha| never exceed their bounds, and those are at
+// most ten times too large, also for needles.
 TEST(HardInput, BoundsOfFreeRotation) {
     Random random(31);
     for (int trial = 0; trial < trials(300); ++trial) {
@@ -203,7 +203,7 @@ TEST(HardInput, BoundsOfFreeRotation) {
     }
 }
 
-TEST(HardInput, SpinsOfTenThousandRadiansASecond) {
+TEST(HardInput, SpinsOfTenThousandRadiansPerSecond) {
     for (const double e : {0.0, 0.5, 1.0})
         for (const double offset : {0.0, 0.1, 0.3}) {
             Encounter c;
@@ -214,8 +214,8 @@ TEST(HardInput, SpinsOfTenThousandRadiansASecond) {
         }
 }
 
-// Far from the origin a place is known to 1e-11 m only: the impacts are as good as that.
-TEST(HardInput, AHundredKilometresFromTheOrigin) {
+// Far from the origin a place is known only to 1e-11 m, which limits the accuracy of the impacts.
+TEST(HardInput, AHundredKilometersFromTheOrigin) {
     for (const bool exact : {true, false})
         for (const bool boxes : {false, true})
             for (const double e : {0.5, 1.0}) {
@@ -229,7 +229,7 @@ TEST(HardInput, AHundredKilometresFromTheOrigin) {
             }
 }
 
-// The same scene in millimetres and kilometres, times in proportion: the same numbers.
+// The same scene in millimeters and kilometers, times in proportion: the same numbers.
 TEST(HardInput, ScenesOfAnyScale) {
     Snapshot ends[3];
     const double scales[] = {1.0, 1e-3, 1e3};

@@ -1,4 +1,4 @@
-// Collisions: eq. 20 on random pairs, bounces, rows of balls, boxes that land flat.
+// Impacts: eq. 20 on random pairs, bounces, rows of balls, boxes that land flat.
 #include "sim/impact/impacts.h"
 #include "support/scenes.h"
 
@@ -50,8 +50,8 @@ double largest_energy_error(World& world, int frames) {
 
 }  // namespace
 
-// The impulse j of eq. 20, by either law. So v_rel+ = -e v_rel- (eq. 14), P and L are kept in sum, and the kinetic energy
-// falls by (1 - e^2) v_rel^2 / 2k with k the bracket of eq. 20.
+// The impulse j of eq. 20, by either law. So v_rel+ = -e v_rel- (eq. 14), P and L are kept in sum, and the kinetic
+// energy falls by (1 - e^2) v_rel^2 / 2k with k the bracket of eq. 20.
 TEST(Impulse, RandomPairsObeyTheNotes) {
     Random random;
     for (int trial = 0; trial < 500; ++trial) {
@@ -91,8 +91,8 @@ TEST(Impulse, RandomPairsObeyTheNotes) {
     }
 }
 
-// SimBenchmark "bouncing" (see ../shared/pitfalls.md): from 5 m, e = 1. The stepped bounce retraces its own fall, so the
-// energy error never accumulates: it stays that of one step, g h v.
+// SimBenchmark "bouncing" (see ../shared/pitfalls.md): from 5 m, e = 1. The stepped bounce retraces its own fall, so
+// the energy error never accumulates: it stays that of one step, g h v.
 TEST(Bounce, ElasticBallRetracesItsFall) {
     SceneDescription scene = ground_scene(1.0, 0.0);
     add_sphere(scene, 0.1, {0.0, 5.0, 0.0}, 10.0).restitution = 1.0;
@@ -101,8 +101,9 @@ TEST(Bounce, ElasticBallRetracesItsFall) {
     EXPECT_LT(largest_energy_error(world, 1200), one_step);
 }
 
-// From a ceiling, too, it goes with the speed it bounced with: gravity, which would help it, is as much too early there.
-TEST(Bounce, ElasticBallRetracesItsWayFromTheCeiling) {
+// From a ceiling, too, it leaves at its bounce speed: gravity, which would accelerate it, would act too early there as
+// well.
+TEST(Bounce, ElasticBallRetracesItsPathFromTheCeiling) {
     SceneDescription scene = ground_scene(1.0, 0.0);
     BodyDescription& ceiling = add_body(scene, PlaneShape{-Vec3::UnitY(), -2.0}, Vec3::Zero());
     ceiling.type = BodyType::fixed;
@@ -115,11 +116,11 @@ TEST(Bounce, ElasticBallRetracesItsWayFromTheCeiling) {
     EXPECT_LT(largest_energy_error(world, 1200), one_step);
 }
 
-// Height after a bounce: e^2 times the drop (from the lowest point of the ball), within what a step can resolve.
+// Height after a bounce: e^2 times the drop (from the lowest point of the ball), within the resolution of a step.
 TEST(Bounce, HeightsFollowRestitution) {
     for (const double e : {0.3, 0.5, 0.8}) {
         SceneDescription scene = ground_scene(e, 0.0, 64);
-        add_sphere(scene, 0.2, {0.0, 2.2, 0.0}).restitution = 0.1;   // the pair takes the larger
+        add_sphere(scene, 0.2, {0.0, 2.2, 0.0}).restitution = 0.1;   // the pair uses the larger restitution
         World world(scene);
         double top = 0.0;
         bool rising = false;
@@ -153,8 +154,8 @@ TEST(Bounce, FixedAndKinematicBodiesAreWalls) {
     }
 }
 
-// A row of touching balls, e = 1: the impulse is handed on (a real cradle), momentum and energy kept.
-TEST(Row, CradleHandsTheImpulseOn) {
+// A row of touching balls, e = 1: the impulse is transmitted (a real cradle), momentum and energy kept.
+TEST(Row, CradleTransmitsTheImpulse) {
     for (const int incoming : {1, 2}) {
         SceneDescription scene = empty_scene(16);
         for (int i = 0; i < 5; ++i) {
@@ -204,8 +205,8 @@ TEST(TiltedBox, ElasticBouncesNeitherGainNorLose) {
     EXPECT_LT(largest_energy_error(world, 600), 0.01 * 9.81 * 2.5);
 }
 
-// At one step a frame it is stopped in nearly every step in which it meets a wall, halfway through its turn: as free rotation has
-// turned it there.
+// At one step per frame it is clamped in nearly every step with an impact, halfway through its rotation: with the
+// orientation of free rotation there.
 TEST(TiltedBox, WhirlingInARoomWithoutGravityKeepsItsEnergy) {
     SceneDescription scene = empty_scene(1);
     for (const Vec3& normal : {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0), Vec3(0.0, 0.0, 1.0)})
@@ -223,8 +224,8 @@ TEST(TiltedBox, WhirlingInARoomWithoutGravityKeepsItsEnergy) {
     EXPECT_LT(largest_energy_error(world, 1200), 5e-3 * energy);
 }
 
-// Corners that strike while the box whirls: a step with a bounce turns it as a free one does. By the tangent it would add to its
-// spin in every bounce.
+// Corners with impacts while the box whirls: a step with a bounce rotates it as a free one does. Rotation by the
+// tangent would add to its spin in every bounce.
 TEST(TiltedBox, WhirlingElasticBouncesGainNothing) {
     Random random;
     for (int trial = 0; trial < 8; ++trial) {

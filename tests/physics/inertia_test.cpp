@@ -1,4 +1,4 @@
-// Masses, centres of mass and inertia tensors against their formulas.
+// Masses, centers of mass and inertia tensors against their formulas.
 #include "sim/math/mass_properties.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
@@ -22,7 +22,7 @@ TEST(Inertia, BoxAndSphere) {
     EXPECT_NEAR(sphere.inertia(2, 2), 0.4 * sphere.mass * 0.25, 1e-12);
 }
 
-// The mesh integrals of a box are the box's, wherever its origin is.
+// The mesh integrals of a box equal the box formulas, for any origin.
 TEST(Inertia, MeshOfABoxFarFromItsOrigin) {
     const Vec3 low(100.0, -50.0, 7.0), size(1.0, 2.0, 3.0);
     const MassProperties mesh = mesh_mass(box_mesh(low, low + size), 500.0), box = box_mass(size, 500.0);
@@ -31,7 +31,7 @@ TEST(Inertia, MeshOfABoxFarFromItsOrigin) {
     EXPECT_LT((mesh.inertia - box.inertia).norm(), 1e-8);
 }
 
-// Tetrahedron (0, a e_x, b e_y, c e_z): V = abc/6, centre (a, b, c)/4, I_xx = m 3/80 (b^2 + c^2), I_xy = m ab/80.
+// Tetrahedron (0, a e_x, b e_y, c e_z): V = abc/6, center (a, b, c)/4, I_xx = m 3/80 (b^2 + c^2), I_xy = m ab/80.
 TEST(Inertia, RightTetrahedron) {
     const double a = 1.0, b = 2.0, c = 3.0;
     const MassProperties t = mesh_mass(tetrahedron(Vec3::Zero(), {a, 0, 0}, {0, b, 0}, {0, 0, c}), 2.0);
@@ -42,8 +42,8 @@ TEST(Inertia, RightTetrahedron) {
     EXPECT_NEAR(t.inertia(0, 1), t.mass * a * b / 80.0, 1e-13);
 }
 
-// A mesh whose centre of mass is not its origin turns about the centre of mass.
-TEST(Inertia, BodyWithOffsetOriginTurnsAboutItsCentreOfMass) {
+// A mesh with an offset origin rotates about its center of mass.
+TEST(Inertia, BodyWithOffsetOriginRotatesAboutItsCenterOfMass) {
     SceneDescription scene = empty_scene(16);
     BodyDescription& body = add_body(scene, MeshShape{asset_of(box_mesh({1.0, 0.0, 0.0}, {3.0, 1.0, 1.0}))}, {5.0, 0.0, 0.0});
     body.angular_velocity = Vec3(0.0, 0.0, 1.0);
@@ -77,7 +77,7 @@ Mat3 tensor_of(const PrincipalInertia& p) {
 
 TEST(PrincipalInertia, RebuildsTheTensor) {
     for (int i = 1; i <= 2000; ++i) {
-        // Axes all over, moments of matter from spheres to needles.
+        // Random axes, moments of matter from spheres to needles.
         const Quat axes = turn({std::sin(1.0 * i), std::cos(2.3 * i), std::sin(0.7 * i + 1.0)}, 0.37 * i);
         const double thin = std::pow(10.0, -(i % 7));
         const Vec3 size(1.0, i % 3 == 0 ? 1.0 : 0.3 + thin, thin);
@@ -103,14 +103,14 @@ TEST(PrincipalInertia, DiagonalTensorsKeepTheirAxes) {
     }
 }
 
-TEST(PrincipalInertia, EqualWhereTheShapeMakesThemSo) {
+TEST(PrincipalInertia, EqualForSymmetricShapes) {
     const Vec3 ball = principal_inertia(sphere_mass(0.37, 911.0).inertia).moments;
     EXPECT_TRUE(ball.x() == ball.y() && ball.y() == ball.z());
     const Vec3 cube = principal_inertia(box_mass({0.3, 0.3, 0.3}, 700.0).inertia).moments;
     EXPECT_TRUE(cube.x() == cube.y() && cube.y() == cube.z());
     const Vec3 rod = principal_inertia(box_mass({0.3, 0.7, 0.3}, 700.0).inertia).moments;
     EXPECT_TRUE(rod.x() == rod.z() && rod.x() > rod.y());
-    // Meshes, whose integrals round: a cube far from its origin, an icosahedron.
+    // Meshes, whose integrals are rounded: a cube far from its origin, an icosahedron.
     const Vec3 low(3.1, -7.3, 0.9);
     const PrincipalInertia far = principal_inertia(mesh_mass(box_mesh(low, low + Vec3(0.5, 0.5, 0.5)), 700.0).inertia);
     EXPECT_TRUE(far.moments.x() == far.moments.y() && far.moments.y() == far.moments.z());

@@ -1,4 +1,5 @@
-// The better integrators in the world's steps: bodies without contact move by them, bodies in contact as ever.
+// The higher-order integrators in the world's steps: they move bodies without contact, and leave bodies in contact to
+// symplectic Euler.
 #include "support/rotation_reference.h"
 #include "support/scenes.h"
 
@@ -13,7 +14,7 @@ constexpr IntegratorKind better[] = {IntegratorKind::splitting, IntegratorKind::
 
 }  // namespace
 
-// Both are exact for constant forces: the parabola to rounding, however long the steps.
+// Both are exact for constant forces: the parabola to rounding, at any length of the steps.
 TEST(BetterIntegrators, FallOnTheParabola) {
     for (const auto integrator : better) {
         SceneDescription scene;
@@ -33,7 +34,7 @@ TEST(BetterIntegrators, FallOnTheParabola) {
     }
 }
 
-TEST(BetterIntegrators, TurnAFreeBodyAtTheirOrder) {
+TEST(BetterIntegrators, RotateAFreeBodyAtTheirOrder) {
     for (const auto integrator : better) {
         double error[2];
         for (int k = 0; k < 2; ++k) {
@@ -55,8 +56,8 @@ TEST(BetterIntegrators, TurnAFreeBodyAtTheirOrder) {
     }
 }
 
-// A body can have its own: two side by side.
-TEST(BetterIntegrators, ABodyOfItsOwn) {
+// A body can have its own integrator: two side by side.
+TEST(BetterIntegrators, ABodyWithItsOwnIntegrator) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = 1;
     add_sphere(scene, 0.5, {0.0, 20.0, 0.0});
@@ -87,8 +88,8 @@ TEST(BetterIntegrators, RestAndSlideAsSymplecticEulerDoes) {
     }
 }
 
-// Their falls keep the energy, and a step from the blow on retraces the last one of the fall: nothing is made good for, as with
-// symplectic Euler's falls, which lose g h v / 2 that the bounce's step gives back twice.
+// Their falls keep the energy, and the first step after the impact retraces the last one of the fall: no correction is
+// applied, unlike symplectic Euler, whose falls lose g h v / 2 that the bounce's step returns twice.
 TEST(BetterIntegrators, AnElasticBallRetracesItsFall) {
     for (const auto integrator : {IntegratorKind::splitting, IntegratorKind::runge_kutta_4, IntegratorKind::exact}) {
         SceneDescription scene = ground_scene(1.0, 0.0, 1);
@@ -104,7 +105,7 @@ TEST(BetterIntegrators, AnElasticBallRetracesItsFall) {
     }
 }
 
-// Bounces, lands, comes to rest and falls asleep on the ground, above it to within what a contact may overlap.
+// It bounces, lands, comes to rest and falls asleep on the ground, above it up to the allowed overlap of a contact.
 TEST(BetterIntegrators, BounceAndComeToRest) {
     for (const auto integrator : better) {
         SceneDescription scene = ground_scene(0.5, 0.6);

@@ -1,4 +1,4 @@
-// Kinematic bodies: smooth through their keyframes, deaf to impulses, and they carry what stands on them.
+// Kinematic bodies: they pass smoothly through their keyframes, ignore impulses, and carry bodies that stand on them.
 #include "sim/math/keyframe_track.h"
 #include "support/scenes.h"
 
@@ -19,7 +19,7 @@ KeyframeTrack track(Interpolation interpolation = Interpolation::smooth) {
                          interpolation);
 }
 
-// A table about the origin, its top at y = 0, that turns steadily (rad/s) for so many seconds.
+// A table about the origin, its top at y = 0, that rotates steadily (rad/s) for this time (s).
 BodyDescription& add_turntable(SceneDescription& scene, double size, double speed, double seconds) {
     BodyDescription& table = add_box(scene, {size, 0.2, size}, {0.0, -0.1, 0.0});
     table.type = BodyType::kinematic;
@@ -60,8 +60,8 @@ TEST(Keyframes, VelocitiesAreTheDerivativesAndDoNotJump) {
     }
 }
 
-// Evenly spaced keys of a steady turn give a steady turn (away from the ends, where it starts and stops).
-TEST(Keyframes, SteadyTurnStaysSteady) {
+// Uniformly spaced keys of a steady rotation give a steady rotation (away from the ends, where it starts and stops).
+TEST(Keyframes, SteadyRotationStaysSteady) {
     std::vector<Keyframe> keys;
     for (int i = 0; i < 6; ++i) keys.push_back({0.5 * i, Vec3::Zero(), turn({0.3, 1.0, 0.2}, 1.5 * i)});
     const KeyframeTrack t(keys, Interpolation::smooth);
@@ -97,7 +97,7 @@ TEST(Kinematic, PlatformCarriesABoxByFriction) {
     EXPECT_LT((s.bodies[1].center_of_mass - expected).norm(), 5e-3);
 }
 
-// What stands on a turntable goes round with it: 2 m/s^2 are a quarter of what friction holds.
+// Bodies on a turntable move with it: 2 m/s^2 are a quarter of the limit of friction.
 TEST(Kinematic, NothingCreepsOffATurntable) {
     for (const auto solver : both_solvers) {
         for (const int steps : {1, 4}) {
@@ -114,13 +114,14 @@ TEST(Kinematic, NothingCreepsOffATurntable) {
             run(world, scene, 10.0);
             const Vec3 x = world.snapshot().bodies[1].center_of_mass;
             const Vec3 expected = turn(Vec3::UnitY(), 10.0 * speed) * Vec3(radius, 0.05, 0.0);
-            EXPECT_NEAR(std::hypot(x.x(), x.z()), radius, 2e-4) << int(solver) << ' ' << steps;   // three turns; 0.2 m by tangents
+            // three revolutions; 0.2 m by tangents
+            EXPECT_NEAR(std::hypot(x.x(), x.z()), radius, 2e-4) << int(solver) << ' ' << steps;
             EXPECT_LT((x - expected).norm(), 0.02 / (steps * steps)) << int(solver) << ' ' << steps;
         }
     }
 }
 
-// A ball that rolls on a turntable goes in a circle, two turns to the table's seven, wherever it began.
+// A ball that rolls on a turntable moves in a circle, two revolutions to the table's seven, from any start.
 TEST(Kinematic, ABallOnATurntableRollsInACircle) {
     for (const auto solver : both_solvers) {
         SceneDescription scene;
@@ -141,7 +142,7 @@ TEST(Kinematic, ABallOnATurntableRollsInACircle) {
     }
 }
 
-// A platform that rocks and is shaken, at half of what would throw things off: they stay where they stood.
+// A platform that rocks and shakes, at half the acceleration that would throw bodies off: they stay in place.
 TEST(Kinematic, NothingCreepsOnARockingPlatform) {
     for (const auto solver : both_solvers) {
         SceneDescription scene;
@@ -150,7 +151,7 @@ TEST(Kinematic, NothingCreepsOnARockingPlatform) {
         BodyDescription& platform = add_box(scene, {5.0, 0.2, 2.0}, {0.0, -0.1, 0.0});
         platform.type = BodyType::kinematic;
         platform.friction = 0.8;
-        for (int i = 0; i <= 320; ++i) {   // a swing in two seconds, beginning softly
+        for (int i = 0; i <= 320; ++i) {   // a swing in two seconds, starting smoothly
             const double t = i / 40.0, swing = std::min(1.0, t / 2.0) * std::sin(2.0 * 3.14159265358979323846 * 0.5 * t);
             platform.keyframes.push_back({t, Vec3(0.05 * swing, -0.1, 0.0), turn(Vec3::UnitZ(), 0.2 * swing)});
         }
@@ -162,9 +163,10 @@ TEST(Kinematic, NothingCreepsOnARockingPlatform) {
     }
 }
 
-// A paddle that turns at omega hits a ball at rest r from its axis: at e = 1 it leaves with 2 omega r along the face's normal. What the
-// paddle meets within a step goes along with it until the step ends: it was carried half a turn and never struck.
-TEST(Kinematic, ATurningPaddleStrikesWhatItMeets) {
+// A paddle that rotates at omega hits a ball at rest at distance r from its axis: at e = 1 it leaves with 2 omega r
+// along the face's normal. A body that the paddle meets within a step is carried along only until the step ends; it
+// must not be carried half a turn without an impact.
+TEST(Kinematic, ARotatingPaddleHitsTheBodiesItMeets) {
     for (const double restitution : {0.1, 0.5, 1.0})
         for (const int steps : {4, 8, 16}) {
             SceneDescription scene = empty_scene(steps);
@@ -176,7 +178,8 @@ TEST(Kinematic, ATurningPaddleStrikesWhatItMeets) {
             for (BodyDescription& body : scene.bodies) body.restitution = restitution;
             World world(scene);
             run(world, scene, 0.5);
-            // The centre is met when it is its radius and half the thickness from the middle plane; the ball is smooth.
+            // The impact occurs when the center is its radius and half the thickness from the middle plane; the ball is
+            // smooth.
             const double arm = std::sqrt(2.0 - 0.11 * 0.11), speed = (1.0 + restitution) * 2.0 * std::numbers::pi * arm;
             const double turned = std::numbers::pi / 4.0 - std::asin(0.11 / std::sqrt(2.0));
             const Vec3 normal = Vec3(-std::sin(turned), 0.0, -std::cos(turned));

@@ -1,4 +1,4 @@
-// Resting contact: no sinking, no jitter, no energy from nowhere.
+// Resting contact: no sinking, no jitter, no gain of energy.
 #include "support/meshes.h"
 #include "support/scenes.h"
 
@@ -22,7 +22,7 @@ SceneDescription stack(int count) {
 
 }  // namespace
 
-TEST(Rest, BoxOnTheFloorStaysForAMinuteToTheMicrometre) {
+TEST(Rest, BoxOnTheFloorStaysForAMinuteToTheMicrometer) {
     SceneDescription scene = stack(1);
     scene.simulation.sleep = false;
     World world(scene);
@@ -67,7 +67,7 @@ TEST(Rest, HeapLosesEnergyAndSettles) {
     }
     World world(scene);
     double before = energy(world);
-    const double scale = 36.0 * 9.81;   // 1 J = 1 kg a metre high, about
+    const double scale = 36.0 * 9.81;   // J, about the energy of 36 bodies of 1 kg one meter high
     for (int frame = 0; frame < 480; ++frame) {
         world.advance_frame();
         const double now = energy(world);
@@ -121,8 +121,8 @@ TEST(Sleep, NeverInFreeFlight) {
     EXPECT_NEAR(world.snapshot().bodies[0].center_of_mass.x(), 1e-4, 1e-12);
 }
 
-// Seams of a tessellated floor must not catch a sliding box or ball.
-TEST(Surface, SeamsDoNotCatch) {
+// Internal edges of a tessellated floor must not catch a sliding box or ball.
+TEST(MeshShape, InternalEdgesDoNotCatch) {
     for (const bool sphere : {false, true}) {
         SceneDescription scene;
         BodyDescription& floor = add_body(scene, MeshShape{asset_of(grid_mesh(20, 5.0, 0.0))}, Vec3::Zero());
@@ -138,8 +138,8 @@ TEST(Surface, SeamsDoNotCatch) {
     }
 }
 
-// A closed mesh holds bodies on its outside, an open one on whichever side they are.
-TEST(Surface, HoldsWhatFallsOnIt) {
+// A closed mesh holds bodies on its outside, an open one on either side.
+TEST(MeshShape, HoldsFallingBodies) {
     for (const bool closed : {true, false}) {
         SceneDescription scene;
         BodyDescription& table = add_body(
@@ -150,7 +150,7 @@ TEST(Surface, HoldsWhatFallsOnIt) {
         add_sphere(scene, 0.3, {-1.0, 1.0, -1.0});
         BodyDescription& gem = add_body(scene, MeshShape{icosahedron(0.4)}, {1.0, 0.4, 1.0});
         gem.restitution = 0.0;
-        gem.rotation = turn({1.0, 0.0, 0.3}, 0.2);   // untilted it would balance on an edge
+        gem.rotation = turn({1.0, 0.0, 0.3}, 0.2);   // without tilt it would balance on an edge
         for (BodyDescription& b : scene.bodies) b.friction = 0.5;
         World world(scene);
         run(world, scene, 3.0);

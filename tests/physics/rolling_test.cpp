@@ -1,4 +1,5 @@
-// What rolls on corners and rocks on edges, at few steps a frame, against the mechanics of wheels without rims and of rocking blocks.
+// Rolling on corners and rocking on edges, at few steps per frame, against the mechanics of rimless wheels and of
+// rocking blocks.
 #include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
@@ -41,7 +42,7 @@ TriangleMesh prism(int corners, double radius, double width) {
 enum class Floor { plane, box };
 
 struct Rolled {
-    double hop, speed;   // m above the circle's height; m/s in the end
+    double hop, speed;   // m above the circle's height; m/s at the end
 };
 
 Rolled roll(int corners, double radius, double speed, double restitution, Floor floor, int steps) {
@@ -67,9 +68,10 @@ Rolled roll(int corners, double radius, double speed, double restitution, Floor 
 
 }  // namespace
 
-// A wheel of 64 corners pivots on one after the other. Each new corner takes 1 - cos(2 pi / n) over 1 + I / m r^2 of its speed, or less where
-// the wheel flies; and turns it up by no more than the angle between corners. Held before they came down, at arms at which they never
-// touch, they threw such wheels up by 0.4 m and took nine tenths of the energy.
+// A wheel of 64 corners pivots on one after the other. Each new corner takes 1 - cos(2 pi / n) over 1 + I / m r^2 of
+// its speed, or less where the wheel flies, and deflects it upwards by no more than the angle between corners. Corners
+// that are held before they land, at arms at which they never touch, throw such wheels up by 0.4 m and take nine tenths
+// of the energy.
 TEST(Rolling, WheelsOfCornersStayOnTheGround) {
     constexpr int corners = 64;
     const double angle = 2.0 * pi / corners, sine = sincos(angle).sin, cosine = sincos(angle).cos;
@@ -78,7 +80,8 @@ TEST(Rolling, WheelsOfCornersStayOnTheGround) {
             for (const double speed : {1.0, 3.0, 5.0})
                 for (const int steps : {1, 2, 4, 16}) {
                     const Rolled rolled = roll(corners, radius, speed, 0.0, floor, steps);
-                    const double up = speed * sine, loss = (1.0 - cosine) / 1.5 / (radius * angle);   // of v, over the way: dv / dx = -loss v
+                    // of v, over the distance: dv / dx = -loss v
+                    const double up = speed * sine, loss = (1.0 - cosine) / 1.5 / (radius * angle);
                     const double pivoting = speed / (1.0 + loss * speed * 1.0);
                     EXPECT_LT(rolled.hop, up * up / (2.0 * g) + 1e-4) << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
                     EXPECT_GT(rolled.speed, 0.8 * pivoting) << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
@@ -86,9 +89,11 @@ TEST(Rolling, WheelsOfCornersStayOnTheGround) {
                 }
 }
 
-// A ball with a weight in it, let go at an angle: its centre of mass goes round the ball's middle, on a cycloid, and what rolls without slip
-// keeps its energy,  m g c (1 - cos(phi)) + (I + m (R^2 + c^2 - 2 R c cos(phi))) phi'^2 / 2:  it swings as far on the other side, and back
-// in the time  4 int_0^A dphi / phi'.  Held as if its middle went straight in a step it lost a tenth of its energy in a swing.
+// A ball with a weight in it, released at an angle: its center of mass moves about the ball's middle, on a cycloid.
+// Rolling without slip keeps the energy
+//   m g c (1 - cos(phi)) + (I + m (R^2 + c^2 - 2 R c cos(phi))) phi'^2 / 2:
+// it swings as far on the other side, and back in the time  4 int_0^A dphi / phi'. Contact that assumes a straight path
+// of its middle in a step costs a tenth of the energy per swing.
 TEST(Rolling, AWeightedBallSwingsOn) {
     const double radius = 0.5, inner = 0.1, off = 0.25;
     const auto mass_of = [](double r) { return 4.0 / 3.0 * pi * r * r * r; };
@@ -105,7 +110,7 @@ TEST(Rolling, AWeightedBallSwingsOn) {
             World world(scene);
             const BodyReport body = world.report(1);
             const double m = body.mass, c = 0.5 * off, inertia = body.principal_inertia.maxCoeff();
-            // The integral in s, phi = A sin(s), which takes the root out of its end.
+            // The integral in s, phi = A sin(s), which removes the root singularity at its end.
             double period = 0.0;
             constexpr int parts_of_it = 2000;
             for (int i = 0; i < parts_of_it; ++i) {
@@ -116,7 +121,7 @@ TEST(Rolling, AWeightedBallSwingsOn) {
                 period += 4.0 * amplitude * cosine / rate * 0.5 * pi / parts_of_it;
             }
             double before = amplitude, highest = 0.0;
-            std::vector<double> passes, tilts = {0.0};   // the farthest of each swing
+            std::vector<double> passes, tilts = {0.0};   // the extreme of each swing
             for (int frame = 1; frame <= 600; ++frame) {
                 world.advance_frame();
                 const BodyState now = world.snapshot().bodies[1];
@@ -136,17 +141,18 @@ TEST(Rolling, AWeightedBallSwingsOn) {
         }
 }
 
-// Housner 1963: a block that rocks from edge to edge keeps 1 - 3/2 sin^2(alpha) of its angular velocity in each landing, alpha the angle
-// between its diagonal and its side. Its energy is told by how far it tilts in between. Held as if it had landed when the step began, it
-// lost up to as much again; solved in parts of the step it loses a part of that.
-TEST(Rocking, KeepsWhatItsLandingsLeave) {
+// Housner 1963: a block that rocks from edge to edge keeps 1 - 3/2 sin^2(alpha) of its angular velocity in each
+// landing, alpha the angle between its diagonal and its side. The tilt in between measures its energy. Contact that
+// assumes the landing at the start of the step costs up to as much again; solved in parts of the step it costs a
+// fraction of that.
+TEST(Rocking, LosesNoMoreThanItsLandingsTake) {
     const Vec3 size(0.2, 1.0, 0.5);
     const double diagonal = 0.5 * std::hypot(size.x(), size.y()), alpha = atan2_stable(size.x(), size.y()), tilt = 0.7 * alpha;
     const auto height = [&](double angle) { return sincos(0.5 * pi - alpha + angle).sin - sincos(0.5 * pi - alpha).sin; };
     const double kept = std::pow(1.0 - 1.5 * std::pow(sincos(alpha).sin, 2.0), 2.0);
     struct Case {
         int steps;
-        double error;   // of the energy after two landings; before: 0.25 and 0.125
+        double error;   // relative error of the energy after two landings; without parts of the step: 0.25 and 0.125
     };
     for (const Case& c : {Case{2, 0.15}, Case{4, 0.11}}) {
         SceneDescription scene = ground_scene(0.0, 0.9, c.steps);
@@ -154,7 +160,7 @@ TEST(Rocking, KeepsWhatItsLandingsLeave) {
         add_box(scene, size, {-diagonal * sine, diagonal * cosine, 0.0}).rotation = turn(Vec3::UnitZ(), -tilt);
         scene.bodies.back().friction = 0.9;
         World world(scene);
-        std::vector<double> tilts = {0.0};   // the farthest of each swing
+        std::vector<double> tilts = {0.0};   // the extreme of each swing
         double before = -1.0;
         for (int frame = 0; frame < 180; ++frame) {
             world.advance_frame();

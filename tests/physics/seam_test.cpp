@@ -1,4 +1,4 @@
-// What slides or rolls over a flush seam, or past an edge that it does not touch, goes on as if nothing were there.
+// Bodies that slide or roll over a flush internal edge, or past an edge that they do not touch, continue undisturbed.
 #include "core/deterministic_math.h"
 #include "support/scenes.h"
 
@@ -9,7 +9,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// A row of fixed tiles of a metre along x, their tops at y = 0.
+// A row of fixed tiles of one meter along x, their tops at y = 0.
 SceneDescription tiles(int steps_per_frame, int count = 9) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = steps_per_frame;
@@ -22,7 +22,7 @@ SceneDescription tiles(int steps_per_frame, int count = 9) {
 
 }  // namespace
 
-// Thin things were stopped dead: driven to the next tile's side, they touched its top and its side equally well.
+// Thin bodies move close to the next tile's side, whose separation equals that of its top: the side must not stop them.
 TEST(Seam, DoesNotCatchThinPlates) {
     struct Case {
         Vec3 size;
@@ -43,8 +43,8 @@ TEST(Seam, DoesNotCatchThinPlates) {
             }
 }
 
-// What falls along a wall whose edge it grazes is not held by the edge.
-TEST(Seam, DoesNotCatchWhatFallsAlongAWall) {
+// A body that falls along a wall and grazes its edge is not held by the edge.
+TEST(Seam, DoesNotCatchBodiesThatFallAlongAWall) {
     for (const int steps : {1, 4, 16}) {
         SceneDescription scene;
         scene.simulation.steps_per_frame = steps;
@@ -53,14 +53,15 @@ TEST(Seam, DoesNotCatchWhatFallsAlongAWall) {
         World world(scene);
         run(world, scene, 0.75);
         const BodyState b = world.snapshot().bodies.back();
-        // A step's fall is lost where it comes to the edge: so fast it is stopped there (motion_limit.h).
+        // A step's fall is lost where it comes to the edge: at this speed it is clamped there (ccd_clamp.h).
         EXPECT_NEAR(b.velocity.y(), -9.81 * 0.75, 1.1 * 9.81 / (60.0 * steps)) << steps;
         EXPECT_NEAR(b.velocity.x(), 0.0, 1e-6) << steps;
         EXPECT_LT(b.angular_velocity.norm(), 1e-6) << steps;
     }
 }
 
-// The gap to the edge ahead closes ever more slowly: taken to close evenly, the edge threw balls up and slowed them.
+// The gap to the edge ahead closes ever more slowly: with a uniform closing speed the edge would throw balls up and
+// slow them.
 TEST(Seam, DoesNotCatchBalls) {
     for (const double speed : {0.7, 3.0, 5.0})
         for (const int steps : {1, 2, 4, 16}) {
@@ -79,7 +80,7 @@ TEST(Seam, DoesNotCatchBalls) {
         }
 }
 
-// Nor balls that are parts of a compound.
+// Balls that are parts of a compound do not catch either.
 TEST(Seam, DoesNotCatchWheels) {
     SceneDescription scene = tiles(4);
     std::vector<CompoundPart> parts;
@@ -100,8 +101,8 @@ TEST(Seam, DoesNotCatchWheels) {
     EXPECT_NEAR(world.snapshot().bodies.back().center_of_mass.y(), 0.1, 5e-5);
 }
 
-// A near miss is none: balls that pass a ball, a box's edge or its corner at a tenth of a millimetre.
-TEST(Passing, AtAHairsBreadthChangesNothing) {
+// A near miss is not a contact: balls that pass a ball, a box's edge or its corner at a tenth of a millimeter.
+TEST(PredictedGap, ANearMissChangesNothing) {
     for (const int steps : {1, 2, 4, 16}) {
         SceneDescription scene = empty_scene(steps);
         const double gap = 1e-4, radius = 0.1, diagonal = std::sqrt(0.5) * (radius + gap);

@@ -1,4 +1,4 @@
-// Friction of what spins flat on the ground, against even pressure over its contact area.
+// Friction of bodies that spin flat on the ground, against uniform pressure over their contact area.
 #include "core/deterministic_math.h"
 #include "support/compounds.h"
 #include "support/meshes.h"
@@ -33,8 +33,8 @@ Outline regular(int corners, double radius) {
 }
 Outline rectangle(double a, double b) { return {{-0.5 * a, -0.5 * b}, {0.5 * a, -0.5 * b}, {0.5 * a, 0.5 * b}, {-0.5 * a, 0.5 * b}}; }
 
-// The integrals of a function of degree `power` in the distance from the centroid, edge by edge: that of r^power over a triangle at the
-// centroid is height / (power + 2) times the integral along the edge.
+// The integrals of a function of degree `power` in the distance from the centroid, edge by edge: that of r^power over a
+// triangle at the centroid is height / (power + 2) times the integral along the edge.
 double integral(const Outline& outline, int power) {
     double sum = 0.0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -85,7 +85,7 @@ TriangleMesh prism(const Outline& outline, double height) {
 
 struct Way {
     ContactSolverChoice solver;
-    int steps;   // a frame
+    int steps;   // per frame
     ImpactMode impacts;
 };
 std::vector<Way> ways() {
@@ -93,8 +93,9 @@ std::vector<Way> ways() {
     for (const auto solver : {ContactSolverChoice::by_island, ContactSolverChoice::soft, ContactSolverChoice::direct})
         for (const int steps : {1, 4, 16})
             for (const auto impacts : {ImpactMode::stepped, ImpactMode::exact}) {
-                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // turns too far in a step for one solve
-                if (solver == ContactSolverChoice::soft && impacts == ImpactMode::exact) continue;   // at rest, where all is stepped
+                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // rotates too far in a step for one solve
+                // bodies at rest are stepped in either mode
+                if (solver == ContactSolverChoice::soft && impacts == ImpactMode::exact) continue;
                 all.push_back({solver, steps, impacts});
             }
     return all;
@@ -122,7 +123,7 @@ BodyDescription& add_prism(SceneDescription& scene, const Outline& outline, doub
 
 struct Stop {
     double time;    // s, from the last two frames in which it has more than a twentieth of its spin
-    double walked;  // m, of the centre, at most
+    double walked;  // m, largest displacement of the center
 };
 Stop spin_down(const SceneDescription& scene, double spin) {
     World world(scene);
@@ -142,13 +143,14 @@ Stop spin_down(const SceneDescription& scene, double spin) {
     return {time + last / (60.0 * (before - last)), walked};
 }
 
-// The soft solver's sweeps tilt what they set down in the first step, more in a long one; what then drifts has little friction against it.
+// The soft solver's sweeps tilt a body that they set down in the first step, more so in a long one; the resulting drift
+// has little friction against it.
 double most_walk(const Way& way) { return way.steps == 1 ? 3e-6 : 1e-6; }   // m
 
 }  // namespace
 
-// omega I / (mu N d), d the mean distance of the area from its centroid, and on the spot.
-TEST(SpinFriction, StopsInTheTimeOfEvenPressure) {
+// omega I / (mu N d), d the mean distance of the area from its centroid, and without displacement.
+TEST(SpinFriction, StopsInTheTimeOfUniformPressure) {
     struct Case {
         std::string name;
         Outline outline;
@@ -215,8 +217,9 @@ TEST(SpinFriction, OfABounce) {
         }
 }
 
-// A sledge with a heavy end, its centre of mass four fifths of the way to the corners that carry it, goes straight when it slides
-// sideways: friction about the area's centroid is held, though the area's own twist is half as much.
+// A sledge with a heavy end, its center of mass four fifths of the way to the corners that carry it, moves straight
+// when it slides sideways: friction about the area's centroid is held, though the area's own torsional friction is half
+// as much.
 TEST(SpinFriction, AHeavyEndSlidesStraight) {
     for (const Way& way : ways()) {
         SceneDescription scene = scene_of(way);

@@ -1,4 +1,4 @@
-// Exercises of a mechanics course whose answers are closed forms, with contact.
+// Exercises of a mechanics course with contact and closed-form solutions.
 #include "core/deterministic_math.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
@@ -23,8 +23,9 @@ TriangleMesh ridge(double half_width, double height, double half_length) {
 
 }  // namespace
 
-// A see-saw turns by I w^2 / 2 = what its load's centre has come down, m g (h0 - h), and stays on its edge. On the ridge of a fixed mesh
-// it sank by up to 26 mm in half a second: one end of the ridge was no contact whenever rounding said that edge lay against edge.
+// A see-saw rotates with I w^2 / 2 = m g (h0 - h), the descent of its load's center, and stays on its edge. On the
+// ridge of a fixed mesh it must not sink: one end of the ridge must stay a contact where rounding selects edge against
+// edge.
 TEST(Textbook, SeeSawOnARidge) {
     for (const int steps : {1, 2, 4, 16}) {
         SceneDescription scene;
@@ -52,8 +53,8 @@ TEST(Textbook, SeeSawOnARidge) {
     }
 }
 
-// Whatever friction does where a ball lands, it has no torque about that place: v - 2/5 r w stays. Found a step late, inside the
-// floor, the ball had a lever as short as that: one with back-spin ran back, at -.14 m/s in place of .29.
+// Friction where a ball lands has no torque about that place: v - 2/5 r w is constant. Found a step late, inside the
+// floor, the ball would have a shorter lever: one with back-spin would run back, at -0.14 m/s instead of 0.29.
 TEST(Textbook, ASpinningBallKeepsItsAngularMomentumAboutTheFloor) {
     const double r = 0.1;
     const Vec3 v(2.0, 0.0, 0.5), w(10.0, 5.0, 40.0);
@@ -75,16 +76,17 @@ TEST(Textbook, ASpinningBallKeepsItsAngularMomentumAboutTheFloor) {
                 EXPECT_NEAR(b.velocity.x() - 0.4 * r * b.angular_velocity.z(), v.x() - 0.4 * r * w.z(), 1e-9) << plane << ' ' << e << ' ' << steps;
                 EXPECT_NEAR(b.velocity.z() + 0.4 * r * b.angular_velocity.x(), v.z() + 0.4 * r * w.x(), 1e-9) << plane << ' ' << e << ' ' << steps;
                 EXPECT_NEAR(b.angular_velocity.y(), w.y(), 1e-9);
-                // It rolls by now: (5 v - 2 r w) / 7.
+                // It rolls at this time: (5 v - 2 r w) / 7.
                 EXPECT_NEAR(b.velocity.x(), (5.0 * v.x() - 2.0 * r * w.z()) / 7.0, 1e-3) << plane << ' ' << e << ' ' << steps;
             }
 }
 
-// A rod falls on its end, on ground too rough to slip on. It has no slip before, and none in the impact: whoever's law of restitution
-// it is, the end comes back at e times its speed, and (1 - e^2) v^2 / 2 K is lost, K the compliance along the normal of what cannot
-// slip, K_nn - K_nt^2 / K_tt. Friction took the end's speed away again: with e = .5 it did not come back at all, and with e = 1 of 4.9 J were left 2.7.
-// On smoother ground it slips all through the impact, |f| = mu j.
-TEST(Textbook, ARodComesBackFromRoughGround) {
+// A rod falls on its end, on ground too rough to slip on. It has no slip before, and none in the impact: by any law of
+// restitution, the end rebounds at e times its speed, and (1 - e^2) v^2 / 2 K is lost, K the compliance along the
+// normal without slip, K_nn - K_nt^2 / K_tt. Friction must not change the end's speed: that would remove the rebound at
+// e = 0.5, and at e = 1 leave 2.7 of 4.9 J.
+// On smoother ground it slips throughout the impact, |f| = mu j.
+TEST(Textbook, ARodReboundsFromRoughGround) {
     const double length = 1.0, thick = 0.1, height = 0.5;
     for (const double degrees : {20.0, 30.0, 60.0})
         for (const double mu : {0.1, 10.0})
@@ -115,9 +117,9 @@ TEST(Textbook, ARodComesBackFromRoughGround) {
                 }
 }
 
-// A box thrown flat slides as it lands and comes back flat, slower by mu (1 + e) v_n: its front bears more of the blow than its back, as
-// much as friction would turn it. Friction used to turn it, by a radian a second.
-TEST(Textbook, ABoxThrownFlatComesBackFlat) {
+// A box thrown flat slides as it lands and rebounds flat, slower by mu (1 + e) v_n: its front carries more of the
+// impulse than its back, such that friction does not rotate it (by a radian per second otherwise).
+TEST(Textbook, ABoxThrownFlatReboundsFlat) {
     const double mu = 0.2, speed = 5.0, v = std::sqrt(2.0 * g * 0.5);
     for (const double e : {0.5, 1.0})
         for (const bool exact : {true, false}) {
@@ -134,8 +136,9 @@ TEST(Textbook, ABoxThrownFlatComesBackFlat) {
         }
 }
 
-// A ball that rolls down a rough ball leaves it where cos = 10/17 of the top's (solid, v^2 = 10/7 g (R + r) (cos_0 - cos)), with the
-// spin v / r. With exact impacts it took off time and again before, a hair above the ground, and left with 2.4 % less spin.
+// A ball that rolls down a rough ball leaves it where cos = 10/17 of the top's (solid, v^2 = 10/7 g (R + r)
+// (cos_0 - cos)), with the spin v / r. With exact impacts it must not be released repeatedly before, just above the
+// surface: that costs 2.4 % of the spin.
 TEST(Textbook, ABallRollsOffABall) {
     const double large = 1.0, small = 0.2, start = 0.05, path = large + small;
     for (const bool exact : {false, true}) {

@@ -1,5 +1,5 @@
-// Tops and wheels that lean: bodies of revolution on a ball for a tip, in steady precession. What contact holds in a step is held
-// for the mean of the angular velocity over it (spin_limit.h).
+// Leaning tops and wheels: bodies of revolution on a ball for a tip, in steady precession. Contacts constrain the mean
+// of the angular velocity over a step (gyroscopic_correction.h).
 #include "support/compounds.h"
 #include "support/scenes.h"
 
@@ -12,7 +12,8 @@ using namespace tumble::testing;
 
 namespace {
 
-// A square plate at a height over the middle of a light ball, which stands on the ground at x = z = 0, leaning towards +x.
+// A square plate at a height over the middle of a light ball, which stands on the ground at x = z = 0, leaning towards
+// +x.
 struct Top {
     double ball, height, edge, thickness, lean, spin;   // m, m, m, m, rad, rad/s about its axis
 
@@ -32,14 +33,15 @@ struct Top {
 
 struct Precession {
     double rate = 0.0;   // rad/s about y
-    double speed = 0.0;  // m/s of the centre of mass, towards y x axis
+    double speed = 0.0;  // m/s of the center of mass, towards y x axis
 };
 
-// The angular velocity is Omega y + (spin - Omega cos) e; so L = I3 spin e + I1 Omega (y - cos e), and dL/dt = Omega y x L is
-//     Omega (I3 spin - I1 Omega cos) sin   along y x e.
-// On a slippery ground the load m g acts through the ball's middle, at a below the centre of mass, with the torque m g a sin. What
-// rolls also has, with the ball's radius R, the speed V = (Omega a - (spin - Omega cos) R) sin, and the friction m Omega V inwards,
-// with the arm a cos + R. The slower of the two roots.
+// The angular velocity is Omega y + (spin - Omega cos) e; so L = I3 spin e + I1 Omega (y - cos e), and dL/dt = Omega y
+// x L is
+//   Omega (I3 spin - I1 Omega cos) sin   along y x e.
+// On frictionless ground the load m g acts through the ball's middle, at a below the center of mass, with the torque m
+// g a sin. A rolling top also has, with the ball's radius R, the speed V = (Omega a - (spin - Omega cos) R) sin, and
+// the friction m Omega V inwards, with the arm a cos + R. The slower of the two roots.
 Precession steady_precession(const Top& top, const BodyReport& body, bool rolls) {
     const double m = body.mass, a = body.center_of_mass.y(), c = std::cos(top.lean), i1 = body.principal_inertia[0],
                  i3 = body.principal_inertia[2], r = rolls ? top.ball : 0.0, arm = rolls ? a * c + r : 0.0;
@@ -51,7 +53,8 @@ Precession steady_precession(const Top& top, const BodyReport& body, bool rolls)
 }
 
 struct Course {
-    double rate = 0.0, lean = 0.0, gain = 0.0;   // rad/s on the mean; largest change, rad; largest gain of energy, of the start's
+    // mean rate, rad/s; largest change of lean, rad; largest gain of energy, relative to the start's
+    double rate = 0.0, lean = 0.0, gain = 0.0;
 };
 
 Course follow(const Top& top, bool rolls, int steps_per_frame, int frames, Precession& expected) {
@@ -80,7 +83,8 @@ Course follow(const Top& top, bool rolls, int steps_per_frame, int frames, Prece
 
 }  // namespace
 
-// Turned by the tangent, its nutation grew until it lay down, or whirled with a third more energy than it began with.
+// Rotation by the tangent would increase its nutation until it lay down, or whirled with a third more energy than at
+// the start.
 TEST(Top, OnSlipperyGroundKeepsItsLeanAndItsEnergy) {
     for (const int steps : {4, 16})
         for (const Top& top : {Top{0.03, 0.25, 0.4, 0.06, 0.1, 40.0}, Top{0.03, 0.25, 0.4, 0.06, 0.3, 60.0}}) {
@@ -92,7 +96,7 @@ TEST(Top, OnSlipperyGroundKeepsItsLeanAndItsEnergy) {
         }
 }
 
-// A wheel whose centre of mass is the ball's middle, so that contact exerts no torque but friction's.
+// A wheel whose center of mass is the ball's middle, so that contact exerts no torque but friction's.
 TEST(Top, RollsInACircle) {
     for (const int steps : {4, 16}) {
         Precession expected;

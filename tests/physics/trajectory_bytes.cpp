@@ -1,5 +1,6 @@
-// Prints the bytes of trajectories that go through every part of the simulation: boxes, spheres, hulls, a triangle
-// surface, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number of threads.
+// Prints the bytes of trajectories that pass through every part of the simulation: boxes, spheres, hulls, a triangle
+// mesh, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number
+// of threads.
 #include "sim/dynamics/body_builder.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "support/compounds.h"
@@ -46,7 +47,7 @@ void print_trajectory(const SceneDescription& scene, int frames, int threads) {
     }
 }
 
-// One island enough bodies and manifolds for threads to share the work on it.
+// One island with enough bodies and manifolds for threads to share its work.
 SceneDescription block() {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     for (int i = 0; i < 576; ++i) {

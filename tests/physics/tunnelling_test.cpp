@@ -23,7 +23,7 @@ BodyDescription& add_projectile(SceneDescription& scene, Projectile kind, const 
     return body;
 }
 
-// A wall in the plane x = 0, of the thickness given; 0: a sheet of triangles.
+// A wall in the plane x = 0, of the thickness given; 0: a mesh without thickness.
 void add_wall(SceneDescription& scene, double thickness, double restitution) {
     if (thickness > 0.0) {
         add_fixed_box(scene, {thickness, 40.0, 40.0}, Vec3::Zero(), restitution);
@@ -36,7 +36,7 @@ void add_wall(SceneDescription& scene, double thickness, double restitution) {
     wall.restitution = restitution;
 }
 
-// Shoots a body at the wall, and looks at every step.
+// Shoots a body at the wall, and checks at every step.
 struct Shot {
     Projectile kind = Projectile::cube;
     double thickness = 0.01, speed = 500.0, distance = 3.0, restitution = 1.0, rate = 60.0;
@@ -57,7 +57,7 @@ void expect_on_this_side(const Shot& shot, double energy_bound) {
     if (shot.exact) make_exact(scene);
     World world(scene);
     const double start = energy(world);
-    // Stepped, a body that comes in turned has several impacts, one a step.
+    // Stepped, a rotated body has several impacts, one per step.
     const int frames = std::max(3, int(std::ceil((shot.distance / shot.speed + 0.02) * shot.rate)) + 12);
     for (int frame = 0; frame < frames; ++frame) {
         world.advance_frame();
@@ -73,8 +73,8 @@ void expect_on_this_side(const Shot& shot, double energy_bound) {
 
 }  // namespace
 
-// The cube of 0.1 m flies at 500 m/s (16 m in the coarsest step) and comes back with its energy.
-TEST(ThinWall, CubeAt500MetresASecondComesBack) {
+// The cube of 0.1 m flies at 500 m/s (16 m in the coarsest step) and rebounds with its energy.
+TEST(ThinWall, CubeAt500MetersPerSecondRebounds) {
     for (const bool exact : {true, false})
         for (const double thickness : {0.01, 0.001})
             for (const double rate : rates)
@@ -88,7 +88,7 @@ TEST(ThinWall, FromAnyDistance) {
                 expect_on_this_side({.thickness = i % 2 ? 0.01 : 0.001, .distance = 0.06 + 0.0331 * i * i, .rate = rate, .exact = exact}, 1e-10);
 }
 
-// Spinning ones: up to 4000 rad/s, whole turns in a step.
+// Spinning ones: up to 4000 rad/s, whole revolutions in a step.
 TEST(ThinWall, SpinningBodiesOfEveryShape) {
     Random random(5);
     for (const bool exact : {true, false})
@@ -96,14 +96,15 @@ TEST(ThinWall, SpinningBodiesOfEveryShape) {
             for (const double thickness : {0.01, 0.001, 0.0})
                 for (int i = 0; i < trials(20); ++i) {
                     const double spin = i % 4 == 0 ? 0.0 : std::pow(10.0, random(0.0, 3.4));
-                    // Stepped, a spin turns the body by whole revolutions a step: its energy is that of the step's pose.
+                    // Stepped, a spin rotates the body by whole revolutions per step: its energy is that of the step's
+                    // pose.
                     expect_on_this_side({.kind = kind, .thickness = thickness, .speed = random(20.0, 1000.0), .distance = random(0.1, 20.0),
                                          .rate = rates[i % 7], .spin = random.vector(spin), .rotation = random.turn(), .exact = exact},
                                         exact ? 1e-10 : 0.1);
                 }
 }
 
-// Not all of it comes back, or nothing: the body stays at the wall.
+// With partial or no restitution: the body stays on its side of the wall.
 TEST(ThinWall, InelasticImpactsStayOnThisSide) {
     Random random(6);
     for (const bool exact : {true, false})
@@ -139,8 +140,8 @@ TEST(ThinWall, BodiesDoNotPassThroughEachOther) {
             }
 }
 
-// In a closed room of thin walls for a while, many times through it in a step.
-TEST(ThinWall, NobodyLeavesTheRoom) {
+// In a closed room of thin walls for a while, with displacements of many rooms per step.
+TEST(ThinWall, NoBodyLeavesTheRoom) {
     Random random(9);
     for (const bool exact : {true, false}) {
         for (const double rate : {30.0, 240.0}) {
@@ -194,12 +195,12 @@ TEST(ThinWall, SlidingBodiesAreStopped) {
                         EXPECT_LE(energy(world), start * (1.0 + 1e-6));
                         ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03) << exact << " " << thickness << " e " << e << " 1/" << rate;
                     }
-                    // A box that the ground has turned by a hair strikes the wall edge by edge: part of its speed becomes spin.
+                    // A box slightly rotated by the ground hits the wall edge by edge: part of its speed becomes spin.
                     EXPECT_LE(world.snapshot().bodies[2].velocity.x(), -20.0 * e + 0.1) << exact << " " << thickness << " e " << e << " 1/" << rate;
                 }
 }
 
-// Coming down in the middle of a step, at full speed along the ground, right before the wall.
+// Landing in the middle of a step, at full speed along the ground, right before the wall.
 TEST(ThinWall, LandingBodiesAreStopped) {
     for (const bool exact : {true, false})
         for (const double e : {0.0, 1.0})
@@ -221,7 +222,7 @@ TEST(ThinWall, LandingBodiesAreStopped) {
                 }
 }
 
-// A floor is a floor: thin bodies that come down fast do not end a step under a plane, and bounce as they do from a box.
+// Thin bodies that land fast on a plane do not end a step under it, and bounce as they do from a box.
 TEST(ThinWall, APlaneStopsThinBodiesAsABoxDoes) {
     for (const double rate : {60.0, 240.0, 960.0})
         for (const Vec3& size : {Vec3(0.2, 0.06, 0.1), Vec3(0.09, 0.0005, 0.06)}) {
@@ -247,7 +248,7 @@ TEST(ThinWall, APlaneStopsThinBodiesAsABoxDoes) {
         }
 }
 
-// A ball that rolls over a plane by more than its size in a step touches it all the while, and is not held up by it.
+// A ball that rolls over a plane by more than its size per step touches it throughout, and is not clamped by it.
 TEST(ThinWall, AFastBallRollsOnOverAPlane) {
     for (const bool exact : {false, true})
         for (const double speed : {1.0, 4.0, 25.0, 300.0})
@@ -267,7 +268,8 @@ TEST(ThinWall, AFastBallRollsOnOverAPlane) {
             }
 }
 
-// A ball shot into a rack: what it strikes moves on, and all of them keep the momentum; nobody stands still inside another.
+// A ball shot into a rack: the balls that it hits move on, all of them keep the momentum, and none stands still inside
+// another.
 TEST(ThinWall, ARackIsBroken) {
     SceneDescription scene = ground_scene(0.5, 0.0, 1);
     set_step(scene, 60.0);
@@ -290,7 +292,8 @@ TEST(ThinWall, ARackIsBroken) {
     EXPECT_LT(m.kinetic, 0.35 * 3.06);   // exact impacts: 0.16
 }
 
-// A rod that turns by a radian a step beside a block which it never reaches: its way is looked along, and is that of a free body.
+// A rod that rotates by a radian per step beside a block that it never reaches: CCD checks its motion, which is that of
+// a free body.
 TEST(ThinWall, SpinningBesideAWallChangesNothing) {
     for (const IntegratorKind integrator : {IntegratorKind::symplectic_euler, IntegratorKind::exact}) {
         SceneDescription scene = empty_scene(1);
@@ -307,8 +310,8 @@ TEST(ThinWall, SpinningBesideAWallChangesNothing) {
     }
 }
 
-// Plates, rods and stools dropped on hills and hollows of one sheet of triangles: nobody sinks into it, nobody falls for ever.
-TEST(WavyGround, NobodySinksThrough) {
+// Plates, rods and stools dropped on hills and hollows of one open mesh: none sinks into it, none falls through.
+TEST(WavyGround, NoBodySinksThrough) {
     Random random(11);
     const auto ground = asset_of(wavy_mesh(24, 6.0));
     const Vec3 leg(0.04, 0.5, 0.04);

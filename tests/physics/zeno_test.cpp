@@ -17,7 +17,7 @@ double lowest_corner(const Vec3& size, const BodyState& s) {
 
 }  // namespace
 
-// Boxes dropped in any position rattle down onto a face: at rest, on the ground, the energy never risen on the way.
+// Boxes dropped in any orientation rattle down onto a face: at rest, on the ground, without any rise of energy.
 TEST(Zeno, TiltedBoxesComeToRestOnAFace) {
     Random random(17);
     const Vec3 size(1.0, 0.6, 0.8);
@@ -41,9 +41,10 @@ TEST(Zeno, TiltedBoxesComeToRestOnAFace) {
                 before = now;
                 sunk = std::max(sunk, -lowest_corner(size, world.snapshot().bodies[1]));
             }
-            // The push-out of the resting solver, after a row of impacts that ends on an edge: in one of 50 more than 1e-4.
+            // The position correction of the resting solver, after a sequence of impacts that ends on an edge: in one
+            // of 50 more than 1e-4.
             EXPECT_LE(rise, 5e-4) << e << " " << trial;
-            EXPECT_LE(sunk, 2e-3) << e << " " << trial;     // held, and turning within a step
+            EXPECT_LE(sunk, 2e-3) << e << " " << trial;     // in contact, and rotating within a step
             const BodyState s = world.snapshot().bodies[1];
             EXPECT_LE(s.velocity.norm() + s.angular_velocity.norm(), 1e-3) << e << " " << trial;
             EXPECT_NEAR(lowest_corner(size, s), 0.0, 2e-5) << e << " " << trial;
@@ -53,7 +54,7 @@ TEST(Zeno, TiltedBoxesComeToRestOnAFace) {
     }
 }
 
-// A box that falls flat bounces like a ball, and rests when that does.
+// A box that falls flat bounces like a ball, and rests at the same time.
 TEST(Zeno, FlatBoxRestsWhenABallDoes) {
     for (const double e : {0.3, 0.5, 0.8, 0.9}) {
         const double rest = time_of_rest(1.0, e);
@@ -77,7 +78,7 @@ TEST(Zeno, FlatBoxRestsWhenABallDoes) {
     }
 }
 
-// A hundred balls in one layer land at once, each for itself; then they lie.
+// A hundred balls in one layer land at once, each independently; then they lie.
 TEST(ManyContacts, LayerOfBallsFallsFlat) {
     SceneDescription scene = ground_scene(0.5, 0.3);
     const int side = trials(16);
@@ -101,9 +102,9 @@ TEST(ManyContacts, LayerOfBallsFallsFlat) {
     EXPECT_LE(world.measure().max_penetration, 1e-5);
 }
 
-// A wide box on a bed of balls, turned about the vertical: every ball feels the same blow, e = 0 and 1 or in
-// between. Balls that strike the ground under it in one moment do so together, and it matters to none which of them a trace
-// of rest's trembling presses on the ground: the box stays level.
+// A wide box on a bed of balls, rotated about the vertical: every ball gets the same impulse, at e = 0, 1 and in
+// between. Balls that hit the ground under it at one time do so together, independent of any trembling of resting balls
+// against the ground: the box stays level.
 TEST(ManyContacts, FlatBoxOnABedOfBalls) {
     struct Bed {
         int side;
@@ -142,7 +143,7 @@ TEST(ManyContacts, FlatBoxOnABedOfBalls) {
         }
 }
 
-// A wall of balls, 20 deep, thrown flat at a wall: all rows strike at once, row by row behind one another.
+// A block of balls, 20 deep, thrown flat at a wall: all rows have impacts at once, row behind row.
 TEST(ManyContacts, BlockOfTouchingBallsThrownAtAWall) {
     for (const double e : {0.0, 0.5, 1.0})
         for (const ImpactLaw law : {ImpactLaw::propagating, ImpactLaw::simultaneous}) {
@@ -165,7 +166,7 @@ TEST(ManyContacts, BlockOfTouchingBallsThrownAtAWall) {
                 before = energy(world);
                 ASSERT_LE(world.measure().max_penetration, 1e-6) << e << " " << frame;
             }
-            const double back = e * e * start;   // every ball comes back at e v: also row by row
+            const double back = e * e * start;   // every ball rebounds at e v: also row by row
             if (e != 0.5) {
                 EXPECT_NEAR(energy(world), back, 1e-9 * start) << e << " law " << int(law);
             }

@@ -1,4 +1,4 @@
-// The projection onto the cone of velocities without approach: its optimality conditions decide.
+// The projection onto the cone of nonapproaching velocities, checked by its optimality conditions.
 #include "random_shapes.h"
 #include "sim/impact/active_set.h"
 
@@ -59,7 +59,7 @@ Eigen::VectorXd change(const Problem& p, const std::vector<double>& lambda) {
     return d;
 }
 
-// Karush, Kuhn, Tucker: lambda >= 0, every demand met, and none overfulfilled where lambda > 0. Necessary and enough.
+// Karush, Kuhn, Tucker: lambda >= 0, every demand met, and with equality where lambda > 0. Necessary and sufficient.
 void expect_optimal(const Problem& p, const std::vector<double>& lambda, double tolerance) {
     const Eigen::VectorXd d = change(p, lambda);
     for (std::size_t i = 0; i < lambda.size(); ++i) {
@@ -87,8 +87,8 @@ TEST(ActiveSet, MeetsTheOptimalityConditions) {
     EXPECT_EQ(met, 1000);
 }
 
-// One projection serves for one set after another.
-TEST(ActiveSet, LeavesNothingBehind) {
+// One ActiveSet serves for one set after another.
+TEST(ActiveSet, KeepsNoStateBetweenSolves) {
     Random random(72);
     const Problem p = random_problem(random, 6, 20);
     ActiveSet used(p.rows, p.bodies);
@@ -118,7 +118,7 @@ TEST(ActiveSet, SpreadsOverDependentRows) {
     expect_optimal(p, lambda, 1e-15);
 }
 
-TEST(ActiveSet, TellsWhenDemandsContradict) {
+TEST(ActiveSet, ReportsContradictoryDemands) {
     Problem p;
     p.bodies = 1;
     VelocityRow row;
@@ -131,11 +131,11 @@ TEST(ActiveSet, TellsWhenDemandsContradict) {
     p.add(row, -2.0);
     std::vector<double> lambda;
     EXPECT_FALSE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
-    EXPECT_NEAR(p.demands[2].value + p.rows[2].dot(change(p, lambda)), 0.0, 1e-15);   // what can be met is
+    EXPECT_NEAR(p.demands[2].value + p.rows[2].dot(change(p, lambda)), 0.0, 1e-15);   // the compatible demand is met
     for (const double l : lambda) EXPECT_LT(l, 10.0);
 }
 
-// Heavy and light bodies in a row: rows all but opposite, 1e-4 apart.
+// Heavy and light bodies in a row: rows nearly opposite, 1e-4 apart.
 TEST(ActiveSet, NearlyOppositeRows) {
     Problem p;
     p.bodies = 2;
@@ -155,7 +155,7 @@ TEST(ActiveSet, NearlyOppositeRows) {
 }
 
 // Sets too large for the exact solution: approximately the same.
-TEST(ActiveSet, SweepsComeNear) {
+TEST(ActiveSet, SweepsApproximateTheExactSolution) {
     Random random(73);
     Problem p = random_problem(random, 200, 100);
     std::vector<double> lambda;
@@ -163,14 +163,15 @@ TEST(ActiveSet, SweepsComeNear) {
     expect_optimal(p, lambda, 1e-6);
 }
 
-// What no body connects is solved apart: the cost is that of the parts, and each gets what it gets alone.
-TEST(ActiveSet, PartsAreSolvedApart) {
+// Components that no body connects are solved apart: the cost is that of the components, and each gets its own
+// solution.
+TEST(ActiveSet, ComponentsAreSolvedSeparately) {
     Random random(7);
     Problem all;
     std::vector<Problem> parts;
     double squares = 0.0;
     for (int k = 0; k < 60; ++k) {
-        // One body each, so that the part hangs together.
+        // One body each, so that the component is connected.
         Problem part = random_problem(random, 1, 1 + random.below(4));
         squares += double(part.rows.size() * part.rows.size());
         for (std::size_t i = 0; i < part.rows.size(); ++i) {

@@ -1,4 +1,5 @@
-// A body alone over a span of time: closed forms of drag, thrust and spans of force, and references in higher precision.
+// A body alone over a span of time: closed forms of drag, thrust and spans of force, and references of higher
+// precision.
 #include "sim/dynamics/integrators/advance.h"
 
 #include "core/error.h"
@@ -91,7 +92,7 @@ TEST(AdvanceExactly, FallThroughAir) {
     }
 }
 
-// Thrown straight up, it comes to rest in the air: there drag is not smooth. Up: v = v_t tan((t_top - t) g / v_t).
+// Thrown straight up, it comes to rest in the air, where drag is not smooth. Up: v = v_t tan((t_top - t) g / v_t).
 TEST(AdvanceExactly, ThrownUpThroughAir) {
     SceneDescription scene = empty_scene();
     scene.simulation.gravity = Vec3(0.0, -g, 0.0);
@@ -110,7 +111,7 @@ TEST(AdvanceExactly, ThrownUpThroughAir) {
     }
 }
 
-// Under drag alone nothing turns the body: any spin is as exact as without air.
+// Drag alone has no torque: any rotation is as exact as without air.
 TEST(AdvanceExactly, DragLeavesTheRotationInClosedForm) {
     SceneDescription scene = falling_box();
     scene.bodies[0].angular_velocity = Vec3(3e3, -2e3, 1e3);
@@ -120,7 +121,7 @@ TEST(AdvanceExactly, DragLeavesTheRotationInClosedForm) {
     EXPECT_EQ(s.orientation.coeffs(), free.orientation.coeffs());
     EXPECT_EQ(s.angular_momentum, free.angular_momentum);
     ReferenceBody truth = reference_of(scene);
-    truth.inertia = {1e9, 1e9, 1e9};   // as if it did not turn: the centre does not care
+    truth.inertia = {1e9, 1e9, 1e9};   // as if it did not rotate: the center is independent of the rotation
     truth.advance(3.0, 60000);
     EXPECT_LT((s.position - truth.position()).norm(), 1e-12);
 }
@@ -138,7 +139,7 @@ TEST(AdvanceExactly, ForcesAtPointsAgainstTheReference) {
     }
 }
 
-// A thruster on the rim of a disc that turns about its axis: angle = tau t^2 / 2 I.
+// A thruster on the rim of a disc that rotates about its axis: angle = tau t^2 / 2 I.
 TEST(AdvanceExactly, ConstantTorqueAboutAPrincipalAxis) {
     SceneDescription scene = empty_scene();
     add_box(scene, {1.0, 1.0, 0.2}, Vec3::Zero(), 3.0);
@@ -149,7 +150,7 @@ TEST(AdvanceExactly, ConstantTorqueAboutAPrincipalAxis) {
     EXPECT_LT(s.orientation.angularDistance(turn(Vec3::UnitZ(), std::remainder(0.5 * t * t / inertia, 2.0 * M_PI))), 1e-12);
 }
 
-// Beginnings and ends anywhere within the span: the sum of the spans between them, whatever the span's own ends.
+// Forces begin and end anywhere within the span: the result is the sum over the spans between them.
 TEST(AdvanceExactly, StepsStopWhereForcesBeginAndEnd) {
     SceneDescription scene = falling_box();
     scene.wind = WindDescription{Vec3(1.0, 0.0, 2.0), 1.2, 0.5};
@@ -161,14 +162,14 @@ TEST(AdvanceExactly, StepsStopWhereForcesBeginAndEnd) {
     truth.force = {0, 0, 0};
     truth.advance(1.0 - 0.7654321, 8000);
     expect_near(exactly(scene, 0.0, 1.0), truth, 2.0, 1e-13);
-    // In pieces.
+    // The same in pieces.
     Body body = built(scene);
     const ForceField forces(scene);
     for (int i = 0; i < 30; ++i) set_state(body, advance_exactly(body, forces, 0, i / 30.0, (i + 1) / 30.0));
     expect_near(state_of(body), truth, 2.0, 1e-12);
 }
 
-// The impulse F t of a span that no step of the others begins or ends with.
+// The impulse F t of a span that begins and ends within steps.
 TEST(AdvanceOneStep, GivesForcesTheirWholeSpan) {
     for (const auto kind : {IntegratorKind::splitting, IntegratorKind::runge_kutta_4}) {
         SceneDescription scene = empty_scene();
@@ -188,11 +189,11 @@ TEST(AdvanceExactly, LightBodiesInThickAir) {
     scene.wind = WindDescription{Vec3(10.0, 0.0, 0.0), 1000.0, 1.0};
     add_sphere(scene, 1.0, Vec3::Zero(), 1e-4).velocity = Vec3(0.0, 1e3, 0.0);
     const RigidState s = exactly(scene, 0.0, 1.0 / 60.0);
-    // At once as fast as the air, and falling through it at the speed where drag and weight are equal.
+    // The body immediately moves at the speed of the air, and falls through it at the terminal speed.
     const double terminal = std::sqrt(2.0 * 1e-4 * g / (1000.0 * built(scene).drag_area));
     EXPECT_NEAR(s.momentum.x() / 1e-4, 10.0, 1e-9);
     EXPECT_NEAR(s.momentum.y() / 1e-4, -terminal, 1e-9);
-    // A balloon in something heavier than a star.
+    // A balloon in a medium denser than a star.
     scene.wind->density = 1e30;
     EXPECT_THROW(exactly(scene, 0.0, 1.0 / 60.0), RunError);
 }

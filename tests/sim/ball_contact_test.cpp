@@ -1,4 +1,4 @@
-// Balls against half-spaces, balls and polyhedra: against the nearest of all their features.
+// Balls against half-spaces, balls and polyhedra: compared with the nearest of all their features.
 #include "random_shapes.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ using namespace tumble::testing;
 
 namespace {
 
-// The point of a convex polyhedron nearest to one outside: the nearest of all triangles of all faces, each by its plane, its
-// edges and its corners.
+// The point of a convex polyhedron nearest to an outside point: the nearest of all triangles of all faces, each by its
+// plane, edges and corners.
 Vec3 nearest_point(const Polyhedron& shape, const Vec3& p) {
     Vec3 best = shape.vertices[0];
     const auto take = [&](const Vec3& q) {
@@ -60,7 +60,7 @@ TEST(BallOnPolyhedron, OutsideMatchesBruteForce) {
     EXPECT_GT(found, 200);
 }
 
-TEST(BallOnPolyhedron, CentreInsideLeavesByTheNearestFace) {
+TEST(BallOnPolyhedron, CenterInsideLeavesByTheNearestFace) {
     Random random(42);
     int inside = 0;
     for (int trial = 0; trial < 300; ++trial) {
@@ -80,8 +80,8 @@ TEST(BallOnPolyhedron, CentreInsideLeavesByTheNearestFace) {
     EXPECT_GT(inside, 50);
 }
 
-// The centre on the surface, to the last digit: no direction is left in (centre - nearest point).
-TEST(BallOnPolyhedron, CentreOnTheSurface) {
+// The center on the surface, to the last digit: (center - nearest point) has no direction.
+TEST(BallOnPolyhedron, CenterOnTheSurface) {
     Random random(43);
     for (int trial = 0; trial < 200; ++trial) {
         const auto shape = trial % 2 ? random_hull(random, 16, {1.0, 0.6, 0.4}) : box_of({1.0, 0.5, 1.5});
@@ -97,7 +97,7 @@ TEST(BallOnPolyhedron, CentreOnTheSurface) {
                     ASSERT_EQ(found.size(), 1u);
                     ASSERT_NEAR(found[0].normal.norm(), 1.0, 1e-12);
                     EXPECT_NEAR(deepest(found), -0.2, 1e-11);
-                    // Away from the shape: a step that way leaves it.
+                    // Away from the shape: a small displacement along it leaves the shape.
                     EXPECT_GT(outside(*shape, center + 1e-6 * (pose.rotation.transpose() * found[0].normal)), 0.0);
                 }
             // Over the middle of a face the normal is the face's, however near.
@@ -123,8 +123,8 @@ TEST(BallOnBall, DistanceNormalAndMiddle) {
     }
 }
 
-// Nearer than the smallest number whose square is one: still a direction, never NaN.
-TEST(BallOnBall, NearlySameCentre) {
+// Nearer than the square root of the smallest number: still a direction, never NaN.
+TEST(BallOnBall, NearlySameCenter) {
     for (const double d : {0.0, 1e-320, 1e-200, 1e-160, 1e-30}) {
         const auto found = collide_all(Ball{0.5}, {}, Ball{0.5}, {{d, 0.0, 0.0}, Mat3::Identity()}, 0.01);
         ASSERT_EQ(found.size(), 1u);
@@ -133,20 +133,21 @@ TEST(BallOnBall, NearlySameCentre) {
     }
 }
 
-// Where a state has overflown a contact may be anything, but something: the step's end then tells whose state it was.
-TEST(BallOnPolyhedron, ACentreThatIsNoNumber) {
+// After an overflow of the state a contact may have any value, but must exist: the end of the step then reports the
+// body.
+TEST(BallOnPolyhedron, ACenterThatIsNotANumber) {
     const Vec3 nowhere = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     EXPECT_LE(collide_all(box_of({1.0, 0.5, 1.5}), Pose{}, Ball{0.3}, {nowhere, Mat3::Identity()}, 0.05).size(), 1u);
 }
 
-TEST(BallOnHalfSpace, TurnedAndMovedPlane) {
+TEST(BallOnHalfSpace, RotatedAndMovedPlane) {
     Random random(45);
     for (int trial = 0; trial < 200; ++trial) {
         const HalfSpace space{random.direction(), random(-3.0, 3.0)};
         const Pose pose = random.pose(10.0);
         const Vec3 on = pose.to_world(space.offset * space.normal + 4.0 * space.normal.unitOrthogonal());
         const Vec3 normal = pose.rotation * space.normal;
-        const double gap = random(-3.0, 0.019);   // deep: also with the centre below
+        const double gap = random(-3.0, 0.019);   // deep: also with the center below
         const auto found = collide_all(space, pose, Ball{0.5}, {on + (0.5 + gap) * normal, Mat3::Identity()}, 0.02);
         ASSERT_EQ(found.size(), 1u);
         EXPECT_LT((found[0].normal - normal).norm(), 1e-14);

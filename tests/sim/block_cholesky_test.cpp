@@ -1,4 +1,4 @@
-// The factorisation by blocks against Eigen's of the same matrix, dense.
+// The factorization by blocks against Eigen's of the same matrix, dense.
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/random_shapes.h"
 
@@ -21,7 +21,7 @@ Matrix6 random_block(Random& random, double size) {
     return m;
 }
 
-/// M + sum J^T J over the pairs: what the direct solver makes. Pairs that come twice add to one block.
+/// M + sum J^T J over the pairs, as in the direct solver. A pair that occurs twice adds to one block.
 Eigen::MatrixXd dense_matrix(Random& random, std::size_t bodies, const Pairs& pairs, double stiffness) {
     Eigen::MatrixXd h = Eigen::MatrixXd::Zero(Eigen::Index(6 * bodies), Eigen::Index(6 * bodies));
     for (std::size_t i = 0; i < bodies; ++i) {
@@ -76,9 +76,9 @@ Pairs random_pairs(Random& random, std::size_t bodies, int count) {
 
 }  // namespace
 
-TEST(BlockCholesky, AgreesWithADenseFactorisation) {
+TEST(BlockCholesky, AgreesWithADenseFactorization) {
     Random random(1);
-    BlockCholesky blocks;   // one for all: what an analysis leaves must not reach the next
+    BlockCholesky blocks;   // shared by all graphs: an analysis must not affect the next
     for (int trial = 0; trial < trials(200); ++trial) {
         const std::size_t bodies = 2 + std::size_t(random.below(20));
         const Pairs pairs = random_pairs(random, bodies, random.below(int(3 * bodies)));
@@ -105,7 +105,7 @@ TEST(BlockCholesky, GraphsOfEveryKind) {
     }
 }
 
-// A tree has no fill: one block on the diagonal and one beside it a body, each eliminated with one product.
+// A tree has no fill: per body one block on the diagonal and one beside it, each eliminated with one product.
 TEST(BlockCholesky, ChainsAndStarsHaveNoFill) {
     for (const bool star : {false, true}) {
         constexpr std::uint32_t n = 50;
@@ -117,7 +117,7 @@ TEST(BlockCholesky, ChainsAndStarsHaveNoFill) {
     }
 }
 
-TEST(BlockCholesky, SaysWhenAMatrixIsNotPositive) {
+TEST(BlockCholesky, ReportsAMatrixThatIsNotPositive) {
     Random random(3);
     const Pairs pairs = {{0, 1}, {1, 2}};
     Eigen::MatrixXd h = dense_matrix(random, 3, pairs, 1.0);

@@ -1,4 +1,4 @@
-// Islands in blocks: every body once, blocks small enough, and of an island the same blocks whatever lies beside it.
+// Islands in blocks: every body once, blocks small enough, and the blocks of an island independent of other islands.
 #include "sim/contact/soft/body_blocks.h"
 #include "sim/random_shapes.h"
 
@@ -17,7 +17,7 @@ constexpr std::size_t most = 32;
 std::vector<std::vector<std::uint32_t>> blocks_of(const std::vector<std::vector<std::uint32_t>>& islands, const std::vector<Body>& bodies) {
     BodyBlocks blocks(most);
     blocks.add(islands.front(), bodies);
-    blocks.clear();   // nothing of it is left
+    blocks.clear();   // removes all blocks
     for (const auto& island : islands) blocks.add(island, bodies);
     std::vector<std::vector<std::uint32_t>> found;
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -46,7 +46,7 @@ TEST(BodyBlocks, EveryBodyOnceInBlocksThatAreSmallEnough) {
             for (const std::uint32_t i : block) ASSERT_TRUE(seen.insert(i).second);
         }
         ASSERT_EQ(seen.size(), bodies.size());
-        // Bodies of a large island go together just as they do where it is alone; small ones are never cut.
+        // The blocks of a large island are the same as for the island alone; small islands are never cut.
         const auto all = blocks_of(islands, bodies);
         for (const auto& island : islands) {
             if (island.size() <= most) {
@@ -58,8 +58,8 @@ TEST(BodyBlocks, EveryBodyOnceInBlocksThatAreSmallEnough) {
     }
 }
 
-// A row is cut where it is longest: blocks are stretches of it.
-TEST(BodyBlocks, NeighboursShareABlock) {
+// A row is cut along its length: blocks are segments of it.
+TEST(BodyBlocks, NeighborsShareABlock) {
     std::vector<Body> bodies(100);
     std::vector<std::uint32_t> island;
     for (std::uint32_t i = 0; i < 100; ++i) {

@@ -53,7 +53,7 @@ TEST(BoundsTree, EmptyTreeHasNothing) {
     EXPECT_TRUE(BoundsTree().bounds().empty());
 }
 
-// All alike, flat, points, in one line, and nested: median splits have nothing to go by.
+// Equal, flat, pointlike, collinear and nested boxes: median splits cannot separate them.
 TEST(BoundsTree, DegenerateBoxes) {
     Random random(72);
     std::vector<Bounds> alike(1000, Bounds{Vec3::Zero(), Vec3::Ones()}), points, line, nested, queries;
@@ -65,8 +65,8 @@ TEST(BoundsTree, DegenerateBoxes) {
     }
     for (int i = 0; i < 50; ++i) queries.push_back(random_box(random, 3.0, 1.0));
     queries.push_back({Vec3::Ones(), Vec3::Ones()});                       // touches a corner: overlap
-    queries.push_back({Vec3::Constant(1.0 + 1e-15), Vec3::Constant(2.0)});   // beyond it by one digit: none
-    queries.push_back({Vec3(3.0, -1.0, -1.0), Vec3(3.0, 1.0, 1.0)});         // through the middle of a seam
+    queries.push_back({Vec3::Constant(1.0 + 1e-15), Vec3::Constant(2.0)});   // beyond it by one digit: no overlap
+    queries.push_back({Vec3(3.0, -1.0, -1.0), Vec3(3.0, 1.0, 1.0)});         // through the boundary between boxes
     queries.push_back(Bounds{});                                           // empty
     for (const auto& items : {alike, points, line, nested}) expect_like_brute_force(items, queries);
 }

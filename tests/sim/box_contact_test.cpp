@@ -1,4 +1,4 @@
-// Boxes on boxes and on the ground, in the poses that happen: aligned, turned, edge on edge, degenerate.
+// Boxes on boxes and on the ground, in typical poses: aligned, rotated, edge on edge, degenerate.
 #include "random_shapes.h"
 #include "core/rotation.h"
 
@@ -79,9 +79,9 @@ TEST(BoxOnBox, SameSizeStacked) {
         }
 }
 
-// A square over the same square turned by 45 degrees: a regular octagon of area 2 (sqrt 2 - 1). Four points of it hold
+// A square over the same square rotated by 45 degrees: a regular octagon of area 2 (sqrt 2 - 1). Four points of it span
 // at least 1/sqrt 2 of that (the largest square in the octagon), and none lies outside it.
-TEST(BoxOnBox, TurnedByFortyFiveDegrees) {
+TEST(BoxOnBox, RotatedByFortyFiveDegrees) {
     for (const BoxKind& kind : kinds) {
         const auto box = kind.make({1.0, 1.0, 1.0});
         const Pose above{{0.0, 0.9999, 0.0}, turned(Vec3::UnitY(), std::numbers::pi / 4)};
@@ -102,7 +102,7 @@ TEST(BoxOnBox, TurnedByFortyFiveDegrees) {
 TEST(BoxOnBox, CrossedEdgesTouchAtOnePoint) {
     for (const BoxKind& kind : kinds) {
         const auto box = kind.make({2.0, 2.0, 2.0});
-        const double top = std::numbers::sqrt2;   // of an edge turned up
+        const double top = std::numbers::sqrt2;   // of an edge on top
         for (const double gap : {-0.05, -1e-4, 0.01}) {
             const Pose below{Vec3::Zero(), turned(Vec3::UnitX(), std::numbers::pi / 4)};
             const Pose above{{0.1, 2.0 * top + gap, 0.2}, turned(Vec3::UnitZ(), std::numbers::pi / 4)};
@@ -116,7 +116,7 @@ TEST(BoxOnBox, CrossedEdgesTouchAtOnePoint) {
     }
 }
 
-// The short cuts for boxes against the general way, overlapping or near.
+// The shortcuts for boxes against the general routine, overlapping or near.
 TEST(BoxOnBox, AsBoxAndAsHullAgree) {
     Random random(31);
     int found = 0;
@@ -125,7 +125,7 @@ TEST(BoxOnBox, AsBoxAndAsHullAgree) {
         const Pose a = random.pose(0.7), b = random.pose(0.7);
         const auto quick = collide_all(box_of(size_a), a, box_of(size_b), b, 0.02);
         const auto plain = collide_all(plain_box(size_a), a, plain_box(size_b), b, 0.02);
-        // Corner to corner, nearer than the margin by the axis but not face to face, either may say nothing.
+        // Corner to corner, nearer than the margin by the axis but not face to face, either may give no manifold.
         if (quick.size() != plain.size()) {
             EXPECT_GT(deepest(quick.empty() ? plain : quick), 0.0);
             continue;
@@ -146,7 +146,7 @@ TEST(BoxOnBox, FeaturesStayTheSameUnderSmallMotion) {
     int changed = 0, total = 0;
     for (int trial = 0; trial < 300; ++trial) {
         const auto a = box_of({2.0, 1.0, 2.0}), b = box_of({1.0, 1.0, 1.0});
-        // Resting flat, turned about the vertical, up to the wobble of a solver.
+        // Resting flat, rotated about the vertical, with the amplitude of a solver's jitter.
         const Pose at{{random(-0.9, 0.9), 0.9999, random(-0.9, 0.9)}, turned(Vec3::UnitY(), random(0.05, 1.5))};
         const auto before = collide_all(a, {}, b, at, 0.02);
         for (int k = 0; k < 5; ++k) {
@@ -161,7 +161,7 @@ TEST(BoxOnBox, FeaturesStayTheSameUnderSmallMotion) {
     EXPECT_LE(changed, total / 100);   // a corner right on an edge may come and go
 }
 
-// Nothing but ties: corner on corner, corner on edge, edge along edge, face edges exactly over each other.
+// Only ties: corner on corner, corner on edge, edge along edge, face edges exactly over each other.
 TEST(BoxOnBox, DegenerateTouchesAreFiniteAndShallow) {
     const double diagonal = std::sqrt(3.0);
     const Mat3 on_corner = turn_between(Vec3(1.0, 1.0, 1.0), Vec3::UnitY()).toRotationMatrix();
@@ -233,7 +233,7 @@ TEST(HullOnGround, ManyCornersAreSpannedByFour) {
         ASSERT_EQ(found.size(), 1u);
         EXPECT_EQ(found[0].count, 4);
         EXPECT_GT(contact_area(found[0]), 0.6 * whole) << sides;
-        // The centre of mass lies over the contact: it stands.
+        // The center of mass lies over the contact: the hull stands.
         const auto on_box = collide_all(box_of({4.0, 1.0, 4.0}), {}, prism, {{0.3, 0.99, -0.2}, Mat3::Identity()}, 0.01);
         ASSERT_EQ(on_box.size(), 1u);
         EXPECT_EQ(on_box[0].count, 4);
@@ -241,7 +241,7 @@ TEST(HullOnGround, ManyCornersAreSpannedByFour) {
     }
 }
 
-// The short way for boxes against the one for all polyhedra: the same manifolds, features and all.
+// The routine for boxes against the one for all polyhedra: the same manifolds, including features.
 TEST(BoxOnBox, SameAsAnyPolyhedron) {
     Random random(91);
     int touching = 0, edges = 0, others = 0;

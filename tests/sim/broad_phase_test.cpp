@@ -1,4 +1,4 @@
-// Pairs of the broad phase against all pairs, over random motion, with sleepers, fixed and kinematic bodies.
+// Pairs of the broad phase against all pairs, over random motion, with sleeping, fixed and kinematic bodies.
 #include "random_shapes.h"
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
@@ -52,7 +52,7 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
         for (int step = 0; step < trials(120); ++step) {
             for (Body& body : bodies) {
                 if (!body.moves() || body.asleep) continue;
-                body.velocity = 0.98 * body.velocity + random.vector(step % 40 == 0 ? 40.0 : 2.0);   // now and then a kick
+                body.velocity = 0.98 * body.velocity + random.vector(step % 40 == 0 ? 40.0 : 2.0);   // with an occasional kick
                 body.angular_velocity = random.vector(20.0);
             }
             const std::vector<BroadPhase::Pair> pairs = broad_phase.update(bodies, h);
@@ -90,7 +90,7 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
             }
         }
         EXPECT_GT(most, 20u);
-        EXPECT_LT(most, 900u);   // of 1770: it does leave some out
+        EXPECT_LT(most, 900u);   // of 1770: some are excluded
     }
 }
 
@@ -115,8 +115,8 @@ TEST(BroadPhase, ThreadsFindTheSamePairs) {
     }
 }
 
-// For a measurement every pair counts, whoever sleeps.
-TEST(BroadPhase, SleepersAmongThemselves) {
+// For a measurement every pair counts, asleep or not.
+TEST(BroadPhase, PairsOfSleepingBodies) {
     Random random(84);
     std::vector<Body> bodies;
     for (int i = 0; i < 60; ++i) bodies.push_back(body_of(random, i % 40));
@@ -138,7 +138,7 @@ TEST(BroadPhase, NoBodiesAndOneBody) {
     EXPECT_TRUE(one.update(bodies, h).empty());
 }
 
-// The narrow phase over threads: the same manifolds, in the same order, for any number of them.
+// The narrow phase over threads: the same manifolds, in the same order, for any number of threads.
 TEST(NarrowPhase, ThreadsChangeNothing) {
     Random random(83);
     std::vector<Body> bodies;
@@ -150,7 +150,7 @@ TEST(NarrowPhase, ThreadsChangeNothing) {
     BroadPhase broad_phase;
     const auto pairs = broad_phase.update(bodies, h);
     ASSERT_GT(pairs.size(), 200u);
-    std::vector<Manifold> of_round[3];   // what memory makes of the same poses differs in the last digits
+    std::vector<Manifold> of_round[3];   // refreshed manifolds of the same poses differ in the last digits
     for (const int threads : {1, 2, 4}) {
         ThreadPool pool(threads);
         NarrowPhase narrow_phase(threads);

@@ -1,4 +1,4 @@
-// Random clusters of bodies with contacts between them, made without any geometry: what the impulses see.
+// Random clusters of bodies with contacts between them, made without any geometry: the input of the impact laws.
 #pragma once
 
 #include "random_shapes.h"

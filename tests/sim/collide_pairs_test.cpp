@@ -1,4 +1,4 @@
-// What holds for every pair of shapes: the normal away from A, order of the arguments, rigid motion, distance.
+// Properties of every pair of shapes: the normal away from A, order of the arguments, rigid motion, distance.
 #include "random_shapes.h"
 
 #include <gtest/gtest.h>
@@ -65,8 +65,8 @@ constexpr double margin = 0.02;
 
 }  // namespace
 
-// The same pair the other way round. Two polyhedra may prefer the other's face: for them the plane must agree.
-TEST(Pairs, SwappedArgumentsTurnTheNormal) {
+// The same pair in the other order. Two polyhedra may prefer the other's face: for them the plane must agree.
+TEST(Pairs, SwappedArgumentsReverseTheNormal) {
     int found = 0;
     for_pairs(21, 40, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
         const auto ab = collide_all(a.collider, pose_a, b.collider, pose_b, margin);
@@ -95,7 +95,7 @@ TEST(Pairs, RigidMotionMovesTheManifold) {
     });
 }
 
-// 1e4 m from the origin a double still holds 2e-12 m.
+// 1e4 m from the origin a double still resolves 2e-12 m.
 TEST(Pairs, FarFromTheOriginNothingChanges) {
     for_pairs(24, 30, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
         const auto here = collide_all(a.collider, pose_a, b.collider, pose_b, margin);
@@ -107,8 +107,8 @@ TEST(Pairs, FarFromTheOriginNothingChanges) {
 }
 
 // Pushing B along the normal opens the gap by as much: the normal points away from A, and the separation is measured
-// along it. For convex pairs that overlap, one push by the depth frees them.
-TEST(Pairs, PushingAlongTheNormalFrees) {
+// along it. For convex pairs that overlap, one push by the depth separates them.
+TEST(Pairs, PushingAlongTheNormalSeparates) {
     for_pairs(25, 40, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
         if (a.name.ends_with("surface") || b.name.ends_with("surface")) return;
         const auto found = collide_all(a.collider, pose_a, b.collider, pose_b, margin);
@@ -121,10 +121,10 @@ TEST(Pairs, PushingAlongTheNormalFrees) {
     });
 }
 
-TEST(Pairs, FarthestApartGiveNothing) {
+TEST(Pairs, DistantPairsGiveNoManifold) {
     Random random(26);
     for_pairs(27, 10, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
-        // A movable shape well outside, a half-space's inside avoided.
+        // A movable shape well outside, not inside of a half-space.
         const double reach = (a.movable ? bounding_radius(a.collider) : 4.0) + (b.movable ? bounding_radius(b.collider) : 4.0);
         Vec3 way = random.direction();
         if (const auto* s = std::get_if<HalfSpace>(&a.collider)) way = pose_a.rotation * s->normal;
@@ -134,8 +134,8 @@ TEST(Pairs, FarthestApartGiveNothing) {
     });
 }
 
-// Every point and normal is finite wherever the shapes are: same centres, same poses.
-TEST(Pairs, SameCentresAreFinite) {
+// Every point and normal is finite in any relative pose: same centers, same poses.
+TEST(Pairs, CoincidentCentersAreFinite) {
     for_pairs(28, 10, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
         for (const Pose& other : {Pose{pose_a.position, pose_b.rotation}, pose_a}) {
             const auto found = collide_all(a.collider, pose_a, b.collider, other, margin);

@@ -67,7 +67,7 @@ TEST(CompoundMass, AnLBlock) {
         return Mat3(own + m * (d.squaredNorm() * Mat3::Identity() - d * d.transpose()));
     };
     expect_inertia(ell, about_center({0.9, 0.9, 0.3}, large, large_at) - about_center({0.6, 0.6, 0.3}, small, small_at), 1e-14);
-    EXPECT_GT(std::abs(ell.inertia_body(0, 1)), 1.0);   // an L's axes are no longer those of its frame
+    EXPECT_GT(std::abs(ell.inertia_body(0, 1)), 1.0);   // an L's axes differ from those of its frame
 }
 
 TEST(CompoundMass, ADumbbellOfTwoDensities) {
@@ -83,14 +83,14 @@ TEST(CompoundMass, ADumbbellOfTwoDensities) {
     Mat3 inertia = Mat3::Zero();
     inertia.diagonal() = Vec3(own, across, across);
     expect_inertia(body, inertia, 1e-15);
-    // A given mass: the same shares.
+    // For a given mass: the same mass ratios.
     const Body scaled = built(compound_of({light, heavy}), 1000.0, 8.0);
     EXPECT_NEAR(scaled.mass, 8.0, 1e-14);
     expect_inertia(scaled, 8.0 / (4.0 * m) * inertia, 1e-15);
     EXPECT_EQ(scaled.center_of_mass, body.center_of_mass);
 }
 
-TEST(CompoundMass, PartsMayBeTurnedAndOverlap) {
+TEST(CompoundMass, PartsMayBeRotatedAndOverlap) {
     Random random(7);
     const Quat q(random.turn());
     const Vec3 size(0.3, 0.5, 0.9);
@@ -103,7 +103,7 @@ TEST(CompoundMass, PartsMayBeTurnedAndOverlap) {
     expect_inertia(twice, 2.0 * one.inertia_body, 1e-15);
 }
 
-// A mesh part's centre of mass need not be its origin.
+// A mesh part's center of mass need not be its origin.
 TEST(CompoundMass, MeshParts) {
     const auto cube = asset_of(box_mesh({1.0, 0.0, 0.0}, {2.0, 1.0, 1.0}));
     const Body body = built(compound_of({part(MeshShape{cube}, {-1.0, 0.0, 0.0}), part(MeshShape{cube}, Vec3::Zero())}));
@@ -114,8 +114,8 @@ TEST(CompoundMass, MeshParts) {
     EXPECT_LT((compound_in(body).tree.bounds().extent() - Vec3(2.0, 1.0, 1.0)).norm(), 1e-14);
 }
 
-// Against all part pairs one by one; every part pair keeps a number of its own.
-TEST(CompoundContact, IsThatOfItsParts) {
+// Against all pairs of parts one by one; every pair of parts has its own part index.
+TEST(CompoundContact, IsTheUnionOverItsParts) {
     Random random(7);
     CollisionScratch scratch;
     int manifolds = 0;
@@ -142,7 +142,8 @@ TEST(CompoundContact, IsThatOfItsParts) {
                         else collide(p.collider, part_pose(pose_a, p), shape, pose, 0.05, scratch, expected);
                     }
                 }
-                // What is nearer than the margin along an axis may be farther off than that: both may be left out then.
+                // Points nearer than the margin along an axis may be farther apart than it: both results may then skip
+                // them.
                 const auto touching = [](const std::vector<Manifold>& list) {
                     return std::count_if(list.begin(), list.end(), [](const Manifold& m) {
                         return std::any_of(m.points.begin(), m.points.begin() + m.count, [](const ContactPoint& p) { return p.separation < 0.0; });
@@ -160,7 +161,7 @@ TEST(CompoundContact, IsThatOfItsParts) {
                     }));
                 }
                 std::sort(parts.begin(), parts.end());
-                // A body may rest on one triangle with several normals; else the numbers are distinct.
+                // A body may rest on one triangle with several normals; else the part indices are distinct.
                 if (!std::holds_alternative<std::shared_ptr<const CollisionMesh>>(b)) {
                     EXPECT_EQ(std::adjacent_find(parts.begin(), parts.end()), parts.end());
                 }
@@ -169,11 +170,11 @@ TEST(CompoundContact, IsThatOfItsParts) {
         }
     }
     EXPECT_GT(manifolds, 2000);
-    // Contacts within the body, where parts overlap, are left out.
+    // Contacts within the body, where parts overlap, are skipped.
     EXPECT_GT(double(touching_found), 0.9 * double(touching_expected));
 }
 
-// However deep: a body that is far in a plane after a fast step is not taken for one that leans on itself.
+// At any depth: a body deep in a plane after a fast step is not mistaken for a contact at its own internal edge.
 TEST(CompoundContact, OverlappingPartsAreHeldAtAnyDepth) {
     const Body body = built(compound_of({part(SphereShape{0.3}, {0.0, 0.1, 0.0}), part(SphereShape{0.3}, {0.0, -0.1, 0.0}), part(BoxShape{{0.4, 0.4, 0.4}}, Vec3::Zero())}));
     CollisionScratch scratch;
@@ -231,7 +232,7 @@ TEST(CompoundImpact, ABoxOfEightBoxesHitsWhenTheBoxDoes) {
     EXPECT_GT(hits, 150);
 }
 
-// Through the hole of a link: a hull would be hit.
+// Through the hole of a link, where a hull would be hit.
 TEST(CompoundImpact, ABallFliesThroughALink) {
     ImpactSearch search;
     const Flying link(free_body(square_link(1.0, 0.2), 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), {0.0, 0.0, 3.0}), Vec3::Zero());

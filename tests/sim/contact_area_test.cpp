@@ -1,4 +1,4 @@
-// Even pressure over a contact area, and the points that stand for it.
+// Uniform pressure over a contact area, and the points that represent it.
 #include "sim/geometry/contact_area.h"
 #include "sim/random_shapes.h"
 
@@ -12,7 +12,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// A convex polygon in a plane across a random normal, far from the origin.
+// A convex polygon in a plane normal to a random direction, far from the origin.
 struct Polygon {
     Vec3 normal, first, second, origin;
     std::vector<Vec3> corners;
@@ -61,7 +61,7 @@ TEST(ContactArea, OfDiscsIsTwoThirdsOfTheRadius) {
         const ContactArea area = contact_area(p.corners, p.normal);
         EXPECT_NEAR(area.mean_distance, 2.0 / 3.0 * along, 2e-3);
         EXPECT_LT((area.centroid - p.origin).norm(), 1e-12);
-        // The four points that are kept are loaded so that their centre is the disc's.
+        // The loads of the four kept points have the disc's center as their centroid.
         Manifold m = p.manifold();
         spread_pressure(area, m);
         const ContactArea again = contact_area(m);
@@ -71,7 +71,7 @@ TEST(ContactArea, OfDiscsIsTwoThirdsOfTheRadius) {
     }
 }
 
-// Of lines, and what is as good as one, the middle and a quarter of the length.
+// For lines, and polygons that are nearly lines: the middle and a quarter of the length.
 TEST(ContactArea, OfLines) {
     Random random(5);
     for (const double width : {0.0, 1e-9, 1e-4}) {
@@ -90,7 +90,7 @@ TEST(ContactArea, OfLines) {
     }
 }
 
-// Whatever the area, no point has to pull, and the centre is right where the points allow it.
+// For any area, no point has a negative share, and the centroid is right where the points allow it.
 TEST(ContactArea, SharesOfRandomPolygons) {
     Random random(6);
     int exact = 0;

@@ -18,7 +18,7 @@ struct Flood {
     std::vector<int> manifold_label;
 };
 
-/// Spreads the lowest body's number over all that touches until nothing changes.
+/// Spreads the lowest body's label over all touching bodies until nothing changes.
 Flood flood(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
     Flood f{std::vector<int>(bodies.size(), -1), std::vector<int>(manifolds.size(), -1)};
     const auto counts = [&](const Manifold& m) { return !apart(bodies[m.a]) && !apart(bodies[m.b]); };
@@ -45,7 +45,7 @@ Flood flood(const std::vector<Manifold>& manifolds, const std::vector<Body>& bod
 TEST(ContactIslands, AgreeWithAFloodFill) {
     Random random(5);
     constexpr std::size_t n = 40;
-    ContactIslands islands(n);   // one for all rounds: nothing of an earlier one may show
+    ContactIslands islands(n);   // shared by all rounds: an earlier round must not affect a later one
     for (int trial = 0; trial < trials(2000); ++trial) {
         std::vector<Body> bodies(n);
         std::vector<std::uint32_t> awake;
@@ -69,7 +69,7 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
             const auto members = islands.bodies(k);
             ASSERT_FALSE(members.empty());
             const int label = int(members[0]);
-            ASSERT_GT(label, last);   // by lowest body
+            ASSERT_GT(label, last);   // islands are ordered by their lowest body
             last = label;
             for (std::size_t i = 0; i < members.size(); ++i) {
                 ASSERT_EQ(expected.label[members[i]], label);
@@ -87,7 +87,7 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
     }
 }
 
-TEST(ContactIslands, FixedAndKinematicBodiesJoinNothing) {
+TEST(ContactIslands, FixedAndKinematicBodiesConnectNothing) {
     std::vector<Body> bodies(4);
     bodies[0].type = BodyType::fixed;
     bodies[1].type = BodyType::kinematic;
@@ -98,7 +98,7 @@ TEST(ContactIslands, FixedAndKinematicBodiesJoinNothing) {
     EXPECT_EQ(islands.manifolds(1).size(), 2u);
 }
 
-TEST(ContactIslands, NothingTouchesNothing) {
+TEST(ContactIslands, NoContactsNoIslands) {
     std::vector<Body> bodies(3);
     ContactIslands islands(3);
     islands.find({}, bodies, std::vector<std::uint32_t>{0, 1, 2});

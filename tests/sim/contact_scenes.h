@@ -1,5 +1,5 @@
-// Bodies and manifolds made by hand, and a scene moved by one contact solver alone: for tests of contact below World, where
-// the impulses can be seen.
+// Handmade bodies and manifolds, and a scene moved by one contact solver alone: for tests of contact below World, where
+// the impulses are accessible.
 #pragma once
 
 #include "sim/dynamics/body_builder.h"
@@ -15,7 +15,7 @@
 
 namespace tumble::testing {
 
-/// A manifold of one point between two bodies; only who touches whom matters.
+/// A manifold of one point between two bodies; only the touching pair matters.
 inline Manifold touch(std::uint32_t a, std::uint32_t b) {
     Manifold m;
     m.a = a;
@@ -25,10 +25,10 @@ inline Manifold touch(std::uint32_t a, std::uint32_t b) {
     return m;
 }
 
-/// Gravity and resting contact, nothing else: no restitution, no sleep, symplectic Euler.
+/// Gravity and resting contact alone: no restitution, no sleep, symplectic Euler.
 class SolverScene {
 public:
-    /// kept: islands, and what solvers make of them, for as long as the same pairs touch.
+    /// kept: keeps islands, and the solvers' data for them, while the same pairs touch.
     enum class Islands { kept, found_anew };
 
     explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1,
@@ -75,7 +75,7 @@ public:
                 for (int i = 0; i < m.count; ++i) sum += m.points[std::size_t(i)].impulse;
         return sum;
     }
-    /// N, of friction between them.
+    /// N, friction between them.
     double friction(std::uint32_t a, std::uint32_t b) const {
         double one = 0.0, two = 0.0;
         for (const Manifold& m : *manifolds)
@@ -86,7 +86,7 @@ public:
         return std::hypot(one, two) / h_;
     }
     double h() const { return h_; }
-    /// How often islands were found.
+    /// Number of times that the islands were found.
     std::uint64_t island_changes() const { return islands_.changes(); }
 
     std::vector<Body> bodies;

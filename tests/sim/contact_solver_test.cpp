@@ -1,4 +1,4 @@
-// Each contact solver alone, and the choice between them: loads, momentum, Coulomb's law.
+// Each contact solver alone, and the selection between them: loads, momentum, Coulomb's law.
 #include "core/deterministic_math.h"
 #include "sim/contact_scenes.h"
 #include "sim/random_shapes.h"
@@ -22,7 +22,7 @@ SceneDescription with_friction(SceneDescription scene, double friction) {
 
 }  // namespace
 
-// The sum of the impulses is m g h, in every step and for every step's length.
+// The sum of the impulses is m g h, in every step and for every length of a step.
 TEST(ContactSolver, ABoxOnTheFloorWeighsItsWeight) {
     for (const Choice choice : all_choices)
         for (const int steps : {1, 4, 16}) {
@@ -37,7 +37,7 @@ TEST(ContactSolver, ABoxOnTheFloorWeighsItsWeight) {
         }
 }
 
-// Ten boxes of different masses: each contact carries all that is above, to 0.1 %.
+// Ten boxes of different masses: each contact carries all boxes above it, to 0.1 %.
 TEST(ContactSolver, AStackCarriesItsLoad) {
     for (const Choice choice : all_choices)
         for (const int steps : {1, 16}) {
@@ -82,7 +82,7 @@ TEST(ContactSolver, ImpulsesAreEqualAndOpposite) {
             momenta(linear_0, angular_0);
             double impulses = 0.0;
             for (int k = 0; k < 60; ++k) {
-                // Where the bodies have moved to: push-out changes x cross P, too.
+                // At the bodies' new positions: position correction changes x cross P, too.
                 Vec3 before, angular_before;
                 momenta(before, angular_before);
                 solver.step();
@@ -99,7 +99,7 @@ TEST(ContactSolver, ImpulsesAreEqualAndOpposite) {
     }
 }
 
-// A long plate that slides on its own face: mu g against the velocity whatever the plate's direction, straight on.
+// A long plate that slides on its own face decelerates by mu g in any direction of the plate, in a straight line.
 TEST(ContactSolver, ASlidingPlateKeepsItsDirection) {
     for (const Choice choice : all_choices)
         for (const int steps : {1, 4, 16})
@@ -114,7 +114,7 @@ TEST(ContactSolver, ASlidingPlateKeepsItsDirection) {
                 EXPECT_LE((body.velocity - (4.0 - 0.3 * g) * way).norm(), 1e-4) << name(choice) << " " << steps << " " << angle;
                 EXPECT_LE(body.angular_velocity.norm(), 5e-4) << name(choice) << " " << steps << " " << angle;
                 EXPECT_NEAR(solver.friction(0, 1), 0.3 * 2.0 * g, 1e-3 * 2.0 * g);
-                // Symplectic Euler's way: the sum of the velocities after each step.
+                // As in symplectic Euler: the sum of the velocities after each step.
                 const double n = std::round(1.0 / solver.h()), along = 4.0 - 0.3 * g * 0.5 * (1.0 + 1.0 / n);
                 const Vec3 moved(body.position.x(), 0.0, body.position.z());
                 EXPECT_LE((moved - along * way).norm(), steps == 1 && choice == Choice::soft ? 5e-2 : 1e-2) << name(choice) << " " << steps << " " << angle;
@@ -122,8 +122,8 @@ TEST(ContactSolver, ASlidingPlateKeepsItsDirection) {
             }
 }
 
-// Between two moving bodies, without gravity: pressed together by forces there are none, the slip lasts.
-TEST(ContactSolver, NothingPressesNothingRubs) {
+// Between two moving bodies without gravity no force presses, and the slip remains.
+TEST(ContactSolver, NoFrictionWithoutNormalForce) {
     for (const Choice choice : all_choices) {
         SceneDescription scene = empty_scene(4);
         add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.0, 0.0});
@@ -135,8 +135,9 @@ TEST(ContactSolver, NothingPressesNothingRubs) {
     }
 }
 
-// Two to four boxes that meet in free space, one step a frame: what pushes them out of overlaps moves them past their momenta, and the
-// angular momentum went with it, by 1e-3 to 1e-1 of itself. What is left are spins held to their energy, and bodies stopped on their way.
+// Two to four boxes that meet in free space, one step per frame. Position correction moves them past their momenta;
+// without compensation the angular momentum changes by a fraction of 1e-3 to 1e-1. The remaining causes are limits of
+// spin energy and clamped bodies.
 TEST(ContactSolver, FloatingBodiesKeepTheirAngularMomentum) {
     for (const Choice choice : all_choices) {
         Random random(77);
@@ -160,7 +161,7 @@ TEST(ContactSolver, FloatingBodiesKeepTheirAngularMomentum) {
             }
             kept += lost <= 1e-4 * start.norm();
         }
-        EXPECT_GE(kept, choice == Choice::soft ? 20 : 36) << name(choice);   // 22 and 39; without, 0 and 9
+        EXPECT_GE(kept, choice == Choice::soft ? 20 : 36) << name(choice);   // 22 and 39 measured; 0 and 9 without the compensation
     }
 }
 
@@ -183,8 +184,8 @@ TEST(ContactSolver, ThreadsChangeNothing) {
     }
 }
 
-// Leaning columns that sway, and some that fall: what is kept while the same pairs touch is what would be found again.
-TEST(ContactSolver, WhatIsKeptIsWhatWouldBeFound) {
+// Leaning columns that sway, and some that fall: data kept while the same pairs touch equals data found anew.
+TEST(ContactSolver, KeptDataEqualsDataFoundAnew) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     for (int i = 0; i < 300; ++i)
         add_box(scene, {0.5, 0.5, 0.5}, {(i / 6 % 10) + 0.03 * (i % 6) * (i / 60), 0.26 + 0.52 * (i % 6), 1.0 * (i / 60)});

@@ -1,4 +1,4 @@
-// Contacts made of manifolds, and what is carried over from the step before.
+// Contacts made of manifolds, and impulse matching with the last step.
 #include "clusters.h"
 #include "sim/geometry/impulse_matching.h"
 
@@ -31,8 +31,8 @@ std::vector<Body> some_bodies(Random& random, int n) {
 
 }  // namespace
 
-// The change of v_rel by a unit impulse along the normal, applied to the momenta, is the bracket of eq. 20: what impacts
-// have as the squared length of a contact's row.
+// The change of v_rel by a unit impulse along the normal, applied to the momenta, is the bracket of eq. 20: the squared
+// length of a contact's row in an impact.
 TEST(MakeContacts, RowsHaveTheBracketOfEquation20) {
     Random random(111);
     for (int trial = 0; trial < 200; ++trial) {
@@ -64,12 +64,12 @@ TEST(MakeContacts, RowsHaveTheBracketOfEquation20) {
     }
 }
 
-// In the manifolds' and their points' order, and added to what is there when asked for one by one.
+// In the order of the manifolds and of their points; contacts of a single manifold are appended.
 TEST(MakeContacts, KeepsTheManifoldsOrder) {
     Random random(112);
     const std::vector<Body> bodies = some_bodies(random, 4);
     const std::vector<Manifold> manifolds{manifold(0, 1, 0, {5, 6, 7, 8}), manifold(0, 2, 3, {1}), manifold(2, 3, 9, {4, 2})};
-    std::vector<Contact> contacts(3);   // of the step before: they go
+    std::vector<Contact> contacts(3);   // of the last step: they are removed
     make_contacts(manifolds, bodies, contacts);
     ASSERT_EQ(contacts.size(), 7u);
     for (const Manifold& m : manifolds) add_contacts(m, bodies, contacts);
@@ -85,9 +85,9 @@ TEST(MakeContacts, KeepsTheManifoldsOrder) {
             }
 }
 
-// What earlier steps built up: to points of the same feature; to the others that of the nearest one left over, within reach;
-// what is left then to the nearest of all, so that no load is lost.
-TEST(CarryOver, ByFeatureElseByPlace) {
+// Impulses of earlier steps: to points of the same feature; to other points that of the nearest remaining old point,
+// within reach; the remainder to the nearest points of all, so that no load is lost.
+TEST(CarryOver, ByFeatureThenByPlace) {
     Manifold before = manifold(0, 1, 0, {5, 6, 7, 8}), now = manifold(0, 1, 0, {8, 5, 99, 100});
     for (int i = 0; i < 4; ++i) {
         before.points[std::size_t(i)].impulse = 10.0 + i;
@@ -97,20 +97,20 @@ TEST(CarryOver, ByFeatureElseByPlace) {
     before.friction[0] = 1.0;
     before.friction[1] = 2.0;
     before.twist = 3.0;
-    now.points[0].position = Vec3(1.0, 0.0, 0.0);   // where feature 6 was: its own feature counts all the same
+    now.points[0].position = Vec3(1.0, 0.0, 0.0);   // the old place of feature 6: its own feature counts all the same
     now.points[2].position = Vec3(2.1, 0.0, 0.0);
     now.points[3].position = Vec3(1.0, 0.0, 0.6);
     carry_over(before, 0.5, now);
     EXPECT_EQ(now.points[0].impulse, 13.0 + 11.0);   // and that of feature 6, which is gone
     EXPECT_EQ(now.points[1].impulse, 10.0);
     EXPECT_EQ(now.points[2].impulse, 12.0);
-    EXPECT_EQ(now.points[3].impulse, 0.0);   // nobody near
+    EXPECT_EQ(now.points[3].impulse, 0.0);   // no old point near
     EXPECT_EQ(now.tangent, Vec3::UnitX());
     EXPECT_EQ(now.friction[0], 1.0);
     EXPECT_EQ(now.friction[1], 2.0);
     EXPECT_EQ(now.twist, 3.0);
 
-    // Another side of the body bears now: what is left over has nothing to do with it.
+    // Another side of the body carries the load: the old impulses do not apply to it.
     Manifold turned = manifold(0, 1, 0, {5, 99});
     turned.normal = before.normal.unitOrthogonal();
     turned.points[1].position = Vec3(9.0, 0.0, 0.0);

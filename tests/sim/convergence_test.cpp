@@ -1,4 +1,4 @@
-// What each integrator claims: its order, what it does to energy in the long run, whether it can be run back.
+// Properties of each integrator: its order, its energy error in the long run, its reversibility.
 #include "random_shapes.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/extrapolation.h"
@@ -15,7 +15,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// An asymmetric body, free or under gravity, drag and a force at a point that turns with it.
+// An asymmetric body, free or under gravity, drag and a force at a point that rotates with it.
 struct Problem {
     double mass = 2.0;
     Vec3 inertia{0.2, 0.5, 0.6}, gravity = Vec3::Zero(), wind = Vec3::Zero(), point = Vec3::Zero(), force = Vec3::Zero();
@@ -30,7 +30,7 @@ struct Problem {
     static Problem driven() {
         Problem p;
         p.gravity = Vec3(0.0, -9.81, 0.0);
-        // Fast past the air: near rest in it |u| u has a singularity, and the order shows at smaller steps only.
+        // Fast relative to the air: near zero speed |u| u has a singularity, and the order shows at smaller steps only.
         p.start.momentum = p.mass * Vec3(30.0, 4.0, -1.0);
         p.wind = Vec3(2.0, 0.0, 1.0);
         p.drag = 0.02;
@@ -106,7 +106,7 @@ struct Named {
     const char* name;
     Method run;
     double order;
-    int steps;   // for one second, so that the error is beyond the first terms and far from rounding
+    int steps;   // for one second, in the asymptotic range and far above rounding
 };
 
 std::vector<Named> ladder() {
@@ -161,8 +161,8 @@ TEST(Convergence, DragAndAForceAtAPointKeepTheOrder) {
     }
 }
 
-// Over a million steps, seen a hundred times: the splitting's energy stays in the band it has from the start; the others'
-// wanders off at a steady rate.
+// Over a million steps, sampled a hundred times: the splitting's energy stays in its initial band; that of the others
+// drifts at a steady rate.
 TEST(Convergence, EnergyInTheLongRun) {
     const Problem p;
     const int blocks = 100, steps = trials(trials(10000));
@@ -185,7 +185,7 @@ TEST(Convergence, EnergyInTheLongRun) {
     EXPECT_LT(late, 5e-4);
     band(method(runge_kutta_4_step), early, late);
     EXPECT_GT(late, 2.5 * early);
-    // In proportion to time, once that is long enough.
+    // In proportion to time, for long times.
     if (steps == 10000) {
         EXPECT_NEAR(late / early, 10.0, 2.0) << early << ", " << late;
     }
@@ -201,10 +201,10 @@ TEST(Convergence, ExtrapolationHardlyLosesEnergy) {
     EXPECT_EQ(s.angular_momentum, p.start.angular_momentum);
 }
 
-// Run forward, turn the momenta round, run as far again: back at the start, but for rounding. No other of the ladder does.
+// Run forward, reverse the momenta, run as far again: back at the start, up to rounding. No other integrator does.
 TEST(Convergence, SplittingRunsBack) {
     Problem p = Problem::driven();
-    p.drag = 0.0;   // which knows before from after
+    p.drag = 0.0;   // which is not reversible
     const auto distance = [&](const Method& run) {
         RigidState s = p.start;
         run(p, s, 0.01, 1000);
@@ -219,8 +219,8 @@ TEST(Convergence, SplittingRunsBack) {
     EXPECT_GT(distance(euler(true, RotationForm::quaternion)), 1e-3);
 }
 
-// The axes that the mass is given in make no difference.
-TEST(Convergence, PrincipalAxesTurnedInTheBody) {
+// The principal axes of the mass may be given in any frame.
+TEST(Convergence, PrincipalAxesRotatedInTheBody) {
     const Problem p;
     const Quat axes = Quat(0.3, 0.5, -0.7, 0.2).normalized();
     RigidMass turned = p.rigid_mass();

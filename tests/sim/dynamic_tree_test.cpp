@@ -1,4 +1,5 @@
-// The dynamic tree against looking at every box, while boxes come, move and go; the event queue against sorting.
+// The dynamic tree against a test of every box, while boxes are added, moved and removed; the event queue against
+// sorting.
 #include "random_shapes.h"
 #include "sim/geometry/dynamic_tree.h"
 #include "sim/event_driven/event_queue.h"
@@ -20,7 +21,7 @@ Bounds random_box(Random& random) {
 
 }  // namespace
 
-TEST(DynamicTree, FindsWhatOverlaps) {
+TEST(DynamicTree, FindsOverlappingBoxes) {
     Random random(7);
     DynamicTree tree;
     std::map<std::uint32_t, Bounds> boxes;
@@ -30,7 +31,7 @@ TEST(DynamicTree, FindsWhatOverlaps) {
             tree.remove(item);
             boxes.erase(item);
         } else {
-            // Far away, or a little from where it was.
+            // Far away, or slightly displaced.
             const Vec3 little = random.vector(0.3);
             const bool stays = boxes.count(item) == 1 && random(0.0, 1.0) < 0.5;
             boxes[item] = stays ? Bounds{boxes[item].min + little, boxes[item].max + little} : random_box(random);
@@ -58,7 +59,7 @@ TEST(EventQueue, GivesTheEarliestAndTheLowestBody) {
             queue.remove(body);
             moments.erase(body);
         } else {
-            // Few different moments, so that many are equal.
+            // Few different times, so that many are equal.
             moments[body] = {std::int64_t(random(0.0, 3.0)), 0.25 * std::floor(random(0.0, 4.0))};
             queue.set(body, moments[body]);
         }
@@ -72,9 +73,9 @@ TEST(EventQueue, GivesTheEarliestAndTheLowestBody) {
     }
 }
 
-TEST(EventTime, KeepsItsDigitsFarFromTheBeginning) {
+TEST(EventTime, KeepsItsDigitsFarFromTheStart) {
     const StepClock clock{60.0, 16};
-    const EventTime a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};   // a thousand hours in
+    const EventTime a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};   // after a thousand hours
     EXPECT_NEAR(clock.between(a, b), 1.0 / 960.0 + 2e-4, 1e-18);
     EXPECT_LT(a, b);
 }

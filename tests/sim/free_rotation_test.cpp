@@ -1,4 +1,4 @@
-// The closed form against Taylor series in higher precision, and what it must keep: L, energy, time's arrow.
+// The closed form against Taylor series of higher precision, and its invariants: L, energy, time reversal.
 #include "sim/math/free_rotation.h"
 
 #include "core/deterministic_math.h"
@@ -37,7 +37,7 @@ struct Flight {
 
 double angle(const Quat& a, const Quat& b) { return 2.0 * (a.conjugate() * b).vec().norm(); }
 
-// m . (m/I), in extended precision: what is measured is the orientation, not this sum.
+// m . (m/I), in extended precision: the test measures the orientation, not this sum.
 long double twice_energy(const Flight& f, const Quat& q) {
     const long double w = q.w(), x = q.x(), y = q.y(), z = q.z(), n = w * w + x * x + y * y + z * z;
     const long double a = f.angular_momentum.x(), b = f.angular_momentum.y(), c = f.angular_momentum.z();
@@ -106,7 +106,7 @@ TEST(FreeRotationReference, SameInExtendedAndQuadruplePrecision) {
         EXPECT_LT(std::fabs(double(extended.orientation()[i] - quadruple.orientation()[i])), 2e-16);
 }
 
-// Each row to a few times what was measured.
+// Bounds are a few times the measured errors.
 TEST(FreeRotation, OrientationAfterTenSeconds) {
     const auto error = [](const Vec3& inertia, const Vec3& omega) { return Flight::spinning(inertia, omega).error(10.0); };
     const Vec3 box = box_inertia(1.0, 0.6, 0.2);
@@ -120,11 +120,11 @@ TEST(FreeRotation, OrientationAfterTenSeconds) {
     EXPECT_LT(error({2.0, 2.0 * (1.0 + 1e-15), 2.0 * (1.0 - 1e-15)}, {0.3, -1.0, 2.0}), 1e-14);
     EXPECT_LT(error({0.5, 0.5 + 1e-6, 1.0}, {0.5, 1.0, 3.0}), 2e-14);   // plate
     EXPECT_LT(error({0.3, 0.7, 1.0}, {0.5, 1.0, 3.0}), 2e-14);
-    EXPECT_LT(error({1.0, 1.0, 1e-6}, {1e-9, -2e-9, 3e-9}), 1e-15);  // hardly turning
+    EXPECT_LT(error({1.0, 1.0, 1e-6}, {1e-9, -2e-9, 3e-9}), 1e-15);  // hardly rotating
     EXPECT_LT(error({1.0, 2.0, 3.0}, {1e-9, 2e-9, -1e-9}), 1e-15);
 }
 
-// Their own axis turns by little momentum: the reference needs all its digits.
+// A small momentum spins a needle about its own axis: the reference needs all its digits.
 TEST(FreeRotation, Needles) {
     const auto error = [](const Vec3& inertia, const Vec3& omega) {
         return Flight::spinning(inertia, omega).error<Wide>(0.1);
@@ -149,7 +149,7 @@ TEST(FreeRotation, ExactSeparatrix) {
             EXPECT_LT(f.error(t), 2e-13) << m.transpose() << ", " << t;
         }
     }
-    // It ends up about the middle axis, for ever.
+    // It approaches the middle axis and stays there.
     const Flight f{Vec3(2.0, 3.0, 6.0), Quat::Identity(), Vec3(1, 2, 1)};
     const Vec3 omega = f.body_omega(f.closed().at(1e4));
     EXPECT_NEAR(std::fabs(omega.y()), std::sqrt(6.0) / 3.0, 1e-12);
@@ -167,7 +167,7 @@ TEST(FreeRotation, RandomFlights) {
     }
 }
 
-TEST(FreeRotation, PrincipalAxesTurnedInTheBody) {
+TEST(FreeRotation, PrincipalAxesRotatedInTheBody) {
     Random random(32);
     for (int i = 0; i < trials(300); ++i) {
         const Flight f = random_flight(random, i);
@@ -178,7 +178,7 @@ TEST(FreeRotation, PrincipalAxesTurnedInTheBody) {
     }
 }
 
-// Sums over what came before: at(s), started anew there, at(t) is at(s + t); and back again.
+// at(s), restarted there, at(t) is at(s + t); and back again.
 TEST(FreeRotation, IsAGroup) {
     Random random(33);
     for (int i = 0; i < trials(3000); ++i) {
@@ -191,7 +191,7 @@ TEST(FreeRotation, IsAGroup) {
     }
 }
 
-// With L turned round, the body retraces its way.
+// With L reversed, the body retraces its motion.
 TEST(FreeRotation, ReversesInTime) {
     Random random(34);
     for (int i = 0; i < trials(3000); ++i) {
@@ -217,7 +217,7 @@ TEST(FreeRotation, KeepsEnergyAndLengthForHours) {
     }
 }
 
-// What returns is omega in body axes, with the period 4 K / lambda; the orientation also turns about L meanwhile.
+// omega in body axes has the period 4 K / lambda; the orientation also rotates about L meanwhile.
 TEST(FreeRotation, ReturnsAfterItsPeriod) {
     const struct {
         Vec3 omega, half_way;
@@ -231,12 +231,12 @@ TEST(FreeRotation, ReturnsAfterItsPeriod) {
             EXPECT_LT(std::asin(omega.cross(c.omega).norm() / omega.norm() / c.omega.norm()), 1e-9);
             EXPECT_GT(omega.dot(c.omega), 0.0);
         }
-        // Half way it has turned over: only the axis that omega circles keeps its sign.
+        // After half a period it has flipped: only the axis that omega circles keeps its sign.
         EXPECT_LT((f.body_omega(closed.at(0.5 * c.period)) - c.half_way).norm(), 1e-8);
     }
 }
 
-// The box of the comparisons with other programs: spinning about its middle axis, frame by frame.
+// The box of the comparison with other programs: spinning about its middle axis, frame by frame.
 TEST(FreeRotation, MiddleAxisBoxAtEveryFrame) {
     const Flight f = Flight::spinning(box_inertia(1.0, 0.6, 0.2), {0.01, 5.0, 0.01});
     const FreeRotation closed = f.closed();
@@ -257,7 +257,7 @@ TEST(FreeRotation, SteadySpins) {
     for (int i = 0; i < trials(300); ++i) {
         Flight f;
         f.inertia = random_inertia(random, i / 3);
-        // Turned by nothing or a half turn: about the middle axis, rounding would not stay small.
+        // Rotated by zero or half a turn: about the middle axis, rounding would grow.
         f.orientation = i % 2 ? Quat::Identity() : Quat(0.0, 0.0, 1.0, 0.0);
         const Vec3 axis = f.orientation * Vec3::Unit(i % 3);
         const double rate = std::ldexp(random(-1.0, 1.0), random.below(50) - 36), t = random(-100.0, 100.0);
@@ -266,7 +266,7 @@ TEST(FreeRotation, SteadySpins) {
         const Quat expected = Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()) * f.orientation;
         EXPECT_LT(angle(f.closed().at(t), expected), 1e-15 * (1.0 + std::fabs(rate * t))) << i;
     }
-    // Fast, for an hour: 3.6e7 rad, right to the rounding of that phase.
+    // Fast, for an hour: 3.6e7 rad, correct to the rounding of that phase.
     const Flight fast = Flight::spinning({1.0, 2.0, 3.0}, {0.0, 1e4, 0.0});
     EXPECT_LT(angle(fast.closed().at(3600.0), Quat(std::cos(1.8e7), 0.0, std::sin(1.8e7), 0.0)), 1e-8);
 }
@@ -277,7 +277,7 @@ TEST(FreeRotation, AtRestNothingChanges) {
     EXPECT_EQ(FreeRotation().at(5.0).coeffs(), Quat::Identity().coeffs());
 }
 
-// Nothing divides by what a double can no longer hold.
+// No division by an underflowed number.
 TEST(FreeRotation, TinyAndHugeNumbers) {
     Random random(37);
     const double scales[] = {1e-300, 1e-160, 1e-30, 1.0, 1e30, 1e150};
@@ -288,7 +288,7 @@ TEST(FreeRotation, TinyAndHugeNumbers) {
         f.inertia *= scale;
         f.angular_momentum *= scale;
         EXPECT_LT(angle(f.closed().at(1.5), plain), 1e-13) << i;
-        // One component next to nothing.
+        // One component negligible.
         Vec3 m = random.vector(1.0);
         m[i % 3] = std::ldexp(1.0, -random.below(1074));
         m[(i + 1) % 3] *= i % 2 ? 1.0 : std::ldexp(1.0, -random.below(1074));
@@ -303,7 +303,7 @@ TEST(FreeRotation, TinyAndHugeNumbers) {
     }
 }
 
-// The same turn, not its negative quaternion: what is drawn between two frames does not jump.
+// The same rotation has a continuous quaternion, without a change of sign: interpolation between frames does not jump.
 TEST(FreeRotation, QuaternionsDoNotJump) {
     Random random(38);
     for (int i = 0; i < trials(300); ++i) {

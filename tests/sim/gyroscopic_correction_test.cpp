@@ -1,4 +1,4 @@
-// Turns that add nothing to the energy of a spin: the step's mean angular velocity against the closed form.
+// Rotations that add nothing to the energy of a spin: the step's mean angular velocity against the closed form.
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 #include "clusters.h"
@@ -15,7 +15,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// Principal axes across the body's own, moments as far apart as 1 : 1.1 (a plate) and 1 : 400 (a needle).
+// Principal axes at an angle to the body's own, moments in ratios from 1 : 1.1 (a plate) to 1 : 400 (a needle).
 void spin_at(Body& body, const Vec3& omega) {
     body.angular_momentum = body.rotation * (body.inertia_body * (body.rotation.transpose() * omega));
     body.derive();
@@ -38,7 +38,7 @@ double angle_between(const Quat& a, const Quat& b) { return 2.0 * (a.conjugate()
 }  // namespace
 
 // A series up to tuning::spin_series_turn, with an error of the fourth order; the closed form beyond.
-TEST(MeanAngularVelocity, LeadsToWhereFreeRotationLeads) {
+TEST(MeanAngularVelocity, EndsWithTheOrientationOfFreeRotation) {
     Random random(301);
     constexpr double h = 1.0 / 60.0;
     for (const RotationForm form : {RotationForm::quaternion, RotationForm::matrix})
@@ -56,8 +56,9 @@ TEST(MeanAngularVelocity, LeadsToWhereFreeRotationLeads) {
             }
 }
 
-// Nothing changes but the angle about an axis that stays: omega is its own mean, and the step turns by h omega, not by its tangent.
-TEST(MeanAngularVelocity, SteadySpinsTurnByTheirAngle) {
+// Only the angle about a constant axis changes: omega is its own mean, and the step rotates by h omega, not by its
+// arctangent.
+TEST(MeanAngularVelocity, SteadySpinsRotateByTheirAngle) {
     Random random(303);
     constexpr double h = 1.0 / 60.0;
     for (const RotationForm form : {RotationForm::quaternion, RotationForm::matrix})
@@ -78,8 +79,8 @@ TEST(MeanAngularVelocity, SteadySpinsTurnByTheirAngle) {
             }
 }
 
-// In contact a turn of h omega where that adds next to nothing, the mean elsewhere, one tangent where it is too large; and the growth
-// foretold is the growth that comes.
+// In contact a rotation by h omega where that adds a negligible energy, the mean elsewhere, one tangent where the
+// rotation is too large; and the predicted growth equals the actual one.
 TEST(MeanAngularVelocity, IsOmegaInContactWhereThatAddsNothing) {
     Random random(302);
     constexpr double h = 1.0 / 60.0;
@@ -113,7 +114,7 @@ TEST(MeanAngularVelocity, IsOmegaInContactWhereThatAddsNothing) {
     EXPECT_GT(much, 100);
 }
 
-// Two bricks that tumble at 12 rad/s past each other, near enough to be looked along: neither energy nor L changes.
+// Two bricks that tumble at 12 rad/s past each other, near enough for CCD: neither energy nor L changes.
 TEST(MeanAngularVelocity, BricksThatPassKeepTheirSpin) {
     SceneDescription scene = empty_scene(1);
     for (const double side : {-1.0, 1.0}) {

@@ -1,4 +1,4 @@
-// Coulomb friction within an impact: closed forms for a ball, no energy from nothing for anything else.
+// Coulomb friction within an impact: closed forms for a ball, no gain of energy for other shapes.
 #include "impact_scenes.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ TEST(BallWithSpin, SlidesOrSticks) {
     EXPECT_GT(stuck, 100);
 }
 
-// Friction only ever brings the slip to rest; it does not send the point back as a superball's does.
+// Friction only brings the slip to zero; it does not reverse it as in a superball.
 TEST(BallWithSpin, IsNotASuperball) {
     ImpactScene s = falling_ball(1.0, 10.0, Vec3(2, -3, 0), Vec3::Zero());
     s.resolve(ImpactLaw::propagating);
@@ -58,7 +58,7 @@ TEST(BallWithSpin, IsNotASuperball) {
     EXPECT_NEAR(point.y(), 3.0, 1e-14);
 }
 
-// Two balls that rub against each other keep the sum of momenta.
+// Two balls with friction between them keep the sum of momenta.
 TEST(TwoBalls, KeepMomentum) {
     Random random(152);
     for (int trial = 0; trial < 200; ++trial) {
@@ -78,8 +78,8 @@ TEST(TwoBalls, KeepMomentum) {
     }
 }
 
-// A box that lands flat and slides: mu (1+e) v_n off its speed (or all of it) in the first round, without turning about
-// the vertical; what friction's torque tips it by is the later rounds'.
+// A box that lands flat and slides: the first round takes mu (1+e) v_n off its speed (or all of it), without rotation
+// about the vertical; later rounds handle the tipping by friction's torque.
 TEST(FlatBox, IsSlowedStraight) {
     ImpactScene s;
     s.restitution = 0.0;
@@ -94,7 +94,7 @@ TEST(FlatBox, IsSlowedStraight) {
     EXPECT_LT(s.approach(), 1e-12);
 }
 
-// Newton's restitution with Coulomb's friction may gain energy where the slip turns round within the impact (Kane and
+// Newton's restitution with Coulomb's friction may gain energy where the slip reverses within the impact (Kane and
 // Levinson's pendulum): a rod that meets the floor at an angle.
 TEST(Rod, GainsNothing) {
     Random random(153);
@@ -138,8 +138,8 @@ TEST(Random, ClustersGainNothing) {
     }
 }
 
-// A belt that moves takes the ball along.
-TEST(Kinematic, BeltTakesTheBallAlong) {
+// A moving belt carries the ball along.
+TEST(Kinematic, BeltCarriesTheBallAlong) {
     ImpactScene s;
     s.restitution = 0.0;
     s.friction = 5.0;

@@ -1,4 +1,4 @@
-// What each law of impact makes of many contacts at once, against closed forms and conservation.
+// Results of each impact law for many simultaneous contacts, against closed forms and conservation.
 #include "impact_scenes.h"
 #include "sim/impact/settings.h"
 
@@ -17,8 +17,8 @@ void expect_speeds(const ImpactScene& s, int axis, const std::vector<double>& sp
 
 }  // namespace
 
-// A real cradle: as many balls leave as come.
-TEST(Cradle, PropagatingHandsTheBlowOn) {
+// A real cradle: as many balls leave as arrive.
+TEST(Cradle, PropagatingTransmitsTheImpulse) {
     for (const int count : {3, 5})
         for (const int striking : {1, 2}) {
             ImpactScene s = cradle(count, striking, 1.0);
@@ -29,8 +29,8 @@ TEST(Cradle, PropagatingHandsTheBlowOn) {
         }
 }
 
-// Newton for all contacts at once: the hit contact parts with e, all others stay closed; so the balls on either side of it
-// move as two bodies. n balls, k striking: u = k/n for both sides together, plus and minus the shares of e.
+// Newton for all contacts at once: the hit contact parts with e, all others stay closed; so the balls on either side of
+// it move as two bodies. n balls, k arriving: u = k/n for both sides together, plus and minus the shares of e.
 TEST(Cradle, SimultaneousMovesAsTwoBodies) {
     for (const double e : {1.0, 0.5, 0.1})
         for (const int count : {3, 5})
@@ -65,7 +65,7 @@ TEST(Cradle, InelasticRowCollidesInTurn) {
     expect_speeds(s, 0, {13.0 / 64.0, 15.0 / 64.0, 9.0 / 16.0});
 }
 
-// Bernoulli 1734: one ball onto two touching ones, centres at 60 degrees. With j along each line of centres, symmetric:
+// Bernoulli 1734: one ball onto two touching ones, centers at 60 degrees. With j along each line of centers, symmetric:
 // ball: 1 - sqrt(3) j, each other: j; stopped at j = (sqrt(3)/2) / (5/2), and 1 + e times that. Under both laws alike.
 TEST(Bernoulli, ThreeBalls) {
     for (const ImpactLaw law : laws)
@@ -86,7 +86,7 @@ TEST(Bernoulli, ThreeBalls) {
         }
 }
 
-// One ball on two that stand on the floor: they cannot go down, so they go sideways.
+// One ball on two that stand on the floor: they cannot move down, so they move sideways.
 TEST(Bernoulli, OnTheFloor) {
     for (const ImpactLaw law : laws) {
         ImpactScene s;
@@ -130,7 +130,7 @@ TEST(FlatBox, LandsWithoutSpin) {
         }
 }
 
-// All falling together: under Newton each contact separates by e times what it met with, so the floor's alone counts.
+// All falling together: under Newton each contact separates at e times its approach, so only the floor's counts.
 TEST(Column, OfThree) {
     for (const ImpactLaw law : laws) {
         ImpactScene s;
@@ -144,7 +144,7 @@ TEST(Column, OfThree) {
     }
 }
 
-// A light ball on a heavy one, dropped: in turn 3 - 4 m / (m + M); at once both leave with the floor's e.
+// A light ball on a heavy one, dropped: propagating, 3 - 4 m / (m + M); simultaneous, both leave with the floor's e.
 TEST(Column, LightOnHeavy) {
     for (const double heavy : {1e2, 1e8}) {
         for (const ImpactLaw law : laws) {
@@ -164,7 +164,7 @@ TEST(Column, LightOnHeavy) {
 }
 
 // A heavy ball onto a light one on the floor: the number of collisions shows the digits of pi (Galperin 2003, "Playing
-// pool with pi"). In velocities weighted by mass each pair of them turns the plane by 2 theta, theta = atan(sqrt(m/M)).
+// pool with pi"). In mass-weighted velocities each pair of them rotates the plane by 2 theta, theta = atan(sqrt(m/M)).
 TEST(Column, HeavyOnLight) {
     const int collisions[] = {3, 31, 314, 3141, 31415};
     double heavy = 1.0;
@@ -203,7 +203,7 @@ TEST(Large, RackKeepsItsMirrorImage) {
         }
 }
 
-// Everything that falls as one rises as one.
+// Bodies that fall as one rise as one.
 TEST(Large, WallsAndStacksRiseAsTheyFell) {
     for (const ImpactLaw law : laws) {
         for (ImpactScene s : {box_stack(12, 1.0), ball_wall(7, 1.0)}) {
@@ -222,14 +222,14 @@ TEST(Large, WallsAndStacksRiseAsTheyFell) {
     }
 }
 
-// Without restitution both laws are the one projection.
+// Without restitution both laws are the same projection.
 TEST(Inelastic, IsTheProjection) {
     Random random(141);
     for (int trial = 0; trial < 100; ++trial) {
         ImpactScene s = random_impact(random, 1.0, 0.0, 0.0), t = s;
         s.resolve(ImpactLaw::propagating);
         t.resolve(ImpactLaw::simultaneous);
-        double work = 0.0;   // sum of j v_rel+: nothing, where j > 0 the contact stays closed
+        double work = 0.0;   // sum of j v_rel+: zero, because a contact with j > 0 stays closed
         for (const Contact& c : s.contacts) work += c.impact * relative_velocity(c, s.bodies[c.a], s.bodies[c.b]);
         EXPECT_NEAR(work, 0.0, 1e-12);
         EXPECT_LT(s.approach(), 1e-12);
@@ -265,7 +265,7 @@ TEST(Random, ElasticImpactsKeepTheirEnergy) {
     }
 }
 
-TEST(Random, NoEnergyIsGainedWhateverTheRestitutions) {
+TEST(Random, NoEnergyIsGainedForAnyRestitutions) {
     Random random(143);
     for (const ImpactLaw law : laws)
         for (int trial = 0; trial < 1500; ++trial) {
@@ -278,8 +278,8 @@ TEST(Random, NoEnergyIsGainedWhateverTheRestitutions) {
         }
 }
 
-// A ball leaves one wall of an acute corner and hits the other, which throws it back at the first: what Newton's law asks
-// for both together takes more energy than there is.
+// A ball leaves one wall of an acute corner and hits the other, which throws it back at the first: Newton's law for
+// both together needs more energy than available.
 TEST(Restitution, InAnAcuteCornerGainsNothing) {
     for (const ImpactLaw law : laws)
         for (const double second : {0.0, 1.0})
@@ -323,7 +323,7 @@ TEST(Large, SweepsKeepTheEnergy) {
     EXPECT_LT(s.approach(), 1e-12);
 }
 
-// A needle, inertias 1 : 1e-6, and a plate, struck anywhere on their surface, turned any way.
+// A needle, inertias 1 : 1e-6, and a plate, hit anywhere on their surface, in any orientation.
 TEST(Random, NeedlesAndPlates) {
     Random random(144);
     for (const ImpactLaw law : laws)
@@ -346,7 +346,7 @@ TEST(Random, NeedlesAndPlates) {
         }
 }
 
-// Seen from a moving wall's frame the impact is the same.
+// In the frame of a moving wall the impact is the same.
 TEST(Kinematic, WallThatMoves) {
     for (const ImpactLaw law : laws)
         for (const double e : {1.0, 0.4}) {
@@ -361,7 +361,7 @@ TEST(Kinematic, WallThatMoves) {
         }
 }
 
-// A wall pushes a light ball that touches a heavy one: both go along.
+// A wall pushes a light ball that touches a heavy one: both move along.
 TEST(Kinematic, PushesTheHeavyThroughTheLight) {
     for (const ImpactLaw law : laws) {
         ImpactScene s;

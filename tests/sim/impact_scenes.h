@@ -45,7 +45,7 @@ struct ImpactScene {
         Body& b = bodies[body];
         b.angular_momentum = b.rotation * b.inertia_body * (b.rotation.transpose() * spin);
         b.derive();
-        b.angular_velocity = spin;   // of a needle derive() loses six digits
+        b.angular_velocity = spin;   // derive() loses six digits of a needle's spin
     }
     void touch(std::uint32_t a, std::uint32_t b, const Vec3& normal, const std::vector<Vec3>& points) {
         Manifold m;
@@ -68,7 +68,7 @@ struct ImpactScene {
         touch(a, b, Vec3::UnitY(), {{-x, height, -z}, {x, height, -z}, {x, height, z}, {-x, height, z}});
     }
 
-    /// Resolves it as the event-driven mode does, and leaves the momenta to speak for the result. Returns the passes.
+    /// Resolves it as the event-driven mode does, and leaves the result in the momenta. Returns the number of passes.
     int resolve(ImpactLaw law, bool complete = true) {
         std::stable_sort(manifolds.begin(), manifolds.end(), [](const Manifold& l, const Manifold& r) {
             return std::pair(l.a, l.b) < std::pair(r.a, r.b);
@@ -106,7 +106,7 @@ struct ImpactScene {
     }
 };
 
-/// A row of touching balls along x; the first `striking` come in at 1 m/s.
+/// A row of touching balls along x; the first `striking` of them arrive at 1 m/s.
 inline ImpactScene cradle(int count, int striking, double restitution) {
     ImpactScene s;
     s.restitution = restitution;
@@ -141,7 +141,7 @@ inline ImpactScene ball_wall(int n, double restitution) {
     return s;
 }
 
-/// Fifteen balls in a triangle with its tip towards the cue ball (body 0), which comes along y.
+/// Fifteen balls in a triangle with its tip towards the cue ball (body 0), which moves along y.
 inline ImpactScene billiard_rack(double restitution) {
     ImpactScene s;
     s.restitution = restitution;
@@ -160,7 +160,7 @@ inline ImpactScene billiard_rack(double restitution) {
     return s;
 }
 
-/// Bodies of random masses and inertias, touching at random, with some contacts twice. Masses to 10^(+-decades).
+/// Bodies of random masses and inertias with random contacts, some of them twice. Masses up to 10^(+-decades).
 inline ImpactScene random_impact(Random& random, double decades, double e_low, double e_high, double friction = 0.0) {
     ImpactScene s;
     s.friction = friction;

@@ -1,4 +1,4 @@
-// Collisions of whole clusters: momentum kept, energy never gained (kept for e = 1), nothing left approaching.
+// Impacts of whole clusters: momentum kept, energy never gained (kept for e = 1), nothing left approaching.
 #include "impact_scenes.h"
 #include "sim/impact/settings.h"
 
@@ -46,7 +46,7 @@ int collide_cluster(Cluster& c, double threshold) {
     for (Body& b : c.bodies) {
         if (!b.dynamic()) continue;
         const Vec3 velocity = b.velocity, spin = b.angular_velocity;
-        b.derive();   // the two ways of keeping account agree
+        b.derive();   // velocities and momenta agree
         EXPECT_LT((velocity - b.velocity).norm(), 1e-9);
         EXPECT_LT((spin - b.angular_velocity).norm(), 1e-9);
     }
@@ -98,7 +98,7 @@ TEST(Impacts, ElasticClustersKeepTheirEnergy) {
 }
 
 // Without restitution an impact is left to the resting solver; below the threshold likewise.
-TEST(Impacts, InelasticAndSlowOnesAreLeftAlone) {
+TEST(Impacts, InelasticAndSlowImpactsAreSkipped) {
     Random random(123);
     for (int trial = 0; trial < 50; ++trial) {
         Cluster c = random_cluster(random, 6, true, 2.0, 0.0, 0.0);
@@ -110,9 +110,9 @@ TEST(Impacts, InelasticAndSlowOnesAreLeftAlone) {
     }
 }
 
-// Pairs of balls of which one bounces: the slow approaches of the others are its business among few contacts, and left to
-// the solver of resting contact among many.
-TEST(Impacts, SlowOnesAreLeftOutOfLargeClusters) {
+// Pairs of balls of which one bounces: among few contacts the slow approaches of the others take part in the impact,
+// among many they are left to the solver of resting contact.
+TEST(Impacts, SlowApproachesAreSkippedInLargeClusters) {
     for (const std::size_t pairs : {tuning::pass_contacts / 2, 2 * tuning::pass_contacts}) {
         ImpactScene s;
         s.restitution = 0.5;
@@ -135,8 +135,8 @@ TEST(Impacts, SlowOnesAreLeftOutOfLargeClusters) {
     }
 }
 
-// Two bodies that meet squarely: eq. 20, however many points they meet in.
-TEST(Impacts, FlatImpactIsThatOfItsCentre) {
+// Two bodies that meet squarely: eq. 20, for any number of contact points.
+TEST(Impacts, FlatImpactIsThatOfItsCenter) {
     Random random(124);
     for (int trial = 0; trial < 100; ++trial) {
         Cluster c;
@@ -166,7 +166,7 @@ TEST(Impacts, FlatImpactIsThatOfItsCentre) {
     }
 }
 
-// Between two walls that close in there is no way out: what comes of it must stay of the order of the walls' speed.
+// Between two closing walls there is no solution: the result must stay of the order of the walls' speed.
 TEST(Impacts, BetweenClosingWallsNothingExplodes) {
     Random random(125);
     for (const double e : {0.1, 0.5, 0.9}) {

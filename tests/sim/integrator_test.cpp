@@ -1,4 +1,4 @@
-// One body's step: rotations stay rotations, both forms agree, both Eulers are the formulas they claim to be.
+// One body's step: rotations stay rotations, both forms agree, both Euler methods are their formulas.
 #include "random_shapes.h"
 #include "sim/dynamics/integrator.h"
 
@@ -42,8 +42,9 @@ TEST(QuaternionOf, AgreesWithTheMatrix) {
     }
 }
 
-// A turn by h omega a step about a fixed axis: matrix form turns by atan(h omega), quaternion form by 2 atan(h omega / 2).
-TEST(AdvancePose, TurnsByTheAnglesItClaims) {
+// A rotation by h omega per step about a fixed axis: matrix form rotates by atan(h omega), quaternion form by
+// 2 atan(h omega / 2).
+TEST(AdvancePose, RotatesByItsStatedAngles) {
     Random random(103);
     for (int trial = 0; trial < 200; ++trial) {
         const double angle = trial % 2 ? random(0.0, 0.3) : random(0.0, 3.0);   // also absurdly fast spins

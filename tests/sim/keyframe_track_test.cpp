@@ -1,5 +1,5 @@
-// Paths of kinematic bodies: they pass through their keys, their velocities are the derivatives of their poses, and odd
-// key lists (one, two, equal, half turns, uneven times) are paths like any other.
+// Paths of kinematic bodies: they pass through their keys, their velocities are the derivatives of their poses, and
+// unusual key lists (one, two, equal, half turns, nonuniform times) are valid.
 #include "random_shapes.h"
 #include "sim/math/keyframe_track.h"
 
@@ -23,7 +23,7 @@ std::vector<Keyframe> random_keys(Random& random, int n) {
     double time = random(-1.0, 1.0);
     for (int i = 0; i < n; ++i) {
         keys.push_back({time, random.vector(2.0), random.turn()});
-        time += i % 3 == 0 ? random(0.01, 0.05) : random(0.5, 2.0);   // uneven
+        time += i % 3 == 0 ? random(0.01, 0.05) : random(0.5, 2.0);   // nonuniform
     }
     return keys;
 }
@@ -65,7 +65,7 @@ TEST(KeyframeTrack, VelocitiesAreTheDerivatives) {
         }
 }
 
-// Smooth: position, rotation and both velocities run on over the keys; at rest at both ends.
+// Smooth: position, rotation and both velocities are continuous at the keys; at rest at both ends.
 TEST(KeyframeTrack, SmoothPathsHaveNoKinks) {
     Random random(93);
     for (int trial = 0; trial < 50; ++trial) {
@@ -84,7 +84,7 @@ TEST(KeyframeTrack, SmoothPathsHaveNoKinks) {
     }
 }
 
-// Half turns have no short way round: either way is right, but it must be a half turn, finite, from key to key.
+// Half turns have no shorter arc: both are valid, but it must be a half turn, finite, from key to key.
 TEST(KeyframeTrack, HalfTurns) {
     for (const Interpolation kind : both)
         for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 2, -3)})
@@ -97,7 +97,7 @@ TEST(KeyframeTrack, HalfTurns) {
                     const auto m = track.at(t);
                     EXPECT_TRUE(m.rotation.coeffs().allFinite() && m.angular_velocity.allFinite());
                     EXPECT_LT(m.angular_velocity.norm(), 4.0 * pi);
-                    EXPECT_LT(m.angular_velocity.cross(axis.normalized()).norm(), 1e-6);   // about the axis, nothing else
+                    EXPECT_LT(m.angular_velocity.cross(axis.normalized()).norm(), 1e-6);   // about the axis alone
                 }
                 if (kind == Interpolation::linear) {
                     EXPECT_NEAR(track.at(0.5).angular_velocity.norm(), pi, 1e-8);
@@ -105,8 +105,8 @@ TEST(KeyframeTrack, HalfTurns) {
             }
 }
 
-// Evenly spaced keys of a steady motion: steady between the inner keys.
-TEST(KeyframeTrack, SteadyTurnStaysSteady) {
+// Uniformly spaced keys of a steady motion: steady between the inner keys.
+TEST(KeyframeTrack, SteadyRotationStaysSteady) {
     std::vector<Keyframe> keys;
     for (int i = 0; i < 9; ++i) keys.push_back({0.5 * i, Vec3(0.2 * i, 0.0, 1.0), about({0.0, 0.0, 1.0}, 1.0 * i)});
     const KeyframeTrack track(keys, Interpolation::smooth);
@@ -116,7 +116,7 @@ TEST(KeyframeTrack, SteadyTurnStaysSteady) {
     }
 }
 
-// A lift that waits, goes up at once and waits again: it neither swings out while it waits nor goes farther than it is told to.
+// A lift that waits, rises suddenly and waits again: it neither swings while it waits nor overshoots.
 TEST(KeyframeTrack, NothingOvershoots) {
     const Vec3 up = Vec3(0.0, 0.6, 0.8);
     std::vector<Keyframe> keys;
@@ -160,7 +160,7 @@ TEST(KeyframeTrack, TwoKeysStartAndStopAtRestOrMoveEvenly) {
     EXPECT_NEAR(linear.at(2.9).angular_velocity.z(), 0.5, 1e-13);
 }
 
-// Keys that repeat a pose, quaternions of either sign, times that differ by next to nothing.
+// Keys that repeat a pose, quaternions of either sign, nearly equal times.
 TEST(KeyframeTrack, EqualPosesAndSigns) {
     const Quat q = about({1, 2, 3}, 2.0);
     const std::vector<Keyframe> keys = {{0.0, Vec3::Ones(), q},

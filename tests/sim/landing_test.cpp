@@ -1,4 +1,5 @@
-// Where bouncing ends: how contacts press, and whom they hold, whichever of two bodies comes first and in whatever order.
+// End of bouncing: the acceleration at contacts and the bodies that they hold, independent of the order of bodies and
+// contacts.
 #include "random_shapes.h"
 #include "sim/contact/direct/settings.h"
 #include "sim/event_driven/contact_transition.h"
@@ -37,14 +38,14 @@ std::vector<Manifold> manifolds(const Body& a, const Body& b, double margin) {
     return found;
 }
 
-// The pair's manifold if it has one point only.
+// The pair's manifold if it has exactly one point.
 std::optional<Manifold> one_point(const Body& a, const Body& b, double margin) {
     const auto found = manifolds(a, b, margin);
     if (found.size() != 1 || found[0].count != 1) return std::nullopt;
     return found[0];
 }
 
-// The gap's second derivative (m/s^2), by differences, where the same features stay the nearest; nothing else.
+// The gap's second derivative (m/s^2), by differences; none where the nearest features change.
 std::optional<double> gap_acceleration(const Body& a, const Body& b) {
     const double d = 1e-4;
     double gap[3];
@@ -108,9 +109,9 @@ TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
         ++all;
         ++corners[int(one_point(a, b, 1e-6)->corners)];
         EXPECT_NEAR(pressing(a, b), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial;
-        EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", reversed";
     }
-    for (const int kind : corners) EXPECT_GE(kind, trials(20));   // crossing edges, and either's corners
+    for (const int kind : corners) EXPECT_GE(kind, trials(20));   // crossing edges, and corners of either body
     EXPECT_GE(all, trials(150));
 }
 
@@ -130,13 +131,13 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
         if (on(-1e-4)->on_ball != on(1e-4)->on_ball || on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0)) continue;
         ++all;
         EXPECT_NEAR(pressing(a, b), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial;
-        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", the other way round";
+        EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", reversed";
     }
     EXPECT_GE(all, trials(200));
 }
 
-// Chains of contacts through bodies that hold one another: who is held does not hang on which contact is looked at first.
-TEST(MarkHeld, DoesNotHangOnTheOrderOfContacts) {
+// Chains of contacts through bodies that hold one another: the held bodies do not depend on the order of contacts.
+TEST(MarkHeld, DoesNotDependOnTheOrderOfContacts) {
     Random random(5);
     for (int trial = 0; trial < trials(400); ++trial) {
         std::vector<Body> bodies{ground()};
@@ -161,9 +162,9 @@ TEST(MarkHeld, DoesNotHangOnTheOrderOfContacts) {
     }
 }
 
-// Resting contact pushes overlaps out down to a part of the radius, and leaves that: what is struck there and parts is free, whatever
-// the last digit. What is pressed in deeper is held, to be pushed out.
-TEST(MarkHeld, LetsGoOfWhatRestedAndParts) {
+// Resting contact leaves overlaps below a fraction of the radius: a body that an impact makes part there is free,
+// whatever the last digit. Deeper overlaps hold a body, to be pushed out.
+TEST(MarkHeld, ReleasesRestingBodiesThatPart) {
     std::vector<Body> bodies{ground(), free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, {0.0, 0.5, 0.0}, Quat::Identity(), Vec3::Zero())};
     Contact c;
     c.a = 0;
@@ -184,8 +185,8 @@ TEST(MarkHeld, LetsGoOfWhatRestedAndParts) {
     EXPECT_TRUE(held(3.0 * rest));
 }
 
-// Of a hop no higher than what gaps are told to, the end cannot be found: it is over. Higher ones are followed, also where the last
-// digits of the places are coarse.
+// The end of a hop below the resolution of gaps cannot be found: the hop is over. Higher ones are followed, also where
+// the last digits of the positions are coarse.
 TEST(ShortHop, IsNoHigherThanTheRoundingOfGaps) {
     const Body floor = ground();
     Body box = free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero());

@@ -1,4 +1,4 @@
-// How piles bear their loads, where it can be counted on the fingers.
+// Load estimates of piles small enough to compute by hand.
 #include "sim/contact/model/load_estimate.h"
 #include "sim/contact_scenes.h"
 
@@ -9,7 +9,7 @@ using namespace tumble::testing;
 
 namespace {
 
-/// Body 0 is fixed, the others have these masses; only who touches whom counts.
+/// Body 0 is fixed, the others have these masses; only the touching pairs count.
 LoadEstimate pile(const std::vector<double>& masses, const std::vector<Manifold>& manifolds) {
     std::vector<Body> bodies(masses.size() + 1);
     bodies[0].type = BodyType::fixed;
@@ -20,7 +20,7 @@ LoadEstimate pile(const std::vector<double>& masses, const std::vector<Manifold>
     }
     std::iota(all.begin(), all.end(), 0u);
     LoadEstimates loads(bodies.size());
-    // A second look finds the same: nothing is left over from the first.
+    // A second evaluation gives the same: the first keeps no state.
     const LoadEstimate first = loads.find(bodies, manifolds, members, all), second = loads.find(bodies, manifolds, members, all);
     EXPECT_EQ(first.ratio, second.ratio);
     EXPECT_EQ(first.levels, second.levels);
@@ -42,12 +42,12 @@ TEST(LoadEstimate, AStackRestsOnItsLowest) {
 TEST(LoadEstimate, HeavyOnLightAndLightOnHeavy) {
     EXPECT_DOUBLE_EQ(pile({1.0, 1e6}, {touch(0, 1), touch(1, 2)}).ratio, 1e6 + 1.0);
     EXPECT_DOUBLE_EQ(pile({1e6, 1.0}, {touch(0, 1), touch(1, 2)}).ratio, 1.0 + 1e-6);
-    // Beside each other they do not load one another.
+    // Bodies beside each other do not load one another.
     EXPECT_DOUBLE_EQ(pile({1.0, 1e6}, {touch(0, 1), touch(0, 2), touch(1, 2)}).ratio, 1.0);
 }
 
-// Rows of n, n-1, ... 1, each on two of the row below. The two at the row's ends hand all they carry to two, too: half
-// each. The largest load is in the middle of the lowest row; three rows: (1/2 (1 + 1/2) twice) + 1 = 2.5.
+// Rows of n, n-1, ... 1, each on two of the row below. The two at the row's ends distribute their load to two, too:
+// half each. The largest load is in the middle of the lowest row; three rows: (1/2 (1 + 1/2) twice) + 1 = 2.5.
 TEST(LoadEstimate, APyramidOfThreeRows) {
     const std::vector<Manifold> manifolds = {touch(0, 1), touch(0, 2), touch(0, 3), touch(1, 4), touch(2, 4),
                                              touch(2, 5), touch(3, 5), touch(4, 6), touch(5, 6)};
@@ -56,7 +56,7 @@ TEST(LoadEstimate, APyramidOfThreeRows) {
     EXPECT_EQ(load.levels, 3);
 }
 
-// Loads go to the neighbours nearer to what is fixed and to no others; what is fixed ends them.
+// Loads go only to neighbors nearer to a fixed body, and end there.
 TEST(LoadEstimate, ABeamOnTwoPostsAndManyContactsOfOnePair) {
     const std::vector<Manifold> beam = {touch(0, 1), touch(0, 2), touch(1, 3), touch(2, 3)};
     EXPECT_DOUBLE_EQ(pile({1.0, 1.0, 10.0}, beam).ratio, 6.0);
@@ -68,7 +68,7 @@ TEST(LoadEstimate, ABeamOnTwoPostsAndManyContactsOfOnePair) {
     EXPECT_DOUBLE_EQ(pile({1.0, 0.1, 40.0}, parts).ratio, 101.0);
 }
 
-TEST(LoadEstimate, WhatLeansOnNothingCarriesNothing) {
+TEST(LoadEstimate, FreeBodiesCarryNothing) {
     const LoadEstimate load = pile({1.0, 5.0, 100.0}, {touch(1, 2), touch(2, 3)});
     EXPECT_EQ(load.ratio, 1.0);
     EXPECT_EQ(load.levels, 1);

@@ -1,4 +1,4 @@
-// Manifolds of more than four points: what is taken in, what stays.
+// Manifolds of more than four points: which points are added, which stay.
 #include "sim/geometry/manifold_growth.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct Found {
     std::vector<ContactPoint> left_out;
 };
 
-/// Between neighbours among the points, as seen from the middle, rad.
+/// The largest angle between neighboring points, seen from the middle, rad.
 double largest_gap(const std::vector<Manifold>& manifolds) {
     std::vector<double> angles;
     for (const Manifold& m : manifolds)
@@ -48,8 +48,8 @@ double largest_gap(const std::vector<Manifold>& manifolds) {
 
 }  // namespace
 
-// On one half of its corners, and then tilted towards one that was left out: it is taken in, and none is given up.
-TEST(Growth, TakesInWhatSank) {
+// On one half of its corners, and then tilted towards a reduced one: it is added, and none is removed.
+TEST(Growth, AddsPointsThatSank) {
     const Found level(octagon(0.0));
     ASSERT_EQ(level.left_out.size(), 4u);
     for (const ContactPoint& missed : level.left_out) {
@@ -65,8 +65,8 @@ TEST(Growth, TakesInWhatSank) {
     }
 }
 
-// And back again: all five stay where they were, though the choice would now be another.
-TEST(Growth, GivesNothingUp) {
+// And back again: all five stay, though a new choice would be another.
+TEST(Growth, RemovesNoPoint) {
     const Found level(octagon(0.0));
     Found tilted(octagon(5e-4));
     std::vector<Manifold> both(2);
@@ -82,7 +82,7 @@ TEST(Growth, GivesNothingUp) {
     }
 }
 
-// A corner that has gone is made up for; where all of the first manifold's have, the second becomes the first.
+// A corner that has gone is replaced; where all of the first manifold's have gone, the second becomes the first.
 TEST(Growth, IsNeverWithoutAFirstManifold) {
     const Found level(octagon(0.0));
     std::vector<ContactPoint> left;
@@ -103,8 +103,9 @@ TEST(Growth, IsNeverWithoutAFirstManifold) {
     EXPECT_GT(now.first.count, 0);
 }
 
-// Of sixteen corners eight can be kept: one that sank comes in, and they stay all round, though those on the far side hang higher.
-TEST(Growth, ForANeighbourWhereThereIsNoRoom) {
+// Of sixteen corners eight can be kept: one that sank is added, and the points stay all around, though those on the far
+// side are higher.
+TEST(Growth, ReplacesANeighborWhereThereIsNoRoom) {
     std::vector<ContactPoint> points = polygon(16, 0.0);
     std::vector<Manifold> both(2);
     both[1].more = true;
@@ -122,7 +123,7 @@ TEST(Growth, ForANeighbourWhereThereIsNoRoom) {
     EXPECT_LT(largest_gap(both), 2.0);
 }
 
-// Tilted further and further round: the middle always lies between the points.
+// Tilted further and further around: the middle always lies between the points.
 TEST(Growth, PointsDoNotGatherOnOneSide) {
     const auto tilted = [](double towards) {
         std::vector<ContactPoint> points = polygon(64, 0.0);
@@ -139,8 +140,8 @@ TEST(Growth, PointsDoNotGatherOnOneSide) {
     }
 }
 
-// Looked at anew, tilted to another side: what was held is not enough.
-TEST(Growth, IsWantedWherePointsWereMissed) {
+// Searched anew, tilted to another side: the kept points are insufficient.
+TEST(Growth, IsNeededWhereReducedPointsSank) {
     const Found level(polygon(64, 0.0));
     for (const bool held : {false, true}) {
         std::vector<ContactPoint> points = polygon(64, 0.0);
@@ -151,7 +152,7 @@ TEST(Growth, IsWantedWherePointsWereMissed) {
     }
 }
 
-TEST(Growth, OtherFacesBeginAnew) {
+TEST(Growth, OtherFacesStartAnew) {
     const Found level(octagon(0.0));
     std::vector<ContactPoint> points = octagon(5e-4);
     for (ContactPoint& p : points) p.feature += std::uint64_t(1) << 42;

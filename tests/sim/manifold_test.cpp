@@ -1,4 +1,4 @@
-// Which four points of many are kept: those that bear.
+// The choice of four points of many: those that carry the load.
 #include "sim/contact/model/predicted_gap.h"
 #include "sim/random_shapes.h"
 
@@ -11,8 +11,8 @@ namespace {
 Mat3 turn_about_y(double angle) { return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(); }
 }
 
-// A plate of any proportions on a half-space and on a box, looked at from so far that its upper corners are candidates
-// too: its four lower corners, wherever it is turned about the normal.
+// A plate of any proportions on a half-space and on a box, with so large a margin that its upper corners are candidates
+// too: its four lower corners, at any rotation about the normal.
 TEST(Manifold, APlateStandsOnItsFourCorners) {
     Random random(9);
     for (const double width : {1.0, 0.3, 0.1, 0.03, 0.01})
@@ -39,7 +39,7 @@ TEST(Manifold, APlateStandsOnItsFourCorners) {
             }
 }
 
-// Of many points on a circle four that hold its middle well.
+// Of many points on a circle four that support its middle well.
 TEST(Manifold, ADiscStandsAroundItsMiddle) {
     for (int corners = 5; corners <= 40; ++corners) {
         std::vector<ContactPoint> points;
@@ -54,7 +54,7 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
         std::vector<ContactPoint> left_out;
         keep_best_points(points, m, left_out);
         ASSERT_EQ(m.count, 4);
-        for (int k = 0; k < 64; ++k) {   // in every direction something stands out by more than cos 72 degrees: a corner of a pentagon
+        for (int k = 0; k < 64; ++k) {   // in every direction a point extends farther than cos 72 degrees: a corner of a pentagon
             const Vec3 way(std::cos(0.1 * k), 0.0, std::sin(0.1 * k));
             double most = 0.0;
             for (int i = 0; i < 4; ++i) most = std::max(most, way.dot(m.points[std::size_t(i)].position));
@@ -63,8 +63,8 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
     }
 }
 
-// Corners that bear come before those that hang over: one left out would sink until it is missed.
-TEST(Manifold, WhatBearsIsKept) {
+// Load-carrying corners are preferred to those above: a reduced one would sink until it is restored.
+TEST(Manifold, LoadedPointsAreKept) {
     Random random(10);
     for (int trial = 0; trial < 2000; ++trial) {
         const int corners = 5 + random.below(4), bearing = 1 + random.below(4);
@@ -91,8 +91,9 @@ TEST(Manifold, WhatBearsIsKept) {
     }
 }
 
-// A point on a ball closes its gap along a curve; what is left of points that are gone makes no curve of a box's last one.
-TEST(Manifold, LeftOverPlacesAreNoCurve) {
+// A point on a ball closes its gap along a curve; stored values of removed points must not make a curve of a box's last
+// one.
+TEST(Manifold, RemovedPointsAreNoCurve) {
     Body a, b;
     a.radius = b.radius = 0.5;
     b.position = Vec3::UnitY();

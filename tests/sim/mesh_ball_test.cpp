@@ -1,4 +1,5 @@
-// Balls on triangle surfaces: against the nearest points of all triangles, one side or both, seams, ridges and valleys.
+// Balls on triangle meshes: against the nearest points of all triangles, one side or both, internal edges, ridges and
+// valleys.
 #include "random_shapes.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// Nearest point of a triangle by trying all of it: its plane, its edges, its corners.
+// Nearest point of a triangle by brute force: its plane, its edges, its corners.
 Vec3 nearest_of(const Vec3& p, const Vec3 (&t)[3]) {
     const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const Vec3 foot = p - n.dot(p - t[0]) * n;
@@ -65,7 +66,7 @@ TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
         ++touched;
         EXPECT_NEAR(deepest(found), least - radius, 1e-12);
         for (const Manifold& m : found) {
-            // Each contact is a nearest point of its neighbourhood: no nearer one within a small patch around it.
+            // Each contact is a local minimum of the distance: no nearer point within a small patch around it.
             ASSERT_EQ(m.count, 1);
             const ContactPoint& p = m.points[0];
             const Vec3 on = pose.to_body(p.position - 0.5 * p.separation * m.normal);
@@ -81,7 +82,7 @@ TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
                     const Vec3 q = nearest_of(aside, t);
                     if ((q - on).norm() < 3e-6 && (q - center).norm() < (best - center).norm()) best = q;
                 }
-                EXPECT_GT((best - center).norm(), (on - center).norm() - 1e-10) << "the surface is nearer beside it";
+                EXPECT_GT((best - center).norm(), (on - center).norm() - 1e-10) << "the mesh is nearer beside it";
             }
             if (HasFailure()) return;
         }
@@ -89,14 +90,14 @@ TEST(BallOnSurface, NearestPointIsAmongTheContacts) {
     EXPECT_GT(touched, trials(100) - 1);
 }
 
-// Finer than the ball's own cap: only the floor's normal may be seen, wherever the ball is.
-TEST(BallOnSurface, FlatFloorHasOneNormalHoweverFine) {
+// Triangles smaller than the ball's cap: only the floor's normal may occur, at any position of the ball.
+TEST(BallOnSurface, FlatFloorHasOneNormalAtAnyResolution) {
     Random random(52);
     for (const int n : {1, 4, 20, 60}) {
         const auto floor = surface_of(grid_mesh(n, 2.0, 0.0));
         for (int trial = 0; trial < 200; ++trial) {
             Vec3 at(random(-1.5, 1.5), 0.3 + random(-0.002, 0.02), random(-1.5, 1.5));
-            if (trial % 4 == 0) at.x() = 4.0 * random.below(n + 1) / n - 2.0;             // over seams
+            if (trial % 4 == 0) at.x() = 4.0 * random.below(n + 1) / n - 2.0;             // over internal edges
             if (trial % 8 == 0) at.z() = 4.0 * random.below(n + 1) / n - 2.0;             // over corners
             if (trial % 16 == 1) at.z() = at.x();                                         // over diagonals, for some
             const auto found = collide_all(floor, {}, Ball{0.3}, {at, Mat3::Identity()}, 0.05);
@@ -119,7 +120,7 @@ TEST(BallOnSurface, RidgeLeansValleyDoesNot) {
             ASSERT_EQ(found.size(), 1u) << n << x;
             EXPECT_LT((found[0].normal - Vec3(x, 0.3, 0.0).normalized()).norm(), 1e-12);
         }
-        // Lying in the valley: both slopes, their own normals, nothing else.
+        // In the valley: both slopes, with their own normals, and no other contact.
         const Vec3 up = Vec3(-0.5, 1.0, 0.0).normalized(), other(-up.x(), up.y(), 0.0);
         const Vec3 in(0.0, 0.3 / up.y(), 0.07);
         const auto found = collide_all(valley, {}, Ball{0.3}, {in, Mat3::Identity()}, 0.02);
@@ -148,7 +149,7 @@ TEST(BallOnSurface, ClosedPushesOutOnlyOpenBothWays) {
     ASSERT_EQ(outside_face.size(), 1u);
     EXPECT_LT((outside_face[0].normal - Vec3::UnitY()).norm(), 1e-12);
     EXPECT_TRUE(collide_all(closed, {}, Ball{0.3}, {{0.1, 0.95, 0.2}, Mat3::Identity()}, 0.0).empty());   // one side only
-    // At an edge and at a corner of the closed box: the way from it.
+    // At an edge and at a corner of the closed box: the direction from it.
     for (const Vec3& way : {Vec3(1.0, 1.0, 0.0), Vec3(1.0, 1.0, 1.0), Vec3(1.0, 0.2, 0.0), Vec3(0.3, 1.0, 0.1)}) {
         const Vec3 on(1.0, 1.0, way.z() > 0.0 ? 1.0 : 0.3);
         const auto found = collide_all(closed, {}, Ball{0.3}, {on + 0.29 * way.normalized(), Mat3::Identity()}, 0.0);
@@ -158,8 +159,8 @@ TEST(BallOnSurface, ClosedPushesOutOnlyOpenBothWays) {
     }
 }
 
-// The centre on the surface itself leaves no direction but the triangle's.
-TEST(BallOnSurface, CentreOnTheSurfaceIsFinite) {
+// The center on the mesh itself leaves only the triangle's direction.
+TEST(BallOnSurface, CenterOnTheSurfaceIsFinite) {
     Random random(53);
     for (int trial = 0; trial < 100; ++trial) {
         const auto s = surface_of(bumpy(random, 5));
@@ -175,7 +176,7 @@ TEST(BallOnSurface, CentreOnTheSurfaceIsFinite) {
     }
 }
 
-// 125,000 triangles: the tree finds the few that matter (this test would take minutes without).
+// 125,000 triangles: the tree finds the few near ones (without it this test would take minutes).
 TEST(BallOnSurface, LargeMeshStaysQuick) {
     Random random(54);
     const auto s = surface_of(grid_mesh(trials(250), 50.0, 0.1));

@@ -1,5 +1,5 @@
-// Boxes and hulls on triangle surfaces: each lone triangle against the exact Minkowski difference, then seams, ridges,
-// valleys and sides.
+// Boxes and hulls on triangle meshes: each lone triangle against the exact Minkowski difference, then internal edges,
+// ridges, valleys and sides.
 #include "random_shapes.h"
 #include "sim/geometry/separating_axis.h"
 #include "sim/ccd/closest_axis.h"
@@ -15,8 +15,8 @@ namespace {
 
 Mat3 turned(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
 
-// Largest separation of hull and triangle along the faces of their Minkowski difference {b - t}, leaving out the one
-// that would push the body through to the other side of the triangle.
+// Largest separation of hull and triangle along the faces of their Minkowski difference {b - t}, except the one that
+// would push the body through to the other side of the triangle.
 double exact_separation(const Vec3 (&t)[3], const Vec3& side, const Polyhedron& b, const Pose& pose) {
     std::vector<Vec3> differences;
     for (const Vec3& corner : t)
@@ -59,7 +59,7 @@ SupportPoints cloud_of(std::vector<Vec3> points) {
     return cloud;
 }
 
-// Whether a body and some triangle overlap, by their Minkowski difference: without the routine that is tested.
+// Whether a body and some triangle overlap, by their Minkowski difference: independent of the tested routine.
 bool overlap(const CollisionMesh& s, const Polyhedron& b, const Pose& pose) {
     std::vector<Vec3> points;
     Bounds bounds;
@@ -108,8 +108,8 @@ TEST(PolyhedronOnTriangle, DepthIsExact) {
     EXPECT_GT(apart, trials(300));
 }
 
-// Whatever lies on a flat floor sees its normal only, and its own lowest corner as the deepest point.
-TEST(PolyhedronOnSurface, FlatFloorHasOneNormalHoweverFine) {
+// A body on a flat floor has the floor's normal only, and its own lowest corner as the deepest point.
+TEST(PolyhedronOnSurface, FlatFloorHasOneNormalAtAnyResolution) {
     Random random(62);
     for (const int n : {1, 4, 20, 40}) {
         const auto floor = surface_of(grid_mesh(n, 2.0, 0.0));
@@ -214,10 +214,10 @@ TEST(PolyhedronOnSurface, ClosedBoxMeshMatchesTheBox) {
     for (int trial = 0; trial < 600; ++trial) {
         const auto body = random_body(random, trial);
         Pose pose = random.pose(1.2);
-        if (outside(*same, pose.position) < 0.05) continue;   // a centre inside is the solid's own affair
+        if (outside(*same, pose.position) < 0.05) continue;   // a center inside is specific to the solid
         const auto solid = collide_all(same, {}, body, pose, 0.0);
         if (solid.empty()) continue;
-        // Out to a shallow overlap, as contacts in motion have it.
+        // Out to a shallow overlap, as for contacts in motion.
         pose.position += (-deepest(solid) - 1e-4) * solid[0].normal;
         const auto shallow = collide_all(same, {}, body, pose, 0.0), found = collide_all(mesh, {}, body, pose, 0.0);
         if (shallow.empty() || deepest(shallow) > -5e-5 || deepest(shallow) < -2e-4) continue;
@@ -229,8 +229,8 @@ TEST(PolyhedronOnSurface, ClosedBoxMeshMatchesTheBox) {
     EXPECT_GT(touched, 60);
 }
 
-// Flat, long and thick bodies that lie on hills and in hollows: the surface pushes them off the side that they are on,
-// though they are behind the planes of triangles beyond a hill. Whichever way its triangles are wound.
+// Flat, long and thick bodies on hills and in hollows: the mesh pushes them off the side that they are on, though they
+// are behind the planes of triangles beyond a hill. For either winding of the triangles.
 TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
     Random random(65);
     for (const bool wound_alike : {true, false}) {
@@ -256,7 +256,7 @@ TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
             const auto found = collide_all(ground, {}, body, pose, 0.01);
             ASSERT_FALSE(found.empty()) << trial;
             EXPECT_GE(deepest(found), -1.001 * depth - 2.0 * axis_preference(body->radius)) << trial << " " << wound_alike;
-            // An edge across a crease may be seen a little late.
+            // An edge across a crease may be detected slightly late.
             EXPECT_LT(deepest(found), 0.2 * body->inner_radius) << trial << " " << wound_alike;
             for (const Manifold& m : found) EXPECT_GT(side * m.normal.y(), 0.0) << trial << " " << wound_alike;
         }

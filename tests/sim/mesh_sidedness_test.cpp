@@ -1,4 +1,4 @@
-// The sides of open surfaces: hills, folds, rims, and strips that have one side only.
+// Sidedness of open meshes: hills, folds, borders, and one-sided strips.
 #include "core/deterministic_math.h"
 #include "random_shapes.h"
 #include "sim/geometry/mesh_sidedness.h"
@@ -13,7 +13,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// For each triangle whether the point is behind it: asked for those within `reach`, by bounds.
+// For each triangle whether the point is behind it: queried for those within `reach`, by bounds.
 std::vector<std::pair<std::uint32_t, bool>> sides(const CollisionMesh& s, const Vec3& point, double reach) {
     std::vector<std::uint32_t> near;
     s.tree.query(Bounds{point, point}.grown(reach), [&](std::uint32_t t) { near.push_back(t); });
@@ -29,7 +29,7 @@ bool behind_plane(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     return s.triangles[t].normal.dot(point - s.corner(t, 0)) < 0.0;
 }
 
-// A strip around the y axis, 0.4 m wide, that turns over `half_turns` times on its way.
+// A strip around the y axis, 0.4 m wide, that twists by `half_turns` half turns along its length.
 TriangleMesh strip(int half_turns) {
     constexpr std::uint32_t n = 48;
     TriangleMesh mesh;
@@ -50,12 +50,12 @@ TriangleMesh strip(int half_turns) {
 
 }  // namespace
 
-TEST(SurfaceSide, AboveAndBelowHillsAndHollows) {
+TEST(MeshSidedness, AboveAndBelowHillsAndHollows) {
     Random random(71);
     const auto ground = surface_of(wavy_mesh(24, 6.0));
     int disagreed = 0;
     for (int trial = 0; trial < 2000; ++trial) {
-        // Over a triangle's middle, nearer to it than to any rim.
+        // Over a triangle's middle, nearer to it than to any border.
         const auto t = std::uint32_t(random.below(int(ground->triangles.size())));
         const Vec3 middle = (ground->corner(t, 0) + ground->corner(t, 1) + ground->corner(t, 2)) / 3.0;
         if (middle.cwiseAbs().maxCoeff() > 5.0) continue;
@@ -71,7 +71,7 @@ TEST(SurfaceSide, AboveAndBelowHillsAndHollows) {
 }
 
 // A sheet folded like an S: a point between two of its layers is in front of one and behind the other.
-TEST(SurfaceSide, BetweenTheLayersOfAFold) {
+TEST(MeshSidedness, BetweenTheLayersOfAFold) {
     TriangleMesh mesh = grid_mesh(40, 2.0, 0.0);
     for (Vec3& v : mesh.vertices) {
         const double s = v.x();   // along the sheet: three layers 0.2 m apart, joined by half circles
@@ -95,9 +95,9 @@ TEST(SurfaceSide, BetweenTheLayersOfAFold) {
     }
 }
 
-// However the triangles come wound, a sheet is wound one way; a strip with a half turn in it cannot be, and each of its
-// triangles' planes says on which side of it a point is.
-TEST(SurfaceSide, SheetsAreWoundAlike) {
+// For any winding of the input, a component is wound consistently; a strip with a half turn cannot be, and each of its
+// triangles' planes decides the side of a point.
+TEST(MeshSidedness, ComponentsAreWoundConsistently) {
     Random random(72);
     for (const int half_turns : {0, 1, 2}) {
         TriangleMesh mesh = strip(half_turns);
@@ -117,8 +117,8 @@ TEST(SurfaceSide, SheetsAreWoundAlike) {
     }
 }
 
-// A rod leans out of a bowl, its middle beyond the rim: at its foot it is inside all the same.
-TEST(SurfaceSide, BeyondTheRimEachPlaneSpeaks) {
+// A rod leans out of a bowl, its middle beyond the border: at its foot it is inside all the same.
+TEST(MeshSidedness, BeyondTheBorderEachPlaneDecides) {
     TriangleMesh bowl = grid_mesh(16, 1.0, 0.0);
     for (Vec3& v : bowl.vertices) v.y() = 0.8 * v.squaredNorm();
     const auto s = surface_of(bowl);

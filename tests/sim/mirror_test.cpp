@@ -1,5 +1,5 @@
-// A mirrored scene moves as the mirror image: no side, axis or order of bodies is preferred. Mirrored at x = 0: positions and
-// velocities change the sign of x; rotations and angular velocities, which are axial, those of y and z.
+// A mirrored scene moves as the mirror image: no side, axis or order of bodies is preferred. Mirrored at x = 0:
+// positions and velocities change the sign of x; rotations and angular velocities, which are axial, those of y and z.
 #include "random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ SceneDescription mirror(SceneDescription scene) {
     return scene;
 }
 
-// Largest difference of the poses of the scene and of its mirror image, mirrored back, over the steps.
+// Largest difference over the steps between the poses of the scene and those of its mirror image, mirrored back.
 double asymmetry(const SceneDescription& scene, int steps) {
     World world(scene), image(mirror(scene));
     double most = 0.0;
@@ -48,7 +48,7 @@ double asymmetry(const SceneDescription& scene, int steps) {
     return most;
 }
 
-// How many of the scenes move as their images to within `close` (m, and of the quaternion), and the worst of all.
+// Number of scenes that move as their images to within `close` (m, and of the quaternion), and the largest difference.
 struct Tally {
     int close = 0;
     double worst = 0.0;
@@ -67,8 +67,8 @@ Tally compare_images(std::uint64_t seed, int scenes, const SceneKind& kind, doub
 
 }  // namespace
 
-// Flight, bounces at corners and edges, bodies that hit each other: to rounding while contacts come one at a time. Where
-// several meet, the order of the sweeps, which is not mirrored, decides the last digits.
+// Flight, bounces at corners and edges, bodies that hit each other: to rounding while contacts occur one at a time.
+// With several contacts, the order of the sweeps, which is not mirrored, decides the last digits.
 TEST(Mirror, BouncingBodies) {
     SceneKind kind;
     kind.bodies = 9;
@@ -97,8 +97,8 @@ TEST(Mirror, PilesWithFriction) {
     EXPECT_LT(tally.worst, 0.03);
 }
 
-// A box that is thrown at the floor, one step a frame: which of its corners is held last does not go by their numbers, which are others
-// in the image (by up to 4 cm, 4 of the 40). Half a second: longer, rounding grows.
+// A box thrown at the floor, one step per frame: the last corner of a sweep is not selected by its index, which differs
+// in the image (that would cause up to 4 cm, in 4 of the 40). Half a second: longer, rounding grows.
 TEST(Mirror, BoxesThrownAtTheFloor) {
     Random random(134);
     for (int trial = 0; trial < 40; ++trial) {

@@ -1,4 +1,4 @@
-// Manifolds from step to step: what contact has built up stays with the points that are still there.
+// Manifolds from step to step: accumulated impulses stay with the points that still exist.
 #include "random_shapes.h"
 #include "sim/detection/settings.h"
 #include "sim/dynamics/body_builder.h"
@@ -67,7 +67,7 @@ TEST(NarrowPhaseManifold, KeepsItsImpulses) {
     mark(first);
     const Manifold before = first;
     for (int step = 0; step < 20; ++step) {
-        if (step > 2) scene.bodies[1].position.x() += 0.004;   // looked at again in the same step, then slid along
+        if (step > 2) scene.bodies[1].position.x() += 0.004;   // searched again in the same step, then slid along
         const Manifold& m = scene.find()[0];
         ASSERT_EQ(m.count, 4);
         for (int i = 0; i < 4; ++i) {
@@ -116,7 +116,8 @@ TEST(NarrowPhaseManifold, TakesTheNearestPointWhenFeaturesChange) {
     EXPECT_EQ(sum, 10.0) << "each old impulse once";
 }
 
-// A crowd in which some hardly move, some slide and some tumble: what memory gives against a search every time.
+// A crowd in which some bodies hardly move, some slide and some tumble: results from memory against a search every
+// time.
 TEST(PairMemory, AgreesWithFreshManifolds) {
     Random random(92);
     std::vector<Body> bodies{body_at(box_of({20.0, 1.0, 20.0}), {0.0, -0.5, 0.0}, BodyType::fixed),
@@ -152,7 +153,8 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
             for (int k = 0; k < f.count; ++k) nearest = std::min(nearest, f.points[std::size_t(k)].separation);
             const double size = std::min(bodies[f.a].radius, bodies[f.b].radius);
             if (m == found.end() || key(*m) != key(f)) {
-                // Left out only what came into reach since the last look: that far away, in no step's way.
+                // Only points that came into reach since the last search may be missing: at that distance they affect
+                // no step.
                 missing += nearest < 0.02 * size;
                 continue;
             }
@@ -171,8 +173,8 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
     EXPECT_LT(different, same / 50);
 }
 
-// Two boxes face to face that shift by less than is searched for: separations are exact all the same.
-TEST(PairMemory, SeparationsFollowExactly) {
+// Two boxes face to face that shift by less than triggers a search: separations are exact all the same.
+TEST(PairMemory, RefreshedSeparationsAreExact) {
     Scene scene = box_on_box();
     scene.find();
     const auto features = [&] { return scene.find()[0].points[0].feature; };
@@ -185,9 +187,10 @@ TEST(PairMemory, SeparationsFollowExactly) {
     }
 }
 
-// A box turned by 45 degrees on another meets it in eight points, of which four are kept. It rocks by less than is searched for:
-// none of the others ever lies deeper than the deepest of them, but by what counts as missed.
-TEST(PairMemory, NoPointLeftOutSinksUnseen) {
+// A box rotated by 45 degrees on another meets it in eight points, of which four are kept. It rocks by less than
+// triggers a search: none of the reduced points lies deeper than the deepest kept one by more than the tolerance of
+// growth.
+TEST(PairMemory, NoReducedPointSinksUndetected) {
     Random random(4);
     Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({1.0, 1.0, 1.0}), {0.0, 0.9997, 0.0})});
     const Quat level(Eigen::AngleAxisd(0.25 * EIGEN_PI, Vec3::UnitY()));
@@ -211,9 +214,9 @@ TEST(PairMemory, NoPointLeftOutSinksUnseen) {
     EXPECT_EQ(most, 2u) << "a second manifold was needed";
 }
 
-// The upper, wider box tilts: its face separates the two better, and the manifold moves over to it. Level again it does no worse
-// by its face than by the other's, and stays there; found anew it would lie on the lower box's.
-TEST(PairMemory, StaysOnTheFaceItLiesOn) {
+// The upper, wider box tilts: its face separates the two better, and the manifold moves to it. Level again both faces
+// separate equally well, and the manifold stays; found anew it would lie on the lower box's face.
+TEST(PairMemory, StaysOnItsFace) {
     Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({2.0, 1.0, 2.0}), {0.0, 0.9995, 0.0})});
     const auto on_upper = [](Scene& s) { return (s.find()[0].points[0].feature >> 63) != 0; };
     EXPECT_FALSE(on_upper(scene));
@@ -225,9 +228,9 @@ TEST(PairMemory, StaysOnTheFaceItLiesOn) {
     EXPECT_FALSE(on_upper(fresh));
 }
 
-// Two boxes cross at their edges and shift a little, until they just touch. Where the edges meet now is not where they met: a
-// gap must not be seen where there is none.
-TEST(PairMemory, TellsATouchFromAGap) {
+// Two boxes cross at their edges and shift a little, until they just touch. The present crossing of the edges is not
+// the former one: no gap must be reported where there is none.
+TEST(PairMemory, DistinguishesATouchFromAGap) {
     Random random(3);
     for (int trial = 0; trial < trials(300); ++trial) {
         const auto on_edge = [](const Vec3& axis) { return Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, axis)); };
@@ -245,7 +248,7 @@ TEST(PairMemory, TellsATouchFromAGap) {
     }
 }
 
-// While both sleep the pair is not in the list; when one wakes, what held it up is there again.
+// While both sleep the pair is not in the list; when one wakes, its supporting impulses are restored.
 TEST(PairMemory, SurvivesSleep) {
     Scene scene = box_on_box();
     mark(scene.find()[0]);
@@ -258,7 +261,7 @@ TEST(PairMemory, SurvivesSleep) {
     EXPECT_EQ(found[0].twist, 12.0);
 }
 
-// What was left out for a while is looked for again, though nothing has moved.
+// A pair that was excluded for a while is searched again, though nothing has moved.
 TEST(PairMemory, ComesBackAfterAFlight) {
     Scene scene = box_on_box();
     ASSERT_EQ(scene.find().size(), 1u);
@@ -271,9 +274,9 @@ TEST(PairMemory, ComesBackAfterAFlight) {
     }
 }
 
-// A box sinks past a tilted board, far from it though within its bounds, onto the next part of the same body. How far off the
-// board is must not be taken for the distance of the body.
-TEST(PairMemory, OnePartOfACompoundDoesNotSpeakForTheOthers) {
+// A box sinks past a tilted board, far from it though within its bounds, onto the next part of the same body. The gap
+// to the board must not be taken for the distance of the body.
+TEST(PairMemory, TheGapOfOnePartIsNotThatOfTheCompound) {
     BodyDescription thing;
     thing.shape = compound_of({part(BoxShape{{3.0, 0.05, 0.5}}, Vec3::Zero(), Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ()))),
                                part(BoxShape{{0.3, 0.1, 0.3}}, {0.9, -0.6, 0.0})});
@@ -287,8 +290,8 @@ TEST(PairMemory, OnePartOfACompoundDoesNotSpeakForTheOthers) {
     EXPECT_NEAR(scene.find()[0].points[0].separation, scene.bodies[1].position.y() + 0.45, 1e-12);
 }
 
-// A tessellated flat floor is flat, whether the manifolds are new or followed: nothing to bump against.
-TEST(PairMemory, SeamsAreFlat) {
+// A tessellated flat floor is flat, for new and for refreshed manifolds: internal edges cause no bumps.
+TEST(PairMemory, InternalEdgesAreFlat) {
     for (const bool sphere : {false, true}) {
         for (const double speed : {0.02, 0.7, 5.0}) {
             const CollisionShape shape = sphere ? CollisionShape(Ball{0.3}) : CollisionShape(box_of({0.6, 0.6, 0.6}));
@@ -312,7 +315,7 @@ TEST(PairMemory, SeamsAreFlat) {
     }
 }
 
-// What sleeps costs nothing: it is in no list, and the way of a ball past it is as short as through empty space.
+// Sleeping bodies cost nothing: they are in no list, and a ball passes them at the cost of empty space.
 TEST(BroadPhase, SleepersAreInNoList) {
     std::vector<Body> bodies;
     for (int i = 0; i < 500; ++i) {
@@ -327,7 +330,7 @@ TEST(BroadPhase, SleepersAreInNoList) {
     broad_phase.bodies_woke();
     const auto pairs = broad_phase.update(bodies, h);
     EXPECT_EQ(broad_phase.awake(), (std::vector<std::uint32_t>{7, 500}));
-    EXPECT_EQ(pairs.size(), 5u);   // the neighbours beside, above and across
+    EXPECT_EQ(pairs.size(), 5u);   // the neighbors beside, above and across
     for (const BroadPhase::Pair& pair : pairs) EXPECT_TRUE(pair.a == 7 || pair.b == 7);
     bodies[7].asleep = true;
     EXPECT_TRUE(broad_phase.update(bodies, h).empty());

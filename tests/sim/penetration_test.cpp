@@ -1,4 +1,4 @@
-// Convex pairs against the exact answer: the faces of the Minkowski difference {b - a}, built by make_hull from all
+// Convex pairs against the exact result: the faces of the Minkowski difference {b - a}, built by make_hull from all
 // differences of vertices. The largest of the signed distances of the origin outside those faces is the separation
 // along the best axis (negative: the depth of the overlap).
 #include "random_shapes.h"
@@ -30,7 +30,7 @@ Exact exact_separation(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     return best;
 }
 
-// The other way to the same number, without any hull: separations along many directions never exceed it.
+// The same number computed without a hull: separations along many directions never exceed it.
 double separation_along(const Vec3& n, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
     double reach_a = -1e300, reach_b = 1e300;
     for (const Vec3& v : a.vertices) reach_a = std::max(reach_a, n.dot(pose_a.to_world(v)));
@@ -52,7 +52,7 @@ void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef&
         ++tally.apart;
         return;
     }
-    // Nearer than the margin but corner to corner: no two faces or edges overlap, and nothing need be said.
+    // Nearer than the margin but corner to corner: no two faces or edges overlap, and no manifold is required.
     if (exact.separation > -1e-10) return;
     ASSERT_EQ(found.size(), 1u);
     ++tally.overlapping;
@@ -61,17 +61,17 @@ void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef&
     EXPECT_NEAR(m.normal.norm(), 1.0, 1e-12);
     const double along = separation_along(m.normal, *a, pose_a, *b, pose_b);
     EXPECT_LE(along, exact.separation + 1e-10 * radius);   // no axis separates better than the exact one
-    EXPECT_GE(along, exact.separation - slack) << "the axis is not the one of least overlap";
-    // The deepest point is as deep as the axis says: the manifold holds the vertex that must be pushed out.
+    EXPECT_GE(along, exact.separation - slack) << "the axis is not that of least overlap";
+    // The deepest point is as deep as the axis: the manifold contains the vertex that must be pushed out.
     EXPECT_GE(deepest(found), along - 1e-10 * radius);
     EXPECT_LE(deepest(found), along + 3.0 * slack) << "the deepest point is missing, " << m.count << " points";
-    // Nor does it tell of less than there is: what no point tells of would be stopped by nothing.
+    // Nor is it shallower: an overlap without a point would not be stopped.
     EXPECT_LE(deepest(found), exact.separation + 2.0 * axis_preference(radius)) << "of " << exact.separation;
     tally.edges += m.points[0].feature >> 62 == 1;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
-        // Half the separation either way is a point of either body (the preferred axis may miss the best one's place by more
-        // than its depth).
+        // Half the separation from either point is a point of either body (the preferred axis may miss the best one's
+        // place by more than its depth).
         EXPECT_LT(outside(*a, pose_a.to_body(p.position - 0.5 * p.separation * m.normal)), 10.0 * slack);
         EXPECT_LT(outside(*b, pose_b.to_body(p.position + 0.5 * p.separation * m.normal)), 10.0 * slack);
         EXPECT_LE(p.separation, margin);
@@ -119,7 +119,7 @@ TEST(Penetration, HullAgainstHull) {
     EXPECT_GT(tally.edges, trials(20) - 1);
 }
 
-// Just touching, as bodies at rest do: pairs pushed along the exact normal until they overlap by a hair.
+// Just touching, as bodies at rest do: pairs pushed along the exact normal until they overlap slightly.
 TEST(Penetration, ShallowOverlaps) {
     Random random(14);
     Tally tally;
@@ -138,7 +138,7 @@ TEST(Penetration, ShallowOverlaps) {
     EXPECT_GT(tally.overlapping, trials(70) - 1);
 }
 
-// Small faces, as on rounded meshes, meet a box's edge beyond their rims.
+// Small faces, as on rounded meshes, meet a box's edge beyond their borders.
 TEST(Penetration, RoundedHullAtABoxesEdge) {
     Random random(17);
     Tally tally;
@@ -157,7 +157,7 @@ TEST(Penetration, RoundedHullAtABoxesEdge) {
     EXPECT_GT(tally.edges, trials(10) - 1);
 }
 
-// The reference itself: no sampled direction beats the Minkowski difference's best face.
+// The reference itself: no sampled direction exceeds the Minkowski difference's best face.
 TEST(Penetration, ReferenceBoundsSampledDirections) {
     Random random(15);
     for (int trial = 0; trial < 20; ++trial) {

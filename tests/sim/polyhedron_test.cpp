@@ -12,7 +12,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// Everything a convex polyhedron must be, whatever made it. `size`: the scale of its points.
+// Invariants of every convex polyhedron. `size`: the scale of its points.
 void expect_sound(const Polyhedron& p, double size) {
     EXPECT_EQ(int(p.vertices.size()) - int(p.edges.size()) + int(p.faces.size()), 2);
     const Vec3 inside = mean(p.vertices);
@@ -80,7 +80,7 @@ TEST(Hull, OfRandomPointsIsSoundAndHoldsThemAll) {
     }
 }
 
-// Points far from their own origin: what is lost is what double precision loses at that distance.
+// Points far from their own origin: the error is that of double precision at that distance.
 TEST(Hull, FarOffKeepsItsDigits) {
     Random random(2);
     std::vector<Vec3> near, far;
@@ -112,8 +112,8 @@ TEST(Hull, CoplanarPointsMakeOneFace) {
     }
 }
 
-// The same in a turned frame, where rounding bends the planes.
-TEST(Hull, CoplanarPointsMakeOneFaceTurned) {
+// The same in a rotated frame, where rounding bends the planes.
+TEST(Hull, CoplanarPointsMakeOneFaceRotated) {
     Random random(3);
     for (int trial = 0; trial < 20; ++trial) {
         const Pose pose = random.pose(2.0);
@@ -145,8 +145,8 @@ TEST(Hull, OfManyPointsOnASphere) {
     }
 }
 
-// Meshes come from files of six digits: nearly flat, nearly round, rounded. The climb to the farthest vertex must not end on
-// a knoll of rounding, and the planes must hold all points.
+// Meshes from files of six digits: nearly flat, nearly round, rounded. The climb to the farthest vertex must not end on
+// a local maximum by rounding, and the planes must contain all points.
 TEST(Hull, RoundedTessellationsAreClimbed) {
     Random random(6);
     for (const double digits : {1e-6, 1e-4}) {

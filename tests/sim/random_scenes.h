@@ -8,7 +8,7 @@
 
 namespace tumble::testing {
 
-/// A closed mesh: the hull of a cloud, its faces cut into fans. Its origin is not its centre of mass.
+/// A closed mesh: the hull of random points, its faces split into fans. Its origin differs from its center of mass.
 inline std::shared_ptr<const MeshAsset> random_mesh(Random& random, int points, double size) {
     std::vector<Vec3> cloud;
     const Vec3 off = random.vector(0.3 * size);
@@ -38,7 +38,7 @@ inline SceneDescription random_scene(Random& random, const SceneKind& kind) {
                                           kind.steps_per_frame);
     for (int i = 0; i < kind.bodies; ++i) {
         const Vec3 at(i % 3 + random(-0.04, 0.04), 0.5 + i / 9 + random(0.0, 0.04), (i / 3) % 3 + random(-0.04, 0.04));
-        const double r = random(0.2, 0.45);   // of the sphere about it, so that turning cannot make them overlap
+        const double r = random(0.2, 0.45);   // m, bounding radius, so that rotation cannot make them overlap
         BodyDescription* body = nullptr;
         const int shape = random.below(4);
         if (shape == 0) body = &add_sphere(scene, r, at);
@@ -73,7 +73,7 @@ inline double lowest_point(const BodyDescription& d, const BodyState& s) {
     return y;
 }
 
-/// J: what the bodies weigh times a metre and what they move with.
+/// J: the bodies' weight times one meter plus their kinetic energy.
 inline double energy_scale(const SceneDescription& scene, const World& world) {
     double scale = world.measure().kinetic;
     for (const BodyDescription& d : scene.bodies)

@@ -1,4 +1,4 @@
-// Random numbers that are the same everywhere, and shapes and poses made of them.
+// Random numbers that are the same on every platform, and shapes and poses made of them.
 #pragma once
 
 #include "sim/geometry/collide.h"
@@ -44,7 +44,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// How often to try at random: all n times in optimised builds, a tenth of it in the others, which are there for the
+/// Number of random trials: all n in optimized builds, a tenth of them in the others, which are there for the
 /// sanitizers and run fifty times as long.
 constexpr int trials(int n) {
 #ifdef NDEBUG
@@ -64,14 +64,14 @@ inline Vec3 mean(const std::vector<Vec3>& points) {
 
 inline PolyhedronRef box_of(const Vec3& size) { return std::make_shared<const Polyhedron>(make_box(size)); }
 
-/// The box as any other polyhedron: none of the short cuts for boxes.
+/// The box as a general polyhedron: without the shortcuts for boxes.
 inline PolyhedronRef plain_box(const Vec3& size) {
     Polyhedron p = make_box(size);
     p.is_box = false;
     return std::make_shared<const Polyhedron>(p);
 }
 
-/// The hull of points in a ball, squeezed to `stretch` along the axes.
+/// The hull of points in a ball, scaled by `stretch` along the axes.
 inline PolyhedronRef random_hull(Random& random, int points, const Vec3& stretch) {
     std::vector<Vec3> cloud;
     for (int i = 0; i < points; ++i) cloud.push_back(stretch.cwiseProduct(random.direction() * random(0.6, 1.0)));
@@ -101,7 +101,7 @@ inline Pose after(const Pose& outer, const Pose& inner) {
     return {outer.to_world(inner.position), outer.rotation * inner.rotation};
 }
 
-/// How far a point (body frame) is outside a polyhedron's planes; negative inside.
+/// Distance (m) of a point (body frame) outside of a polyhedron's planes; negative inside.
 inline double outside(const Polyhedron& shape, const Vec3& p) {
     double most = -std::numeric_limits<double>::infinity();
     for (const auto& f : shape.faces) most = std::max(most, f.normal.dot(p) - f.offset);

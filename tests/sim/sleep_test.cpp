@@ -1,4 +1,4 @@
-// Who falls asleep, and when; who wakes, and with whom.
+// Which bodies fall asleep, and when; which wake, and with which others.
 #include "sim/contact/model/sleep.h"
 #include "sim/contact_scenes.h"
 
@@ -12,7 +12,8 @@ namespace {
 constexpr double h = 1.0 / 64.0;   // exact in binary: half a second is 32 steps
 constexpr double shortest = tuning::sleep_times.front(), longest = tuning::sleep_times.back();
 
-/// A floor (0), two boxes one on the other (1, 2), and one apart from them on the floor (3); nothing moves unless told.
+/// A floor (0), two boxes one on the other (1, 2), and one apart from them on the floor (3); nothing moves unless a
+/// test moves it.
 struct Yard {
     std::vector<Body> bodies;
     std::vector<Manifold> manifolds = {touch(0, 1), touch(0, 3), touch(1, 2)};
@@ -41,9 +42,9 @@ struct Yard {
 TEST(SleepMonitor, AfterHalfASecondOfRest) {
     Yard yard;
     const int steps = int(tuning::sleep_times[0] / h);
-    yard.observe(steps);   // the watch begins with the first look
+    yard.observe(steps);   // the span starts with the first observation
     EXPECT_EQ(yard.asleep(), 0);
-    yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);   // what is left over is taken away
+    yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);   // the residual motion is removed
     yard.observe();
     EXPECT_EQ(yard.asleep(), 3);
     EXPECT_TRUE(yard.bodies[1].momentum.isZero(0.0));
@@ -62,8 +63,8 @@ TEST(SleepMonitor, IslandsSleepAsOne) {
     EXPECT_TRUE(yard.bodies[3].asleep);
 }
 
-// Turning on the spot is motion too.
-TEST(SleepMonitor, SpinsAreNoRest) {
+// Rotation in place is motion too.
+TEST(SleepMonitor, SpinsAreNotRest) {
     Yard yard;
     for (int k = 0; k < 100; ++k) {
         yard.bodies[3].orientation = turn(Vec3::UnitY(), 1.1 * tuning::sleep_drift(longest) * k);
@@ -73,8 +74,8 @@ TEST(SleepMonitor, SpinsAreNoRest) {
     EXPECT_TRUE(yard.bodies[1].asleep);
 }
 
-// Trembling is rest, after a while; creeping beyond what that trembles is not.
-TEST(SleepMonitor, TremblingIsRestCreepingIsNot) {
+// Trembling counts as rest, after a while; creeping beyond the amplitude does not.
+TEST(SleepMonitor, TremblingIsRestAndCreepingIsNot) {
     Yard yard;
     const double drift = tuning::sleep_drift(longest) * yard.bodies[3].radius;
     for (int k = 0; k * h < longest + 1.0; ++k) {
@@ -86,8 +87,9 @@ TEST(SleepMonitor, TremblingIsRestCreepingIsNot) {
     EXPECT_FALSE(yard.bodies[1].asleep);
 }
 
-// What gathers speed is not at rest, however slowly it does: what it has moved in half a second tells nothing. Nor is what turns back.
-TEST(SleepMonitor, GatheringSpeedIsNoRest) {
+// A body that gains speed is not at rest, however slowly: its motion in half a second is no evidence. Nor is one that
+// turns back.
+TEST(SleepMonitor, GainingSpeedIsNotRest) {
     for (const double share : {1e-9, 0.25, 3.0})
         for (const double turns_back_after : {0.0, 1.3}) {
             Yard yard;
@@ -102,7 +104,7 @@ TEST(SleepMonitor, GatheringSpeedIsNoRest) {
         }
 }
 
-TEST(SleepMonitor, GatheringSpinIsNoRest) {
+TEST(SleepMonitor, GainingSpinIsNotRest) {
     Yard yard;
     for (int k = 0; k * h < 10.0 * shortest; ++k) {
         yard.bodies[3].angular_velocity.y() = 1e-9 * k * h;
@@ -112,7 +114,7 @@ TEST(SleepMonitor, GatheringSpinIsNoRest) {
     EXPECT_TRUE(yard.bodies[1].asleep);
 }
 
-// A creep that dies away is rest, and so is a drift at an even speed, too slow to be seen.
+// A decaying creep is rest, and so is a drift at constant speed, too slow to be visible.
 TEST(SleepMonitor, SettlingIsRest) {
     Yard yard;
     double speed = 1e-6;
@@ -125,7 +127,7 @@ TEST(SleepMonitor, SettlingIsRest) {
     EXPECT_TRUE(yard.bodies[1].asleep);
 }
 
-TEST(SleepMonitor, OnlyWhatLeansOnSomethingFixed) {
+TEST(SleepMonitor, OnlyIslandsThatTouchAFixedBody) {
     Yard yard;
     yard.manifolds[0].points[0].impulse = 0.0;   // the pair touches the floor without weight
     yard.bodies[0].type = BodyType::fixed;
@@ -139,7 +141,7 @@ TEST(SleepMonitor, WakesTheGroupThatIsTouchedAndNoOther) {
     yard.observe(100);
     ASSERT_EQ(yard.asleep(), 3);
     const auto before = yard.sleep.changes();
-    // A ball above the upper box, a centimetre off: too slow to arrive in this step, then fast enough.
+    // A ball above the upper box, a centimeter off: too slow to arrive in this step, then fast enough.
     SceneDescription scene;
     add_sphere(scene, 0.5, {0.0, 2.51, 0.0});
     yard.bodies.push_back(BodyBuilder().build(scene.bodies[0], IntegratorKind::symplectic_euler));
@@ -160,7 +162,7 @@ TEST(SleepMonitor, WakesTheGroupThatIsTouchedAndNoOther) {
     EXPECT_TRUE(yard.bodies[3].asleep);
 }
 
-// Touched by what stands still, fixed or kinematic, nobody wakes; by a kinematic body that moves, at once.
+// A body that stands still, fixed or kinematic, wakes nothing by touch; a moving kinematic body wakes at once.
 TEST(SleepMonitor, AMovingSupportWakesAStandingOneDoesNot) {
     Yard yard;
     yard.bodies[0].type = BodyType::kinematic;
@@ -173,16 +175,16 @@ TEST(SleepMonitor, AMovingSupportWakesAStandingOneDoesNot) {
     EXPECT_EQ(yard.asleep(), 0);
 }
 
-// One wakes the next: a row of sleeping groups, each touching the one before.
-TEST(SleepMonitor, WakingGoesOn) {
+// One wakes the next: a row of sleeping groups, each touching the last one.
+TEST(SleepMonitor, WakingPropagates) {
     Yard yard;
     yard.observe(100);
-    std::vector<Manifold> manifolds = {touch(2, 3), touch(1, 2)};   // the third touches the pair only now
+    std::vector<Manifold> manifolds = {touch(2, 3), touch(1, 2)};   // the third touches the pair only in this list
     yard.sleep.wake(3, yard.bodies);
     EXPECT_EQ(yard.asleep(), 2);
     EXPECT_TRUE(yard.sleep.wake_touched(manifolds, yard.bodies, h, 0.0));
     EXPECT_EQ(yard.asleep(), 0);
-    // Who has woken begins a new half second.
+    // A woken body starts a new half second.
     yard.observe(int(tuning::sleep_times[0] / h));
     EXPECT_EQ(yard.asleep(), 0);
     yard.observe();

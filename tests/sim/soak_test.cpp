@@ -1,12 +1,13 @@
 // Random scenes of every kind of body: the state stays finite, nothing sinks into the ground, energy does not grow.
-// "Scale" is the bodies' weight times a metre plus their first kinetic energy.
+// "Scale" is the bodies' weight times one meter plus their first kinetic energy.
 //
-// How far energy can grow in a frame, and why:
-// - without restitution: by what the push-out of overlaps lifts (measured: up to 4e-5), the solver itself only takes;
-// - with restitution: by the step's own error, g h v a bounce and that of a fast spin's turn by h omega (measured over 16
-//   times 40 scenes: up to 4e-3 at 16 steps a frame, 1e-4 at 64);
-// - with restitution and friction together Newton's law of restitution itself can make energy (Kane and Levinson 1985): see
-//   the bound there.
+// Allowed growth of energy in a frame, and its cause:
+// - without restitution: lifting by the position correction of overlaps (measured: up to 4e-5); the solver itself only
+//   removes energy;
+// - with restitution: the step's own error, g h v per bounce and that of a fast spin's rotation by h omega (measured
+//   over 16 times 40 scenes: up to 4e-3 at 16 steps per frame, 1e-4 at 64);
+// - with restitution and friction together Newton's law of restitution itself can gain energy (Kane and Levinson 1985):
+//   see the bound there.
 #include "random_scenes.h"
 
 #include <gtest/gtest.h>
@@ -82,14 +83,14 @@ TEST(Soak, ElasticWithoutFriction) {
     SceneKind kind;
     kind.friction_high = 0.0;
     kind.restitution_low = 1.0;
-    kind.heaviest = 4.0;   // heavy bodies spin light ones up to where a step turns them by half a radian
+    kind.heaviest = 4.0;   // heavy bodies spin light ones up to half a radian per step
     kind.steps_per_frame = 32;
     soak_many(3000, 20, kind, 5e-3, five_percent);
 }
 
 TEST(Soak, AnyRestitutionAndFriction) { soak_many(4000, 40, {}, 5e-2, five_percent); }
 
-// Large steps and fast bodies: coarse, but nothing tunnels through the ground or blows up.
+// Large steps and fast bodies: coarse, but nothing tunnels through the ground or explodes.
 TEST(Soak, CoarseStepsAndFastBodies) {
     SceneKind kind;
     kind.steps_per_frame = 2;
@@ -100,8 +101,8 @@ TEST(Soak, CoarseStepsAndFastBodies) {
     soak_many(5000, 20, kind, 0.2, 0.1);
 }
 
-// A kinematic press comes down on what lies on the ground, stays, and goes up again: whatever is squeezed, nothing is shot
-// away faster than the press could throw it.
+// A kinematic press descends on bodies on the ground, stays, and rises again: no squeezed body is thrown faster than
+// the press could throw it.
 TEST(Soak, SqueezedBodiesAreNotShotAway) {
     for (const double e : {0.0, 0.3, 0.5, 1.0})
         for (const double friction : {0.0, 0.5})
@@ -130,7 +131,7 @@ TEST(Soak, SqueezedBodiesAreNotShotAway) {
             }
 }
 
-// Bodies that overlap at the start come apart at the push-out's pace, without a bang.
+// Bodies that overlap at the start separate at the speed of the position correction, not explosively.
 TEST(Soak, OverlapsAtTheStartDissolve) {
     Random random(6000);
     for (int trial = 0; trial < trials(10); ++trial) {

@@ -1,4 +1,4 @@
-// The soft solver's inner loops: the same bits whatever the width, and one contact against closed forms.
+// The soft solver's inner loops: the same bits at any width, and one contact against closed forms.
 #include "sim/contact/model/settings.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_kernel.h"
@@ -21,7 +21,7 @@ struct alignas(64) Line {
 };
 
 struct LanePoint {
-    Vec3 arm = Vec3::Zero();   // from A's centre
+    Vec3 arm = Vec3::Zero();   // from A's center
     double separation = 0.0, impulse = 0.0;
     double share = 1.0;
 };
@@ -29,13 +29,13 @@ struct Lane {
     std::uint32_t a = 0, b = 0;   // slots; 0 stands still
     bool moves_a = true, moves_b = true;
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
-    Vec3 between = Vec3::Zero();   // from B's centre to A's
+    Vec3 between = Vec3::Zero();   // from B's center to A's
     double friction = 0.0, size = 1.0, spread = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
 };
 
-/// Bodies and one colour of manifolds: no two share a body that moves.
+/// Bodies and one color of manifolds: no two share a moving body.
 class OneColor {
 public:
     OneColor(const Kernel& kernel, std::size_t bodies, const std::vector<Lane>& lanes)
@@ -123,7 +123,7 @@ void random_mass(Random& random, float& inverse, float* inertia) {
     for (int i = 0; i < 6; ++i) inertia[i] = float(entries[i]);
 }
 
-/// A ball of mass m and radius r on what does not move, its centre at r above: slot 1.
+/// A ball of mass m and radius r on a body that does not move, its center at height r: slot 1.
 constexpr double m = 2.0, r = 0.5, moment_of_inertia = 0.4 * m * r * r;
 OneColor ball(const Kernel& kernel, Lane lane, const Vec3& velocity, const Vec3& spin = Vec3::Zero()) {
     lane.b = 1;
@@ -145,7 +145,7 @@ Lane ball_lane(double friction, double separation = 0.0) {
     return lane;
 }
 
-/// Between bodies 1 and 2, which both move, any way round.
+/// Between bodies 1 and 2, which both move, in either order.
 Lane lane_of_two(Random& random) {
     Lane lane;
     lane.a = 1;
@@ -157,7 +157,7 @@ Lane lane_of_two(Random& random) {
 
 }  // namespace
 
-TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
+TEST(SoftKernel, TheSameBitsAtAnyWidth) {
     for (int trial = 0; trial < trials(40); ++trial) {
         std::vector<std::vector<float>> results;
         const auto all = kernels();
@@ -218,14 +218,14 @@ TEST(SoftKernel, TheSameBitsWhateverTheWidth) {
         }
         for (std::size_t k = 1; k < results.size(); ++k) {
             ASSERT_EQ(results[k].size(), results[0].size());
-            // Equal but for the sign of a zero: adding the nothing of points that a neighbour has makes -0 a +0.
+            // Equal except for the sign of a zero: adding a neighbor's unused points turns -0 into +0.
             for (std::size_t i = 0; i < results[0].size(); ++i) ASSERT_EQ(results[k][i], results[0][i]) << all[k]->lanes << " lanes, " << i;
         }
     }
 }
 
-// What does not move is read and never written.
-TEST(SoftKernel, UnmovedBodiesAreLeftAlone) {
+// A body that does not move is read and never written.
+TEST(SoftKernel, FixedBodiesAreNotWritten) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5, -0.01);
         lane.a = 2;
@@ -242,13 +242,13 @@ TEST(SoftKernel, UnmovedBodiesAreLeftAlone) {
         color.relax(480.0f);
         EXPECT_EQ(color.state(2)[0], 0.25f);
         EXPECT_EQ(color.state(2)[1], 0.0f);
-        EXPECT_GT(color.state(1)[0], 0.0f);   // it takes the ball along
+        EXPECT_GT(color.state(1)[0], 0.0f);   // it carries the ball along
         for (int i = 0; i < body_floats; ++i) EXPECT_EQ(color.state(0)[i], 0.0f);
     }
 }
 
-// j = m v: a ball's mass at its own centre; through an arm across the normal less.
-TEST(SoftKernel, AContactStopsWhatApproaches) {
+// j = m v: a ball's mass at its own center; less through an arm across the normal.
+TEST(SoftKernel, AContactStopsAnApproach) {
     for (const Kernel* kernel : kernels()) {
         OneColor central = ball(*kernel, ball_lane(0.0), {0.0, -3.0, 0.0});
         central.relax(480.0f);
@@ -270,8 +270,8 @@ TEST(SoftKernel, AContactStopsWhatApproaches) {
     }
 }
 
-// A point that is apart may close the gap within the substep, and no more.
-TEST(SoftKernel, AGapIsClosedNotCrossed) {
+// A point with a gap may close it within the substep, and no more.
+TEST(SoftKernel, AGapIsClosedAndNotCrossed) {
     for (const Kernel* kernel : kernels()) {
         OneColor color = ball(*kernel, ball_lane(0.0, 0.005), {0.0, -3.0, 0.0});
         color.push(480.0f);
@@ -283,7 +283,7 @@ TEST(SoftKernel, AGapIsClosedNotCrossed) {
 }
 
 // Soft constraint: j' = j - M c (v + b) - k j with b = rate o (1 + o / o2), o = s + slop, at most the push limit.
-TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
+TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.0, -0.01);
         lane.size = 0.001 / tuning::soft_slop;
@@ -305,8 +305,8 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedTakenBack) {
     }
 }
 
-// Each kind of pair has its softness; of unlike masses, both moving, no overlap is pushed out twice as fast.
-TEST(SoftKernel, UnlikeMassesMeetMoreSoftly) {
+// Each kind of pair has its softness; between unlike masses, both moving, no overlap is pushed out twice as fast.
+TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
     for (const Kernel* kernel : kernels())
         for (const double other : {0.0, 1.0, 0.6, 0.4, 1.6, 2.4}) {   // inverse mass, 1/kg, beside that of 1 kg
             Lane lane = ball_lane(0.0, -0.01);
@@ -330,8 +330,8 @@ TEST(SoftKernel, UnlikeMassesMeetMoreSoftly) {
         }
 }
 
-// Sliding: mu j against the slip, in any direction; the ball is spun up by it. Sticking: the slip ends. With arm r down,
-// an impulse f changes the slip by f (1/m + r^2 / I) = 3.5 f / m.
+// Sliding: mu j against the slip, in any direction; the ball is spun up by it. Sticking: the slip ends. With arm r
+// down, an impulse f changes the slip by f (1/m + r^2 / I) = 3.5 f / m.
 TEST(SoftKernel, FrictionIsADisc) {
     for (const Kernel* kernel : kernels())
         for (const double angle : {0.0, 0.7, 2.0, -1.1}) {
@@ -352,8 +352,8 @@ TEST(SoftKernel, FrictionIsADisc) {
         }
 }
 
-// Several points resist a twist by mu times their loads' levers.
-TEST(SoftKernel, TwistIsHeldByTheLevers) {
+// Several points resist a spin by mu times their loads' levers.
+TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
     for (const Kernel* kernel : kernels()) {
         Lane lane = ball_lane(0.5);
         lane.points.clear();
@@ -365,7 +365,7 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
         slow.push(480.0f);
         EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
-        // Of an area: half as much where the load is even, and all of it where one point has the load.
+        // Of an area: half as much where the load is uniform, and all of it where one point has the load.
         lane.spread = 0.5;
         OneColor even = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         even.push(480.0f);
@@ -378,8 +378,8 @@ TEST(SoftKernel, TwistIsHeldByTheLevers) {
     }
 }
 
-// Friction acts where the shares put it, if all points touch; else in the middle of those that do.
-TEST(SoftKernel, FrictionActsAtTheAreasCentroid) {
+// Friction acts at the point given by the shares, if all points touch; else in the middle of those that do.
+TEST(SoftKernel, FrictionActsAtTheCentroidOfTheArea) {
     for (const Kernel* kernel : kernels())
         for (const double gap : {0.0, 0.1}) {
             Lane lane = ball_lane(0.5);
@@ -393,9 +393,9 @@ TEST(SoftKernel, FrictionActsAtTheAreasCentroid) {
         }
 }
 
-// A sweep over four points at once, from couplings, against the same one by one in double precision: j = (v - r) / K for
-// each point in turn, K = 1/m + (r x n) I^-1 (r x n) over both bodies.
-TEST(SoftKernel, PointsSeeEachOther) {
+// A sweep over four points at once, from couplings, against the same one by one in double precision: j = (v - r) / K
+// for each point in sequence, K = 1/m + (r x n) I^-1 (r x n) over both bodies.
+TEST(SoftKernel, PointsAreCoupled) {
     for (const Kernel* kernel : kernels())
         for (int trial = 0; trial < trials(50); ++trial) {
             Random random{std::uint64_t(1000 + trial)};
@@ -441,9 +441,9 @@ TEST(SoftKernel, PointsSeeEachOther) {
         }
 }
 
-// Friction, solved last, ends the slip that the normal impulse has left; solved first, it leaves the normal impulse to stop
-// what it has set going. One point, well held, anywhere on two bodies.
-TEST(SoftKernel, FrictionAndNormalImpulsesSeeEachOther) {
+// Friction, solved last, ends the slip that remains after the normal impulse; solved first, it leaves the normal
+// impulse to stop the motion that it has caused. One point, well held, anywhere on two bodies.
+TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
     for (const Kernel* kernel : kernels())
         for (int trial = 0; trial < trials(50); ++trial) {
             Random random{std::uint64_t(2000 + trial)};

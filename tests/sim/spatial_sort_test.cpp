@@ -1,4 +1,4 @@
-// Bodies in memory by where they are: columns side by side, and outside nobody notices.
+// Bodies in memory sorted by place: columns side by side, with no visible effect outside.
 #include "sim/detection/spatial_sort.h"
 
 #include "sim/dynamics/body_builder.h"
@@ -13,7 +13,7 @@ using namespace tumble::testing;
 
 namespace {
 
-// Balls in a grid, two metres apart; neighbours in the list are far from each other.
+// Balls in a grid, two meters apart; neighbors in the list are far from each other.
 SceneDescription scattered(int across, int up, int deep) {
     SceneDescription scene = empty_scene(4);
     scene.simulation.gravity = Vec3(0.0, -9.81, 0.0);
@@ -25,7 +25,7 @@ SceneDescription scattered(int across, int up, int deep) {
     return scene;
 }
 
-TEST(MemoryOrder, HalvesAreApartAcrossGravityAndColumnsGoUp) {
+TEST(SpatialSort, HalvesAreApartAcrossGravityAndColumnsGoUp) {
     const SceneDescription scene = scattered(16, 4, 10);
     auto bodies = build_bodies(scene);
     const auto order = put_in_memory_order(bodies, scene.simulation.gravity);
@@ -38,15 +38,15 @@ TEST(MemoryOrder, HalvesAreApartAcrossGravityAndColumnsGoUp) {
     for (std::size_t i = 1; i < 20; ++i) EXPECT_GE(bodies[i].position.y(), bodies[i - 1].position.y()) << i;   // 640 in halves: 20
 }
 
-TEST(MemoryOrder, SmallScenesKeepTheirs) {
+TEST(SpatialSort, SmallScenesKeepTheirOrder) {
     const SceneDescription scene = scattered(8, 7, 9);
     auto bodies = build_bodies(scene);
     const auto order = put_in_memory_order(bodies, scene.simulation.gravity);
     for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
 }
 
-// What the scene says of each body happens to that one.
-TEST(MemoryOrder, SnapshotsReportsAndForcesGoByTheScene) {
+// The scene's values of each body apply to that body.
+TEST(SpatialSort, SnapshotsReportsAndForcesUseTheSceneOrder) {
     SceneDescription scene = scattered(16, 4, 10);
     scene.bodies[5].type = BodyType::fixed;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].velocity = Vec3(0.001 * double(i), 0.0, 0.0);

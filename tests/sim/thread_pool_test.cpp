@@ -1,4 +1,4 @@
-// Every item once, whatever the sizes; exceptions come back in item order; the pool goes on afterwards.
+// Every item once, for any sizes; exceptions arrive in item order; the pool works on afterwards.
 #include "sim/threads/thread_pool.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ TEST(ThreadPool, EveryItemExactlyOnce) {
         EXPECT_EQ(pool.size(), threads);
         for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 63u, 64u, 65u, 1000u, 4097u})
             for (const std::size_t grain : {0u, 1u, 64u, 5000u}) {
-                std::vector<int> calls(count, 0);   // one place an item: a second call would be a data race
+                std::vector<int> calls(count, 0);   // one place per item: a second call would be a data race
                 std::atomic<bool> known{true};
                 pool.for_each(count, grain, [&](std::size_t item, std::size_t thread) {
                     ++calls.at(item);
@@ -29,8 +29,8 @@ TEST(ThreadPool, EveryItemExactlyOnce) {
     }
 }
 
-// A thread's number is its own for the whole loop: what it writes under that number needs no lock.
-TEST(ThreadPool, ThreadNumbersAreNotShared) {
+// A thread's index is its own for the whole loop: data written under that index needs no lock.
+TEST(ThreadPool, ThreadIndicesAreNotShared) {
     ThreadPool pool(4);
     for (int round = 0; round < 200; ++round) {
         std::vector<std::size_t> sums(4, 0);
@@ -52,7 +52,7 @@ TEST(ThreadPool, FirstExceptionInItemOrder) {
             } catch (const std::runtime_error& error) {
                 EXPECT_EQ(error.what(), std::to_string(first)) << threads;
             }
-            // And it works again, with nothing left over.
+            // And it works again, without remains of the exception.
             std::atomic<int> calls{0};
             EXPECT_NO_THROW(pool.for_each(300, 1, [&](std::size_t, std::size_t) { ++calls; }));
             EXPECT_EQ(calls, 300);
@@ -67,7 +67,7 @@ TEST(ThreadPool, ManyShortRounds) {
     EXPECT_EQ(calls, 3000u / 5u * (2 + 3 + 4 + 5 + 6));
 }
 
-TEST(ThreadPool, MadeAndUnmadeWithoutWork) {
+TEST(ThreadPool, ConstructionAndDestructionWithoutWork) {
     for (int i = 0; i < 50; ++i) ThreadPool pool(1 + i % 6);
 }
 

@@ -1,4 +1,4 @@
-// The moment of impact: never missed, never early, to the last digits; grazing and touching starts.
+// The time of impact: never missed, never early, to the last digits; grazing and touching starts.
 #include "random_shapes.h"
 #include "sim/event_driven/settings.h"
 #include "sim/geometry/separating_axis.h"
@@ -33,7 +33,7 @@ double lowest(const Flying& f, double t) {
     return height;
 }
 
-// By separating axes, all of them: the distance of boxes or, where vertices are nearest, a little less.
+// By all separating axes: the distance of boxes or, where vertices are nearest, slightly less.
 double gap(const Flying& a, const Flying& b, double t) {
     const Motion ma = a.path.at(t), mb = b.path.at(t);
     CollisionScratch scratch;
@@ -70,7 +70,7 @@ TEST(TimeOfImpact, BallOnPlaneIsTheQuadratic) {
     }
 }
 
-TEST(TimeOfImpact, BallsMeetWhereTheirCentresAreARadiusSumApart) {
+TEST(TimeOfImpact, BallsMeetWhereTheirCentersAreARadiusSumApart) {
     ImpactSearch search;
     Random random(7);
     int hits = 0;
@@ -90,7 +90,7 @@ TEST(TimeOfImpact, BallsMeetWhereTheirCentresAreARadiusSumApart) {
     EXPECT_GT(hits, 100);
 }
 
-// A tumbling box reaches the ground for the first time: on it to 1e-12 m there, above it before, below it after.
+// A tumbling box reaches the ground for the first time: gap of 1e-12 m then, above it before, below it after.
 TEST(TimeOfImpact, TumblingBoxOnPlane) {
     const Ground ground;
     ImpactSearch search;
@@ -129,7 +129,7 @@ TEST(TimeOfImpact, TumblingBoxes) {
     }
 }
 
-// Round hulls, for which the nearest points have to be searched for.
+// Round hulls, whose nearest points have to be searched for.
 TEST(TimeOfImpact, TumblingHulls) {
     ImpactSearch search;
     Random random(7);
@@ -151,7 +151,7 @@ TEST(TimeOfImpact, TumblingHulls) {
     EXPECT_GT(hits, 30);
 }
 
-// A corner that just passes the ground: between starting heights that differ by 1e-12 m lies touching or not.
+// A corner that just passes the ground: starting heights that differ by 1e-12 m separate a touch from a miss.
 TEST(TimeOfImpact, GrazingIsDecidedToTheLastDigits) {
     const Ground ground;
     ImpactSearch search;
@@ -170,7 +170,7 @@ TEST(TimeOfImpact, GrazingIsDecidedToTheLastDigits) {
     }
 }
 
-TEST(TimeOfImpact, TouchingAtTheBeginning) {
+TEST(TimeOfImpact, TouchingAtTheStart) {
     const Ground ground;
     ImpactSearch search;
     // Parting: the impact is the next one. Flat, upwards at 3 m/s: back after 2 v / g.
@@ -183,11 +183,11 @@ TEST(TimeOfImpact, TouchingAtTheBeginning) {
     found = search.find(ground.traveller(), down.traveller(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_EQ(found.time, 0.0);
-    // At rest against each other with nothing that moves them: never.
+    // At rest against each other without forces: never.
     const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
     const Flying right(free_box({1, 1, 1}, 1.0, {1, 0, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
     EXPECT_EQ(search.find(left.traveller(), right.traveller(), 5.0).kind, TimeOfImpact::Kind::none);
-    // At rest, exactly, and about to fall: as soon as the fall can be told from rounding.
+    // At rest, exactly, and about to fall: as soon as the fall exceeds rounding.
     const Flying rests(free_box({1, 1, 1}, 1.0, {0, 1, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()));
     found = search.find(left.traveller(), rests.traveller(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
@@ -198,9 +198,9 @@ TEST(TimeOfImpact, TouchingAtTheBeginning) {
     EXPECT_LT(found.time, 1e-5);
 }
 
-// From where they first touch, boxes may go on until they overlap by what is allowed; along the rim of a face, too, where no
-// point lies on the face.
-TEST(TimeOfImpact, WhatTouchesMayComeDeeper) {
+// From their first touch on, boxes may overlap up to the allowed depth; also along the border of a face, where no point
+// lies on the face.
+TEST(TimeOfImpact, TouchingBodiesMayOverlapMore) {
     Random random(5);
     ImpactSearch search;
     int hits = 0;
@@ -215,7 +215,7 @@ TEST(TimeOfImpact, WhatTouchesMayComeDeeper) {
         if (touch.kind != TimeOfImpact::Kind::impact) continue;
         const TimeOfImpact deeper = search.find(a.traveller(touch.time), b.traveller(touch.time), 0.5, 0.002);
         ++hits;
-        // No point comes nearer than at 2.5 m/s and what 5 rad/s turn about 0.9 m, twice.
+        // No point approaches faster than 2.5 m/s plus twice 5 rad/s about 0.9 m.
         if (deeper.kind != TimeOfImpact::Kind::none) {
             EXPECT_GT(deeper.time, 0.002 / (3.6 + 2.0 * 5.2 * 0.9)) << trial;
         }
@@ -223,7 +223,8 @@ TEST(TimeOfImpact, WhatTouchesMayComeDeeper) {
     EXPECT_GT(hits, trials(10000));
 }
 
-// A point that touches and stands still goes no farther in the harmless time than is harmless, whatever the body does.
+// A point that touches and stands still overlaps within the harmless time by at most the harmless depth, for any motion
+// of the body.
 TEST(TimeOfImpact, TheHarmlessTimeIsHarmless) {
     const Ground ground;
     Random random(9);
@@ -256,7 +257,7 @@ TEST(TimeOfImpact, HugeAndTinySpeeds) {
     }
 }
 
-// The same impact, whichever body is asked first and however long they have been on their way.
+// The same impact for either order of the bodies and any time since their start.
 TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
     ImpactSearch search;
     Random random(7);
@@ -273,8 +274,8 @@ TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
     }
 }
 
-// A search leaves nothing behind for the next one: a ball over a sheet of triangles is found alike before and after others.
-TEST(TimeOfImpact, OneSearchDoesNotTouchTheNext) {
+// A search does not affect the next one: a ball over a mesh is found alike before and after others.
+TEST(TimeOfImpact, OneSearchDoesNotAffectTheNext) {
     TriangleMesh mesh;
     mesh.vertices = {{-5, 0, -5}, {5, 0, -5}, {5, 0, 5}, {-5, 0, 5}};
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}};

@@ -17,14 +17,14 @@ bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider)
 
 bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const CollisionMesh>>(body.collider); }
 
-// Of a ball only the centre counts; what cannot turn may be infinite.
+// Only the center of a ball counts; the arm of a body that cannot rotate may be infinite.
 double turning(double arm, const BodyVelocity& motion) {
     return arm == 0.0 || motion.angular_velocity.isZero(0.0) ? 0.0 : motion.angular_velocity.norm() * arm;
 }
 
-// How far (m) two bodies of these depths may go against each other unseen. Pushed out of the right side is what is in by less
-// than both inner radii together, against a surface, whose depth is infinite, by less than its own; but nothing shall be seen to
-// sink in by more than that.
+// Relative motion (m) below which two bodies of these depths cannot pass each other undetected. An overlap below both
+// inner radii together is pushed out of the correct side; against a mesh, whose depth is infinite, below the other
+// body's own. No visible overlap may exceed it either.
 double thin(double depth_a, double depth_b) {
     const double least = std::min(depth_a, depth_b), most = std::max(depth_a, depth_b);
     return std::min(tuning::fast_share * (std::isinf(most) ? least : depth_a + depth_b), tuning::fast_deepest * least);
@@ -42,7 +42,7 @@ void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share
     body.derive_velocities();
 }
 
-// The first touch in the step, with each body standing still once its share is used up; h if there is none.
+// Time of the first touch in the step, with each body at rest once its share is used up; h if there is none.
 double CcdClamp::first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h) {
     const std::uint32_t i = pair.a, j = pair.b;
     const Body &a = bodies[i], &b = bodies[j];
@@ -67,7 +67,7 @@ CcdClamp::CcdClamp(const std::vector<Body>& bodies)
     }
 }
 
-// Told without looking at any pair: two of them go no farther than the thinnest body is thin.
+// Decided without any pair: two slower bodies move no farther than the thinnest body is thin.
 bool CcdClamp::fast(std::uint32_t body, const BodyVelocity& motion, double h) const {
     return 2.0 * h * (motion.velocity.norm() + turning(arm_[body], motion)) > least_thin_;
 }
@@ -104,16 +104,17 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
         const BodyVelocity &of_a = motions[pair.a], &of_b = motions[pair.b];
-        // How far the bodies' points can move against each other in the step.
+        // Bound of the relative motion of the bodies' points in the step.
         const double gone = h * ((of_b.velocity - of_a.velocity).norm() + turning(arm_[pair.a], of_a) + turning(arm_[pair.b], of_b));
         const double least = std::min(depth_a, depth_b);
-        // A half-space has no other side: only nothing shall be seen to sink in.
+        // A half-space has no other side: only visible overlap counts.
         const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);
         if (gone <= (half_space ? tuning::fast_deepest * least : thin(depth_a, depth_b))) continue;
         FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
-            // The blow just dealt may have turned a corner towards the other body: it is looked for like a first touch.
-            if (ball(a) && ball(b)) continue;   // nothing turns
+            // The impact just resolved may have rotated a corner towards the other body: it is searched for like a
+            // first touch.
+            if (ball(a) && ball(b)) continue;   // rotation does not matter
             fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
@@ -146,7 +147,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
             }
         }
         if (!shorter) return limits_;
-        // A body that stops earlier stands in others' way: where it stops.
+        // A body that stops earlier is an obstacle for others, at the place where it stops.
         for (const FastPair& pair : fast_) {
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 Body there = bodies[k];
@@ -157,7 +158,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
             }
         }
     }
-    // Still changing: all of them stop with the first, which certainly keeps them apart.
+    // Without convergence all of them stop with the first, which certainly keeps them apart.
     double least = 1.0;
     for (const FastPair& pair : fast_) least = std::min({least, limits_[pair.a].share, limits_[pair.b].share});
     for (const FastPair& pair : fast_) {

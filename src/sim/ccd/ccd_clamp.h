@@ -1,7 +1,7 @@
-// No body passes through another within a step (impacts = "stepped"). Where a body's way in a step is long against the
-// thinness of what it may meet, the moment of first touch is looked for, and both bodies go no farther than that: the
-// rest of their step's time is given up, the next step finds them touching and resolves the collision at full speed. What
-// stops for no dynamic body, a kinematic one, carries along what it runs into.
+// CCD clamp (impacts = "stepped"): no body passes through another within a step. Where a body's displacement in a step
+// is long compared with the thickness of possible obstacles, the time of first touch is searched, and both bodies move
+// only until then. The rest of their step is lost; the next step finds them touching and resolves the impact at full
+// speed. A kinematic body does not stop for dynamic bodies: it carries along the bodies that it runs into.
 #pragma once
 
 #include "sim/detection/broad_phase.h"
@@ -16,37 +16,38 @@ namespace tumble {
 
 struct CcdFraction {
     static constexpr std::uint32_t none = UINT32_MAX;
-    double share = 1.0;              // of the step, that the body may move
-    std::uint32_t carrier = none;    // the kinematic body that takes it along from there on
-    std::uint32_t met = none;        // whom it meets there, if that is known
+    double share = 1.0;              // fraction of the step for which the body may move
+    std::uint32_t carrier = none;    // index of the kinematic body that carries it along from there on
+    std::uint32_t met = none;        // index of the body that it meets there, if known
 };
 
-/// How deep (m) a pair that touches already is in each other; nothing for others.
+/// Depth (m) of the overlap of a pair that touches already; nothing for other pairs.
 using TouchDepth = std::function<std::optional<double>(std::uint32_t a, std::uint32_t b)>;
 
-/// From manifolds ascending by body, which must outlive it.
+/// Preconditions: the manifolds are ascending by body and outlive the result.
 TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies);
 
-/// The pairs that may meet in the step: looked for only where something is fast.
+/// The pairs that may meet in the step: called only where a body is fast.
 using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 
-/// Whether a body turns in free rotation, not by its motion's angular velocity; none: no body does.
+/// Whether a body rotates in free rotation, not by its motion's angular velocity; none: no body does.
 using TurnsFreely = std::function<bool(std::uint32_t body)>;
 
-/// The forces have done work on a body in contact as if it had moved for the whole step, by an impulse (N s) and a turn (N m s).
-/// What they did on the way that it did not go, but a share of, is taken back: held up again and again it would gather all of
-/// its fall's speed on the spot.
+/// The forces have done work on a body in contact as if it had moved for the whole step, by an impulse (N s) and an
+/// angular impulse (N m s). Removes the part for the displacement lost to the clamp, `share` being the fraction done: a
+/// body clamped again and again would otherwise gain all of its fall's speed on the spot.
 void return_work(Body& body, const Vec3& impulse, const Vec3& turn, double share);
 
 class CcdClamp {
 public:
     explicit CcdClamp(const std::vector<Body>& bodies);
 
-    /// Whether the body goes so far in h seconds that it might pass something unseen. Where none does, there are no limits.
+    /// Whether the body moves so far in h seconds that it might pass another undetected. If no body does, there are no
+    /// limits.
     bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;
 
-    /// By body; `motions` too, bodies that do not move have zero. `any_fast`: whether any of those is. What touches already is
-    /// the contact solver's, and may come a little deeper into each other: no more.
+    /// Limits by body; `motions` too is by body, zero for bodies that do not move. `any_fast`: whether any of those is
+    /// fast. Touching pairs belong to the contact solver and may only overlap a little more.
     const std::vector<CcdFraction>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
                                          const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, double h,
                                          bool any_fast, const TurnsFreely& turns_freely = nullptr);
@@ -54,11 +55,11 @@ public:
 private:
     struct FastPair {
         std::uint32_t a, b;
-        double overlap;   // m, that it may come to: of those that touch already
-        // s, in which it goes no farther than counts as touching. What meets so soon touches, too, though its manifold, along
-        // a face, may still see a gap: were it stopped there, nothing would ever resolve the collision.
+        double overlap;   // m, limit of the overlap of touching pairs
+        // s, time in which the gap stays within the contact tolerance. A pair that meets so soon counts as touching,
+        // though its manifold, along a face, may still have a gap: clamped there, the impact would never be resolved.
         double at_once;
-        double overlap_of_touching;   // m, at least
+        double overlap_of_touching;   // m, lower bound
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
@@ -66,9 +67,9 @@ private:
 
     ImpactSearch search_;
     std::vector<CcdFraction> limits_;
-    std::vector<std::uint32_t> shortened_;   // whose limits are not the whole step
-    std::vector<double> depth_, arm_;        // m, by body; how far from the centre its points swing
-    double least_thin_ = 0.0;                // m, that no pair goes past unseen
+    std::vector<std::uint32_t> shortened_;   // bodies whose limits are below the whole step
+    std::vector<double> depth_, arm_;        // m, by body; arm: farthest distance of its points from the center
+    double least_thin_ = 0.0;                // m, relative motion that no pair needs to be checked below
     std::vector<Trajectory> paths_, still_;   // of the bodies of fast pairs
     std::vector<FastPair> fast_;
 };

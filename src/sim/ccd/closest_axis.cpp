@@ -6,13 +6,14 @@
 namespace tumble {
 namespace {
 
-// Up to four points of the Minkowski difference B - A whose hull holds the point nearest to the origin.
+// Up to four points of the Minkowski difference B - A whose hull contains the point nearest to the origin.
 struct Simplex {
     std::array<Vec3, 4> points{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     int size = 0;
 };
 
-// Each keeps only the points that carry the nearest point (Ericson 2005, "Real-Time Collision Detection", 5.1).
+// Each overload keeps only the points that support the nearest point (Ericson 2005, "Real-Time Collision Detection",
+// 5.1).
 Vec3 nearest(Simplex& s);
 
 Vec3 nearest_on_segment(Simplex& s) {
@@ -46,7 +47,7 @@ Vec3 nearest_on_triangle(Simplex& s) {
     const Vec3 a = s.points[0], ab = s.points[1] - a, ac = s.points[2] - a, n = ab.cross(ac);
     const double square = n.squaredNorm();
     if (square == 0.0) return nearest_of_edges(s);
-    // Barycentric coordinates of the origin's foot.
+    // Barycentric coordinates of the origin's projection.
     const double v = n.dot(ac.cross(a)) / square, w = n.dot(a.cross(ab)) / square;
     if (v < 0.0 || w < 0.0 || v + w > 1.0) return nearest_of_edges(s);
     return (n.dot(a) / square) * n;
@@ -96,7 +97,7 @@ const Vec3& farthest(const SupportPoints& cloud, const Vec3& direction) {
     return *best;
 }
 
-// The arms that lie farthest along a direction, up to three: enough to tell a corner, an edge and a face apart.
+// The arms farthest along a direction, up to three: enough to distinguish a corner, an edge and a face.
 struct Feature {
     std::array<Vec3, 3> arms{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
     int size = 0;
@@ -112,7 +113,7 @@ Feature feature_along(const SupportPoints& cloud, const Vec3& direction, double 
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
-// n ~ the part of w = q - p across the edge e (unit, turning at omega): n' = (u' - n (n.u')) / |u|.
+// n ~ the component of w = q - p across the edge e (unit, rotating at omega): n' = (u' - n (n.u')) / |u|.
 Vec3 rate_from_edge(const Vec3& normal, const Vec3& edge, const Vec3& omega, const Vec3& w, const Vec3& w_rate) {
     const Vec3 u = w - w.dot(edge) * edge;
     const double length = u.norm();
@@ -136,7 +137,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
         const double square = v.squaredNorm();
         if (square <= 1e-28 * scale * scale) return std::nullopt;
         const Vec3 w = d + farthest(b, -v) - farthest(a, v);
-        // w is no nearer along v than what is known: done, to a relative 1e-13.
+        // w is no nearer along v than the present point: converged, to a relative 1e-13.
         if (square - v.dot(w) <= 1e-13 * square) return v;
         for (int i = 0; i < simplex.size; ++i)
             if (simplex.points[std::size_t(i)] == w) return v;
@@ -160,14 +161,14 @@ Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& n
         const Vec3 ea = (fa.arms[1] - fa.arms[0]).normalized(), eb = (fb.arms[1] - fb.arms[0]).normalized();
         const Vec3 c = ea.cross(eb);
         const double length = c.norm();
-        if (length < 1e-6) return {normal, omega_a.cross(normal)};   // parallel edges: any axis that turns with one
+        if (length < 1e-6) return {normal, omega_a.cross(normal)};   // parallel edges: any axis that rotates with one
         const Vec3 c_rate = omega_a.cross(ea).cross(eb) + ea.cross(omega_b.cross(eb));
         const double sign = c.dot(normal) < 0.0 ? -1.0 : 1.0;
         return {normal, across(sign / length * c_rate, normal)};
     }
     const Vec3 &p = fa.arms[0], &q = fb.arms[0];
     const Vec3 w = d + q - p, w_rate = v + omega_b.cross(q) - omega_a.cross(p);
-    // Two points so near that the line between them says nothing: the axis rests.
+    // Two points too close for a direction of the line between them: the axis does not rotate.
     if (w.norm() <= tolerance) return {normal, Vec3::Zero()};
     if (fa.size == 2) return {normal, rate_from_edge(normal, (fa.arms[1] - p).normalized(), omega_a, w, w_rate)};
     if (fb.size == 2) return {normal, rate_from_edge(normal, (fb.arms[1] - q).normalized(), omega_b, w, w_rate)};

@@ -1,4 +1,4 @@
-// Where a body is and how it moves at one moment; world frame.
+// Pose and velocities of a body at one time; world frame.
 #pragma once
 
 #include "core/vector.h"
@@ -6,7 +6,7 @@
 namespace tumble {
 
 struct Motion {
-    Vec3 position = Vec3::Zero();           // m, of the centre of mass
+    Vec3 position = Vec3::Zero();           // m, of the center of mass
     Vec3 velocity = Vec3::Zero();           // m/s
     Quat orientation = Quat::Identity();
     Mat3 rotation = Mat3::Identity();       // the same as a matrix

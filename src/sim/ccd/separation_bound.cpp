@@ -14,7 +14,7 @@ double first_root(double f, double r, double q) {
     return q > 0.0 ? 0.0 : infinity;   // f = r = 0: it falls at once, if at all
 }
 
-// A point's height along the axis and how fast it changes.
+// A point's height along the axis and its rate of change.
 struct Height {
     double value, rate;
     double at(double s) const { return value + s * rate; }
@@ -24,7 +24,7 @@ Height height(const SupportPoints& cloud, std::size_t i, const Axis& axis) {
     return {axis.normal.dot(cloud.arms[i]), axis.rate.dot(cloud.arms[i]) + axis.normal.dot(cloud.arm_velocity(i))};
 }
 
-// The lowest of B's points and the highest of A's at time s, as one line; at equal heights the one that closes in faster.
+// The lowest of B's points and the highest of A's at time s, as one line; at equal heights the faster closing one.
 Height lowest_line(const SupportPoints& a, const SupportPoints& b, const Axis& axis, const Height& centers, double s) {
     Height low{infinity, 0.0}, high{-infinity, 0.0};
     for (std::size_t i = 0; i < b.arms.size(); ++i) {
@@ -63,17 +63,17 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
         bound.rate = centers.rate + low_rate - high_rate;
     }
 
-    // Q. |n'| and |n''| are n1 and n1^2 for a uniformly turning axis; a point's motion about its centre has
-    // |b'| <= W r and |b''| <= (W^2 + |alpha|) r.
+    // Q. |n'| and |n''| are n1 and n1^2 for a uniformly rotating axis; a point's motion about its center has |b'| <= W
+    // r and |b''| <= (W^2 + |alpha|) r.
     const double n1 = axis.rate.norm(), n2 = n1 * n1;
     const double turning = a.reach * (n2 + 2.0 * n1 * a.spin_bound + a.turning_bound) +
                            b.reach * (n2 + 2.0 * n1 * b.spin_bound + b.turning_bound);
     const double change = a.acceleration_change + b.acceleration_change;
-    const double shift = std::max(0.0, -bound.gap);   // overlap by rounding or by a touch: as if just touching
-    double window = n1 > 0.0 ? std::min(horizon, 1.0 / n1) : horizon;   // a turn of one radian is far enough to look
+    const double shift = std::max(0.0, -bound.gap);   // overlap by rounding or by a touch: treated as just touching
+    double window = n1 > 0.0 ? std::min(horizon, 1.0 / n1) : horizon;   // one radian of rotation is a sufficient horizon
     for (int round = 0; round < 3; ++round) {
-        // With a resting axis the centres' acceleration counts by its component; with a turning one the axis may turn
-        // towards it, and the distance of the centres enters.
+        // For a fixed axis only the component of the centers' acceleration along it counts; a rotating axis may rotate
+        // towards the acceleration, and the distance of the centers enters.
         double q = turning + change;
         if (n1 > 0.0) {
             const double away = d.norm() + window * (v.norm() + 0.5 * window * (acceleration.norm() + change));
@@ -84,8 +84,8 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
             q += std::max(0.0, -axis.normal.dot(acceleration));
         }
         bound.curvature = q;
-        // The bound is a concave function of s: each pair's root lies at or beyond its first root. Going down from pair
-        // to pair, the root that belongs to the lowest pair at that very time is the one.
+        // The bound is a concave function of s: each pair's root lies at or beyond its first root. Descending from pair
+        // to pair, the root is found at which its pair is also the lowest.
         Height active = line;
         double s = first_root(active.value + shift, active.rate, q);
         for (int k = 0; k < 32; ++k) {
@@ -100,11 +100,11 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
             active = next;
             s = std::min(s, first_root(active.value + shift, active.rate, q));
         }
-        // What rounding leaves beyond the root is far below its own size.
+        // The rounding error beyond the root is far below the rounding of the value itself.
         s = std::min(s, window);
         bound.safe_time = std::max(bound.safe_time, s);
         if (n1 == 0.0 || 4.0 * s > window) break;
-        window = 2.0 * s;   // in a shorter window the turning axis costs less
+        window = 2.0 * s;   // in a shorter window the rotation of the axis costs less
         if (!(window > 0.0)) break;
     }
     return bound;

@@ -17,7 +17,7 @@ using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using SurfaceRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
-// What of a traveller is searched: all of it, or one part of a compound, at its place in the body.
+// Shape that is searched: that of the whole body, or one part of a compound, at its place in the body.
 const CollisionShape& collider_of(const Traveller& t) { return t.part ? t.part->collider : t.body->collider; }
 double size_of(const Traveller& t) { return t.part ? t.part->reach : t.body->radius; }
 Pose pose_of(const Traveller& t, const Motion& motion) {
@@ -25,7 +25,7 @@ Pose pose_of(const Traveller& t, const Motion& motion) {
     return t.part ? part_pose(body, *t.part) : body;
 }
 
-// Where on its way a pair is, for what rounding does to it.
+// Rounding errors at a pair's present positions.
 struct Scale {
     double touch;   // m: gaps below are rounding
     double speed;   // m/s: rates below are rounding
@@ -41,12 +41,13 @@ Scale scale_of(const Traveller& a, const Traveller& b) {
     return {gap_a + gap_b, tuning::impact_speed_rounding * (speed_a + speed_b)};
 }
 
-// First time at which h + v t + a t^2 / 2 falls to zero, for h > 0; for touching bodies (h within `touch`) the next time.
+// First time at which h + v t + a t^2 / 2 falls to zero, for h > 0; for touching bodies (h within `touch`) the next
+// time.
 double fall_time(double h, double v, double a, const Scale& scale) {
     if (h <= scale.touch) {
         if (v < -scale.speed) return 0.0;
         if (a >= 0.0) return infinity;
-        return v > 0.0 ? -2.0 * v / a : (v + scale.speed) / -a;   // up and back; or at once, as soon as it can be told from rounding
+        return v > 0.0 ? -2.0 * v / a : (v + scale.speed) / -a;   // up and back; or as soon as it exceeds rounding
     }
     const double square = v * v - 2.0 * a * h;
     if (square < 0.0) return infinity;
@@ -55,18 +56,18 @@ double fall_time(double h, double v, double a, const Scale& scale) {
     return a < 0.0 ? -(v + root) / a : infinity;
 }
 
-// First time at which two points that move evenly against each other (d + v t) come within r of each other; infinity
-// also where that is after the horizon.
+// First time at which two points in uniform relative motion (d + v t) come within r of each other; infinity if there is
+// none up to the horizon.
 double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, const Traveller& a, const Traveller& b) {
     const double closing = -d.dot(v), square = d.squaredNorm();
     if (!(closing > 0.0)) return infinity;
-    if (square - r * r > 2.0 * closing * horizon) return infinity;   // most pairs: too far to meet in time
+    if (square - r * r > 2.0 * closing * horizon) return infinity;   // most pairs: too far apart to meet in time
     const double distance = std::sqrt(square), gap = distance - r;
     if (gap <= tuning::touch * r) {
         const Scale scale = scale_of(a, b);
         if (gap <= scale.touch) return closing > scale.speed * distance ? 0.0 : infinity;
     }
-    // c = d^2 - r^2 without the squares' cancellation.
+    // c = d^2 - r^2 without cancellation of the squares.
     const double c = gap * (distance + r), discriminant = closing * closing - v.squaredNorm() * c;
     return discriminant < 0.0 ? infinity : c / (std::sqrt(discriminant) + closing);
 }
@@ -81,7 +82,7 @@ double rounding_of(const CollisionShape& collider) {
     return ball ? ball->radius : 0.0;
 }
 
-// What of the cloud does not change on the way.
+// Sets the constant data of the support points.
 void prepare(SupportPoints& cloud, const Traveller& t, double horizon) {
     cloud.spin_bound = t.path->spin_bound();
     cloud.turning_bound = t.path->turning_bound();
@@ -101,7 +102,7 @@ void pose(SupportPoints& cloud, const Traveller& t, double time, const Motion& m
     cloud.acceleration = t.path->acceleration(t.since + time);
     cloud.angular_velocity = motion.angular_velocity;
     const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t));
-    if (t.part) {   // the arms begin at the body's centre of mass all the same: the cloud moves as the body does
+    if (t.part) {   // arms start at the body's center of mass here too: the points move as the body does
         const Vec3 place = motion.rotation * t.part->place.position;
         const Mat3 turn = motion.rotation * t.part->place.rotation;
         for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
@@ -120,7 +121,7 @@ Motion motion_of(const Traveller& t, double time) {
     return motion;
 }
 
-// A ball around what is searched, and what bounds its motion.
+// A bounding ball of the searched shape, with bounds of its motion.
 struct Ballpark {
     Traveller traveller;
     Vec3 center, velocity, acceleration;
@@ -134,7 +135,7 @@ Ballpark ballpark_of(const Traveller& t, const Motion& motion, double horizon) {
     return {t, pose_of(t, motion).position, motion.velocity, acceleration, change, t.path->spin_bound() * arm, size_of(t)};
 }
 
-// How long two things certainly take to close a gap, whatever their direction.
+// Least time for closing a gap in any direction.
 double least_time(double gap, const Ballpark& a, const Ballpark& b) {
     if (!(gap > 0.0)) return 0.0;
     const double speed = (b.velocity - a.velocity).norm() + a.turning_speed + b.turning_speed;
@@ -143,7 +144,7 @@ double least_time(double gap, const Ballpark& a, const Ballpark& b) {
     return speed + root > 0.0 ? 2.0 * gap / (speed + root) : infinity;
 }
 
-// A compound's parts as travellers of their own; anything else as it is.
+// The parts of a compound, one search each; other shapes unchanged.
 std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
     const Motion motion = motion_of(whole, 0.0);
     std::vector<Ballpark> parts;
@@ -155,7 +156,7 @@ std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
     return parts;
 }
 
-// The half-space as the point of its plane below the other's centre.
+// The half-space as the point of its plane below the other's center.
 void pose_half_space(SupportPoints& cloud, const HalfSpace& space, const Motion& motion, const Vec3& other) {
     const Vec3 normal = motion.rotation * space.normal;
     const Vec3 foot = other - (normal.dot(other - motion.position) - space.offset) * normal;
@@ -177,8 +178,8 @@ struct ImpactSearch::Pair {
     double size;                                      // m, of the smaller body
     double overlap;                                   // m, allowed
     const HalfSpace* plane = nullptr;                 // of A
-    const CollisionMesh* surface = nullptr;         // of A, which then is
-    std::uint32_t triangle = 0;                       // one of its triangles
+    const CollisionMesh* surface = nullptr;         // of A, if A is a mesh
+    std::uint32_t triangle = 0;                       // index of one of its triangles
 };
 
 TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, double overlap) {
@@ -186,12 +187,12 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
     const bool parabolic = a.path->parabolic() && b.path->parabolic();
     const bool evenly = parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0);
-    if (ball_a && ball_b && evenly) {   // first, and quickly: there are many of them
+    if (ball_a && ball_b && evenly) {   // first, because there are many such pairs and the test is fast
         return result(approach_time(b.path->position(b.since) - a.path->position(a.since), b.path->velocity(b.since) - a.path->velocity(a.since),
                                     ball_a->radius + ball_b->radius - overlap, horizon, a, b),
                       horizon);
     }
-    // Planes and surfaces come first; the search does not care which is which.
+    // Half-spaces and meshes come first; the search is symmetric otherwise.
     if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
         return find(b, a, horizon, overlap);
@@ -202,7 +203,7 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a), nullptr, 0};
     double from = 0.0;
     if (pair.plane && parabolic && !a.path->turns()) {
-        // Exact for a ball; for anything else its bounding ball's time, before which nothing touches.
+        // Exact for a ball; for other shapes the time of the bounding ball, before which nothing touches.
         const Vec3 normal = a.path->orientation(a.since) * pair.plane->normal;
         const double height = normal.dot(b.path->position(b.since) - a.path->position(a.since)) - pair.plane->offset - b.body->radius;
         const double rate = normal.dot(b.path->velocity(b.since) - a.path->velocity(a.since));
@@ -233,7 +234,7 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         if (pair.surface) {
             const auto& corners = pair.surface->triangles[pair.triangle].vertices;
             a_.center = motion_a.to_world(pair.surface->vertices[corners[0]]);
-            a_.velocity.setZero();   // surfaces are fixed
+            a_.velocity.setZero();   // meshes are fixed
             a_.acceleration.setZero();
             a_.angular_velocity.setZero();
             a_.arms.resize(3);
@@ -249,7 +250,8 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         }
         propose(pair, motion_a, motion_b, near);
 
-        // The axis with the widest gap, turning with its features or resting: both bounds are certain, the longer is taken.
+        // The axis with the widest gap, rotating with its features or fixed: both bounds are certain, the longer is
+        // taken.
         SeparationBound best;
         Axis best_axis;
         best.gap = -infinity;
@@ -269,8 +271,8 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
             safe = std::max(safe, bound_separation(a_, b_, {best_axis.normal, Vec3::Zero()}, horizon - t, 0.0).safe_time);
         if (best.gap <= pair.scale.touch) {
             if (best.rate < -pair.scale.speed) return {TimeOfImpact::Kind::impact, t};
-            // Touching and not approaching. A touch that parts more slowly than the bound allows for would take ever
-            // smaller steps: within this one nothing can come to overlap by more than rounding.
+            // Touching and not approaching. For a touch that parts more slowly than the bound assumes, the steps would
+            // shrink without end: within this one no overlap can exceed rounding.
             safe = std::max(safe, std::sqrt(8.0 * pair.scale.touch / std::max(best.curvature, 1e-300)));
         } else if (safe < tuning::impact_time && best.rate < 0.0) {
             return result(t + safe, horizon);
@@ -292,7 +294,7 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
         normals_.push_back(*v / distance);
         return;
     }
-    // So near, only the features themselves give the axis to the last digit.
+    // At so small a gap only the features themselves give the axis to the last digit.
     if (pair.surface) {
         if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b))) propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
     } else {
@@ -304,7 +306,7 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     if (distance > 0.0) normals_.push_back(*v / distance);
     if (!normals_.empty()) return;
     const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)), *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
-    if (hull_a && hull_b) {   // an edge along the rim of a face: touching, and yet no contact point lies on the face
+    if (hull_a && hull_b) {   // an edge along the border of a face: touching, though no contact point lies on the face
         const Pose at = pose_of(pair.a, a), b_in_a = seen_from(at, pose_of(pair.b, b));
         normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, Vec3::Zero(), scratch_).normal);
         return;
@@ -342,7 +344,7 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Mat3& ro
     if (most > -infinity) normals_.push_back(best);
 }
 
-// Part by part, those that can meet first before the others: the first impact of all ends the search for the rest.
+// Part by part, those with the earliest possible impact first: the first impact found ends the search for later parts.
 TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap) {
     const auto* plane = std::get_if<HalfSpace>(&a.body->collider);
     const bool surface = std::holds_alternative<SurfaceRef>(a.body->collider);
@@ -376,7 +378,7 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
 
 TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap) {
     const CollisionMesh& triangles = *std::get<SurfaceRef>(surface.body->collider);
-    // The triangles that the other can reach, looked up in the surface's frame; surfaces are fixed.
+    // The triangles that the other shape can reach, in the frame of the mesh; meshes are fixed.
     const Motion frame = surface.path->at(surface.since);
     const Bounds world = other.path->swept(other.since, other.since + horizon).grown(other.body->radius);
     const Vec3 center = frame.rotation.transpose() * (world.center() - frame.position);

@@ -1,6 +1,6 @@
-// When do two moving bodies first touch? Balls against balls and planes by the roots of a quadratic; every other pair by
-// conservative advancement along separating axes (separation_bound.h), which never misses a first contact and ends
-// within 1e-13 s, or where rounding ends.
+// Time of the first touch of two moving bodies. Balls against balls and planes by the roots of a quadratic; every other
+// pair by conservative advancement along separating axes (separation_bound.h), which never misses a first contact and
+// ends within 1e-13 s, or at the limit of rounding.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -12,33 +12,33 @@
 
 namespace tumble {
 
-/// A body on its way: its path, and how long it has been on it when the search begins.
+/// A body in motion: its trajectory, and the time since its start when the search begins.
 struct Traveller {
     const Body* body = nullptr;
     const Trajectory* path = nullptr;
     double since = 0.0;   // s
-    const Compound::Part* part = nullptr;   // of a compound, the part that is searched for
+    const Compound::Part* part = nullptr;   // part of a compound that is searched; none: the whole body
 };
 
-/// What the body, there, adds (m) to the gaps of its pairs that are rounding.
+/// Rounding error (m) of the gaps of the body's pairs at this position.
 double gap_rounding(const Body& body, const Vec3& position);
 
 struct TimeOfImpact {
     enum class Kind {
         none,    // apart up to the horizon
         impact,  // touching and approaching at `time`
-        check,   // apart up to `time`, and the search is to be taken up from there: it had used up its evaluations
+        check,   // apart up to `time`, where the search must be resumed: it has used up its evaluations
     };
     Kind kind = Kind::none;
-    double time = 0.0;   // s from the search's beginning
+    double time = 0.0;   // s from the start of the search
 };
 
 class ImpactSearch {
 public:
     ImpactSearch() { scratch_.choice = AxisChoice::nearest; }
 
-    /// Bodies that touch at the beginning and part, or rest against each other, have no impact there.
-    /// `overlap` (m): so deep they may come into each other before it counts.
+    /// Bodies that touch at the start and part, or rest against each other, have no impact there. `overlap` (m):
+    /// allowed overlap before an impact counts.
     TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, double overlap = 0.0);
 
 private:
@@ -54,7 +54,7 @@ private:
     std::vector<Vec3> normals_;          // proposed, from A to B
     CollisionScratch scratch_;
     std::vector<Manifold> manifolds_;
-    std::vector<std::uint32_t> candidates_;   // triangles
+    std::vector<std::uint32_t> candidates_;   // triangle indices
     struct PartPair {
         double from;   // s, before which they certainly stay apart
         Traveller a, b;

@@ -10,12 +10,13 @@
 namespace tumble {
 namespace {
 
-// Moments of inertia this far apart are worth the ends; below, the simple bounds are within a factor of a few.
+// Ratio of moments of inertia from which the ends of the polhode are computed; below, the simple bounds are within a
+// factor of a few.
 constexpr double bounded_by_ends = 3.0;
 
 // The largest |m_i| of a torque-free body's momentum m in principal axes: the ends of the polhode, where the sphere
-// |m| = G meets the ellipsoid sum m_i^2 / I_i = 2 T (van Zon and Schofield 2007). The axis the momentum circles about is
-// called 3, the middle one 2.
+// |m| = G meets the ellipsoid sum m_i^2 / I_i = 2 T (van Zon and Schofield 2007). The axis that the momentum circles
+// about is called 3, the middle one 2.
 Vec3 momentum_ends(const Vec3& inertia, const Vec3& m) {
     int axis[3] = {0, 1, 2};
     std::sort(axis, axis + 3, [&](int l, int r) { return inertia[l] < inertia[r]; });
@@ -79,7 +80,7 @@ void Trajectory::turn_freely(const Body& body) {
         component = component.cwiseMin(Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0])).cwiseProduct(products));
     }
     const double angular = std::min(component.norm(), 1.1547005383792517 * component.maxCoeff());
-    // Rounding must not take the bounds below the truth.
+    // Rounding must not bring the bounds below the true values.
     spin_bound_ = std::sqrt(spin_square) * (1.0 + 1e-12);
     turning_bound_ = (spin_square + angular) * (1.0 + 1e-12);
 }
@@ -133,7 +134,7 @@ Quat Trajectory::orientation(double t) const {
     return Quat(half.cos, v.x(), v.y(), v.z()) * uniform.from;
 }
 
-// A curve strays from its chord by at most max |x''| T^2 / 8, axis by axis; x'' is linear in time.
+// A curve deviates from its chord by at most max |x''| T^2 / 8, axis by axis; x'' is linear in time.
 Bounds Trajectory::swept(double from, double to) const {
     Bounds bounds;
     bounds.add(position(from));

@@ -1,6 +1,6 @@
-// How a body moves from a moment on, until something happens to it: its centre on a polynomial of time, its orientation
-// at rest, turning uniformly, or in free rotation. Everything that asks where a body is between two events asks its path;
-// it is always evaluated from its beginning, so that rounding does not add up.
+// Trajectory of a body between two events: its center on a polynomial of time, its orientation constant, rotating
+// uniformly, or in free rotation. All queries between two events use it; it is always evaluated from its start, so that
+// rounding does not accumulate.
 #pragma once
 
 #include "core/vector.h"
@@ -31,40 +31,41 @@ public:
     /// Free flight from the body's present state under a constant acceleration (m/s^2): a parabola and torque-free
     /// rotation, both in closed form.
     static Trajectory flight(const Body& body, const Vec3& acceleration);
-    /// The same with this velocity of the centre (m/s), held.
+    /// The same with a constant velocity of the center (m/s).
     static Trajectory drift(const Body& body, const Vec3& velocity);
-    /// From the body's present pose with these velocities (m/s, rad/s), held.
+    /// From the body's present pose with constant velocities (m/s, rad/s).
     static Trajectory uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
-    /// From the body's present pose so that it is in `end` after `span` s: cubic in the centre (Hermite), error O(span^4)
-    /// in between. For bodies under forces that are not constant. Without a torque the rotation is free, in closed form;
-    /// else uniform, error O(span^2) in between.
+    /// From the body's present pose to the motion `end` after `span` s: cubic in the center (Hermite), error O(span^4)
+    /// in between. For bodies under nonconstant forces. Without torque the rotation is free, in closed form; else
+    /// uniform, error O(span^2) in between.
     static Trajectory towards(const Body& body, const Motion& end, double span, bool torque_free);
 
-    /// The same turning on, but from time t with another velocity of the centre: a blow through the centre.
+    /// The same rotation, but from time t with another velocity of the center: after an impact through the center.
     Trajectory deflected(double t, const Vec3& velocity) const;
 
-    /// t: s since the path's beginning.
+    /// t: s since the start of the trajectory.
     Vec3 position(double t) const { return start_ + t * (velocity_ + t * (0.5 * acceleration_ + t / 6.0 * jerk_)); }
     Vec3 velocity(double t) const { return velocity_ + t * (acceleration_ + 0.5 * t * jerk_); }
     Vec3 acceleration(double t) const { return acceleration_ + t * jerk_; }
     Quat orientation(double t) const;
     Motion at(double t) const;
 
-    /// Bounds of the centre's way between two times.
+    /// Bounds of the center's path between two times.
     Bounds swept(double from, double to) const;
 
     bool parabolic() const { return jerk_.isZero(0.0); }
     bool still() const { return spin_bound_ == 0.0 && velocity_.isZero(0.0) && acceleration_.isZero(0.0) && parabolic(); }
     bool turns() const { return spin_bound_ > 0.0; }
-    /// Largest |omega| (rad/s) that the path ever has.
+    /// Upper bound of |omega| (rad/s) over the trajectory.
     double spin_bound() const { return spin_bound_; }
-    /// Largest |omega|^2 + |alpha| (rad/s^2): times r it bounds the acceleration of a point at distance r from the centre.
+    /// Upper bound of |omega|^2 + |alpha| (rad/s^2): times r it bounds the acceleration of a point at distance r from
+    /// the center.
     double turning_bound() const { return turning_bound_; }
 
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
     std::variant<UniformTurn, FreeTurn> turning_;
-    double turned_ = 0.0;   // s, how long the turning has been going on at the path's beginning
+    double turned_ = 0.0;   // s, duration of the rotation before the start of the trajectory
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 
     void turn_uniformly(const Quat& from, const Vec3& angular_velocity);

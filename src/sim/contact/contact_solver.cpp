@@ -20,12 +20,12 @@ void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactI
     });
 }
 
-// One solve for a whole step is right to first order in the angles: corners that swing round during it are for substeps.
+// One solve for a whole step is accurate to first order in the angles: fast rotating corners need substeps.
 bool ContactSolver::turns_fast(std::span<const std::uint32_t> bodies) const {
     return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) { return turns_fast_[i] != 0; });
 }
 
-// Balls that roll over faces go round with what carries them to the last digit (passing.h), however far it turns.
+// Balls that roll over faces are carried round exactly (predicted_gap.h), however far the body rotates.
 bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const {
     return !manifolds.empty() && std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
         const Manifold& m = problem.manifolds[k];
@@ -33,7 +33,7 @@ bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::ui
     });
 }
 
-// As it was up to `holds` steps ago; not looked at where no body can carry `enough` times its mass.
+// The load estimate, at most `holds` steps old; not computed where no body can carry `enough` times its mass.
 LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                              double enough) {
     const auto bodies = islands.bodies(island);
@@ -57,10 +57,11 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     candidates_.clear();
     std::size_t all_manifolds = 0, all_pairs = 0;
     for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
-    // What is solved directly stays so a little beyond where it would begin: from one solver to the other the bodies are
-    // lifted out of their soft contacts and sink back in, and in between the two a heap would rock for ever.
+    // Hysteresis: between the solvers the bodies are lifted out of their soft contacts and sink back in, and a heap
+    // that alternates would rock without end. So directly solved scenes stay so a little beyond the limit.
     const std::size_t few = few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs;
-    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);   // what is factored
+    // pairs to factor
+    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);
     few_ = all_pairs <= few;
     const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
@@ -114,7 +115,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             direct_.push_back(c.island);
         } else {
             softly_.push_back(c.island);
-            // One hard step must not shut it out for good.
+            // One expensive step must not exclude the island permanently.
             int& expected = memory_[islands.bodies(c.island)[0]].factorisations;
             expected -= expected / 4;
         }
@@ -122,20 +123,20 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     std::sort(direct_.begin(), direct_.end());
 }
 
-// How many times as many substeps an island needs: high piles of soft contacts would buckle, and small bodies sink in by their
-// own weight, for a spring sags by as much whatever the size.
+// Substep multiplier that an island needs: high piles of soft contacts would buckle, and small bodies would sink in by
+// their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.patches.h, n = substeps_of(h);
-    double square = 0.0;   // of the sag of the least body, in its radii, over the step
+    double square = 0.0;   // of the sag of the smallest body, in its radii, over the step
     for (const std::uint32_t i : islands.bodies(island)) square = std::max(square, gains_[i]);
     const double sag = h / (n * n) * std::sqrt(square);
     if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
     return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
 }
 
-// Soft islands into parts of as fine substeps, each no larger than a cache holds, or of one large island. Whether they are the same
-// again.
+// Batches soft islands by equal substep multiplier, each batch no larger than a cache, or one large island. Returns
+// whether the batches are those of the last step.
 bool ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem) {
     std::sort(softly_.begin(), softly_.end());
     fineness_.clear();
@@ -183,7 +184,8 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     for (std::size_t k = 0; k < direct_.size(); ++k) {
         Memory& memory = memory_[islands.bodies(direct_[k])[0]];
         for (const std::uint32_t m : islands.manifolds(direct_[k])) problem.manifolds[m].solved_directly = true;
-        // The first solve of a landing may be hard. What is hard again, or always, is none for this solver.
+        // The first solve after a landing may be expensive. An island that is expensive again, or always, is left to
+        // the soft solver.
         const bool hard = memory.work * std::size_t(1 + memory.factorisations) > 2 * tuning::direct_budget;
         const bool first = !memory.direct && memory.failures == 0;
         memory.direct = failed_[k] == 0;

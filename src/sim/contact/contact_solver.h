@@ -1,9 +1,12 @@
-// Resting contact of all islands: each goes to the solver that suits it, by rules that see only the scene.
+// Resting contact of all islands: selects a solver for each island, by rules that depend on the scene alone.
 //
-// Directly (direct_solver.h): single bodies, all islands of a small scene, those that touch nothing fixed, and those where
-// much rests on little, as long as factoring them is cheap and the step's budget of such work lasts, the worst first. All
-// others, those in which something turns fast, and those for which the direct solver finds no solution, by soft substeps
-// (soft_solver.h); after a failure it is not tried again for a while.
+// The direct solver (direct_solver.h) takes
+// - single bodies,
+// - all islands of a small scene,
+// - islands that touch nothing fixed,
+// - islands with a high load ratio, the worst first, while factoring them is cheap and the step's budget lasts.
+// The soft solver (soft_solver.h) takes all others, islands with fast rotation, and those for which the direct solver
+// finds no solution; after a failure it is not tried again for a while.
 #pragma once
 
 #include "sim/contact/model/contact_islands.h"
@@ -20,7 +23,7 @@ class ContactSolver {
 public:
     using Choice = ContactSolverChoice;
 
-    /// precisely: directly wherever that finds a solution, whatever it costs, for scenes that ask for exact impacts.
+    /// precisely: the direct solver wherever it finds a solution, at any cost, for scenes with exact impacts.
     enum class Effort { balanced, precisely };
 
     explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island, Effort effort = Effort::balanced);
@@ -28,14 +31,14 @@ public:
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
 private:
-    struct Memory {   // of an island, kept with its lowest body
+    struct Memory {   // state of an island, kept with its lowest body
         std::unique_ptr<DirectSolver> solver;
-        int wait = 0, failures = 0;   // steps until the next trial; failures in a row
-        int factorisations = 2;       // of the last solve: what the next may take
-        std::size_t work = 0;         // of one of them
-        bool direct = false;          // solved so in the last step
-        LoadEstimate load;                // as of the last look
-        int looked = 0;               // steps for which that holds
+        int wait = 0, failures = 0;   // steps until the next trial; consecutive failures
+        int factorisations = 2;       // of the last solve: bound for the next one
+        std::size_t work = 0;         // block operations of one factorization
+        bool direct = false;          // solved directly in the last step
+        LoadEstimate load;                // of the last evaluation
+        int looked = 0;               // steps for which the estimate holds
     };
     struct Candidate {
         std::size_t island;
@@ -53,24 +56,24 @@ private:
     Choice choice_;
     Effort effort_;
     std::vector<Memory> memory_;          // by body
-    // Of each body in contact, what is asked of islands: looked at by the thread it belongs to, and kept close together, for bodies
-    // that one thread writes to and another reads are slow for both.
-    std::vector<double> gains_;           // 1/s^2, the square of the speed that the step's forces add, in radii a second
+    // Properties of each body in contact that islands need, written by the body's thread and kept close together:
+    // bodies that one thread writes and another reads are slow for both.
+    std::vector<double> gains_;           // 1/s^2, squared speed gained by the step's forces, in radii per second
     std::vector<char> turns_fast_;
     LoadEstimates loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;
-    bool few_ = false;                    // pairs in all: every island may be solved directly
-    std::vector<std::size_t> direct_, softly_;   // islands
-    std::vector<char> failed_;            // of direct_
-    std::vector<int> fineness_;           // of softly_
+    bool few_ = false;                    // few pairs in all: every island may be solved directly
+    std::vector<std::size_t> direct_, softly_;   // indices of islands
+    std::vector<char> failed_;            // by entry of direct_
+    std::vector<int> fineness_;           // substep multiplier, by entry of softly_
     struct Deal {
-        std::uint64_t islands = 0;        // their changes
+        std::uint64_t islands = 0;        // ContactIslands::changes() of the batches
         std::vector<std::size_t> softly;
         std::vector<int> fineness;
         bool operator==(const Deal&) const = default;
     };
-    Deal dealt_;                          // what the parts were made of
+    Deal dealt_;                          // inputs from which the batches were made
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

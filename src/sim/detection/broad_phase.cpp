@@ -83,21 +83,21 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
     awake_.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        // Sleepers are visited once more, and once at the start for a place in the tree.
+        // Sleeping bodies are visited once more, and once at the start to enter the tree.
         if (body.moves() && (!body.asleep || kind_ == Pairs::all || !resting_tree_.holds(i))) awake_.push_back(i);
     }
     look_for_awake_ = false;
 }
 
-// Whether nothing has changed for it: in its fat bounds, awake or flying as before.
+// Whether the body's state holds: inside its fat bounds, and awake or ballistic as in the last update.
 bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
     if (active(body) != state.active) return false;
     if (!state.active) return resting_tree_.holds(i);
     const double way = h * body.velocity.norm(), margin = tuning::speculative * body.radius + turning_way(body, h);
     if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;   // it was faster
-    // Mostly it has hardly moved since its bounds were worked out: no point of it by more than this (a chord between quaternions:
-    // narrow_phase.h).
+    // A body has usually hardly moved since its bounds were computed: no point of it by more than this (chord between
+    // quaternions: narrow_phase.h).
     const double moved = (body.position - state.position).norm() + 2.0 * (body.orientation.coeffs() - state.orientation.coeffs()).norm() * body.radius;
     if (moved + margin + way <= state.room) return true;
     const Bounds bounds = world_bounds(body.collider, body.pose()), &fat = active_tree_.box(i);
@@ -141,7 +141,7 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     moved_.push_back(i);
 }
 
-// The pairs of all that has moved, ascending. The trees stand still while they are asked, by all threads.
+// Finds the pairs of all moved bodies, ascending. The trees do not change while the threads query them.
 void BroadPhase::find_added(const std::vector<Body>& bodies, ThreadPool* pool) {
     for (Search& search : searches_) search.pairs.clear();
     const auto sort = [](Search& search) { std::sort(search.pairs.begin(), search.pairs.end()); };

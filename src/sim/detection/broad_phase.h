@@ -1,10 +1,11 @@
-// Which bodies may touch: a tree over the fattened bounds of the bodies that move, one over those that sleep, one over the
-// fixed bodies, and a list of the half-spaces. A body that leaves its fat bounds moves in its tree alone; the list of pairs is
-// kept, and changes where somebody left, fell asleep or woke.
+// Broad phase: finds the pairs of bodies that may touch. It holds a tree over the fattened bounds of the moving bodies,
+// one over the sleeping bodies, one over the fixed bodies, and a list of the half-spaces. A body that leaves its fat
+// bounds moves in its tree alone. The list of pairs is kept, and changes where a body left its bounds, fell asleep or
+// woke.
 //
-// Sleeping bodies cost nothing: only those awake are visited, among trees that are small where few are awake, and pairs of
-// two sleeping ones are not in the list. A body that falls asleep is noticed; who wakes is not, since nobody looks at
-// sleepers: see bodies_woke().
+// Sleeping bodies cost nothing: only awake bodies are visited, in trees that are small where few are awake, and pairs
+// of two sleeping bodies are not in the list. The update detects that a body falls asleep, but not that one wakes,
+// because it does not visit sleeping bodies: see bodies_woke().
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -20,20 +21,20 @@ namespace tumble {
 
 class BroadPhase {
 public:
-    using Pair = BodyPair;   // at least one is dynamic
-    /// awake: pairs of which one body is awake, for the step. all: sleepers among themselves as well.
+    using Pair = BodyPair;   // at least one body is dynamic
+    /// awake: pairs with an awake body, for the step. all: pairs of sleeping bodies as well.
     enum class Pairs { awake, all };
 
     explicit BroadPhase(Pairs kind = Pairs::awake) : kind_(kind) {}
 
-    /// The pairs for the bodies' present poses and speeds, ascending: all whose bounds_of_step overlap. h: the step, s. The
-    /// bodies must be the same ones in every call. `pool`: looks the bodies over and searches with all its threads.
+    /// The pairs for the bodies' present poses and speeds, ascending: all whose bounds_of_step overlap. h: the step, s.
+    /// Precondition: the same bodies in every call. `pool`: visits the bodies and searches with all its threads.
     const std::vector<Pair>& update(const std::vector<Body>& bodies, double h, ThreadPool* pool = nullptr);
 
-    /// To be called when any body's `asleep` has been cleared: the next update looks for all that are awake.
+    /// Must be called when any body's `asleep` has been cleared: the next update then finds all awake bodies.
     void bodies_woke() { look_for_awake_ = true; }
 
-    /// Bodies that move and are awake or in exact flight, ascending, as of the last update.
+    /// Moving bodies that are awake or ballistic, ascending, as of the last update.
     const std::vector<std::uint32_t>& awake() const { return awake_; }
 
 private:
@@ -43,7 +44,7 @@ private:
     void find_leavers(const std::vector<Body>& bodies, double h, ThreadPool& pool);
     void visit(std::uint32_t i, const Body& body, double h);
     bool active(const Body& body) const { return (!body.asleep || kind_ == Pairs::all) && !body.flying; }
-    // What one thread finds.
+    // Results of one thread.
     struct Search {
         std::vector<std::uint32_t> leavers;
         std::vector<Pair> pairs;
@@ -56,24 +57,24 @@ private:
     bool built_ = false, look_for_awake_ = true;
     std::vector<std::uint32_t> fixed_, half_spaces_, awake_;
     BoundsTree fixed_tree_;
-    DynamicTree active_tree_, resting_tree_;  // each body in one of them, as its state says
+    DynamicTree active_tree_, resting_tree_;  // each body is in one of them, according to its state
     struct State {
-        bool active = false;    // awake and not in exact flight
-        bool moved = false;     // in this update: its pairs are looked for anew
-        double way = 0.0;       // m, that its fat bounds reach ahead
-        // Where it was when its bounds were last worked out, and how far (m) they lay inside of the fat ones.
+        bool active = false;    // awake and not ballistic
+        bool moved = false;     // left its bounds in this update: its pairs are searched anew
+        double way = 0.0;       // m, lookahead of its fat bounds
+        // Pose of the last computation of its bounds, and their distance (m) inside the fat ones.
         Vec3 position = Vec3::Zero();
         Quat orientation = Quat::Identity();
         double room = -1.0;
     };
-    std::vector<State> states_;               // of the bodies
+    std::vector<State> states_;               // by body
     std::vector<std::uint32_t> moved_;
     std::vector<Search> searches_;            // by thread
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
 };
 
-/// Where the body can be in a step of h seconds at its present velocities, and a part of its size around that.
+/// Bounds of the body in a step of h seconds at its present velocities, grown by a fraction of its size.
 Bounds bounds_of_step(const Body& body, double h);
 
 }  // namespace tumble

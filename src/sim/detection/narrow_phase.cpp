@@ -16,16 +16,16 @@
 namespace tumble {
 namespace {
 
-// Entries that are asked for before their turn: looking at so many takes about as long as one comes from far memory.
+// Entries prefetched ahead of use: processing that many takes about as long as one fetch from memory.
 constexpr std::size_t ahead = 6;
 
 bool awake(const Body& body) { return body.moves() && !body.asleep; }
 
-// To single precision, of what is not negative.
+// To single precision. Precondition: not negative.
 float rounded_down(double x) { return float(x) * (1.0f - std::numeric_limits<float>::epsilon()); }
 float rounded_up(double x) { return float(x) * (1.0f + std::numeric_limits<float>::epsilon()); }
 
-// Along the world's axis that separates them best.
+// Distance along the world axis that separates the boxes best.
 double distance(const Bounds& a, const Bounds& b) {
     double most = b.min[0] - a.max[0];
     for (int k = 0; k < 3; ++k) most = std::max({most, b.min[k] - a.max[k], a.min[k] - b.max[k]});
@@ -34,14 +34,14 @@ double distance(const Bounds& a, const Bounds& b) {
 
 bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l.part < r.part : !l.more && r.more; }
 
-// Manifolds and anchors are numbers without anything to own, whatever Eigen's constructors say: copied as memory.
+// Manifolds and persistent manifolds are plain numbers, despite Eigen's constructors: copied as memory.
 template <class T>
 void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to, std::size_t place) {
     static_assert(std::is_trivially_destructible_v<T>);
     if (count > 0) std::memcpy(static_cast<void*>(to.data() + place), from.data() + first, count * sizeof(T));
 }
 
-// Manifolds side by side that stay so.
+// A run of manifolds that stay adjacent.
 struct Run {
     std::uint32_t from = 0, to = 0, count = 0;
 };
@@ -64,11 +64,11 @@ NarrowPhase::Placement NarrowPhase::placement(const View& small, const View& lar
     return p;
 }
 
-// How far (m) any point within `radius` of the body's centre has moved at most. Two unit quaternions t / 2 apart on their sphere
-// tell of a turn by t: the farthest point moved by 2 r sin(t / 2), and the chord between the quaternions is 2 sin(t / 4), so that
-// twice the chord times r is no less.
+// Upper bound (m) of the motion of any point within `radius` of the body's center. For a rotation by t the unit
+// quaternions are t / 2 apart on their sphere: the farthest point moved by 2 r sin(t / 2), and the chord between the
+// quaternions is 2 sin(t / 4), so that twice the chord times r is no less.
 double NarrowPhase::motion(const Placement& from, const Placement& to, double radius) {
-    float near = 0.0f, opposite = 0.0f;   // a turn has two quaternions
+    float near = 0.0f, opposite = 0.0f;   // a rotation has two quaternions
     for (int k = 0; k < 4; ++k) {
         const float less = to.orientation[k] - from.orientation[k], more = to.orientation[k] + from.orientation[k];
         near += less * less;
@@ -77,7 +77,7 @@ double NarrowPhase::motion(const Placement& from, const Placement& to, double ra
     return (to.position - from.position).norm() + 2.0 * double(std::sqrt(std::min(near, opposite))) * radius;
 }
 
-// What each thread has to do; all by one where meeting costs more than it saves.
+// Runs the work of each thread; on one thread where synchronization costs more than it saves.
 template <class Work>
 void NarrowPhase::each_share(ThreadPool& pool, Work&& work) {
     if (pool.size() > 1 && entries_.size() >= tuning::parallel_grain) return pool.together([&](std::size_t thread) { work(found_[thread]); });
@@ -109,7 +109,8 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     return manifolds_;
 }
 
-// Which bodies and pairs a thread looks at. Of the bodies in the list only: those that sleep far from all others are not even looked at.
+// Selects the bodies and pairs of a thread. Only bodies in the list: bodies that sleep far from all others are not
+// read.
 void NarrowPhase::take_share(const ThreadPool& pool, Found& found) {
     const bool alone = found_.size() == 1;
     const auto thread = std::size_t(&found - found_.data());
@@ -126,7 +127,7 @@ void NarrowPhase::take_share(const ThreadPool& pool, Found& found) {
     }
 }
 
-// The entries for the new list of pairs; whether it is another one.
+// Finds the entries for the new list of pairs; returns whether the list differs.
 bool NarrowPhase::match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies) {
     const auto same = [](const Entry& entry, const BroadPhase::Pair& pair) { return entry.pair == pair; };
     if (std::equal(entries_.begin(), entries_.end(), pairs.begin(), pairs.end(), same)) return false;
@@ -196,7 +197,7 @@ void NarrowPhase::view(View& v, const Body& body) const {
         v.speculative = tuning::speculative * body.radius;
     }
     const Bounds bounds = world_bounds(body.collider, v.pose);
-    v.bounds = bounds;   // by way of a name: find_gyration()
+    v.bounds = bounds;   // through a named variable: see find_gyration()
     v.collider = &body.collider;
     v.awake = awake(body);
     v.flying = body.flying;
@@ -205,7 +206,7 @@ void NarrowPhase::view(View& v, const Body& body) const {
                                                                                         : View::Kind::fixed;
 }
 
-// Entries come in the order of their first bodies; what belongs to the second, and the search, lies anywhere.
+// Entries are in the order of their first bodies; data of the second body and of the search is scattered.
 void NarrowPhase::ask_for(std::uint32_t index) const {
     const Entry& entry = entries_[index];
     const auto* view = reinterpret_cast<const char*>(&views_[entry.pair.b]);
@@ -223,17 +224,17 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
         last.outcome = Search::Outcome::none;
         found.changes.push_back({index, 0, 0});
     };
-    // Exact flights meet others at impacts, not at steps.
+    // Ballistic bodies meet others at impacts, not at steps.
     if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return drop();
     const double apart = distance(a.bounds, b.bounds);
-    // Most pairs end here: first without the square root, by the sum of the components.
+    // Most pairs end here: tested first without a square root, by the sum of the components.
     const bool far = mode_ == Mode::step && apart > a.speculative + b.speculative +
                                                         h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
     if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, h, found);
 
-    // What the bodies have moved by themselves is at hand, and often little enough; else what they moved to each other.
+    // The bodies' own motion is available and often small enough; else their relative motion is computed.
     const double travel = a.travel + b.travel;
     Standing now = standing(entry, a, b, reach, last, double(last.spent) + (travel - last.travel));
     if (now == Standing::holds) return;
@@ -251,8 +252,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     search(index, a, b, reach, moved, h, found);
 }
 
-// Whether what was found last still stands after the bodies have moved (m) against each other. Manifolds are brought up to
-// date.
+// Whether the last result is still valid after a relative motion (m) of the bodies. Refreshes its manifolds.
 NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last,
                                             double moved) {
     const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
@@ -274,7 +274,7 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
         if (!m.more) spare = deepest_spare(anchors_[k], a.pose, b.pose, m);
         const bool last_of_faces = k + 1 == entry.first + entry.count || !manifolds_[k + 1].more;
         missed = missed || (last_of_faces && sank(spare, deepest, radius));
-        // Whether it touches is told to less than what anchors on edges and balls are off by.
+        // Whether it touches is known to less than the error of refreshed manifolds on edges and balls.
         stands = stands && (nearest <= touch || nearest > moved);
     }
     return missed ? Standing::sank : told(stands);
@@ -304,14 +304,14 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
-    // A point on a ball runs over it as it rolls. Left behind for a thousandth of the radius it bears the body from behind, and what rolls
-    // slowly gathers speed out of nothing.
+    // A contact point on a rolling ball moves over it. Left behind by a thousandth of the radius it would support the
+    // body from behind, and a slowly rolling body would gain speed out of nothing.
     last.outcome = count == 0 ? Search::Outcome::apart : found.scratch.on_ball ? Search::Outcome::none : Search::Outcome::near;
     if (count == 0) {
         if (entry.count > 0) found.changes.push_back({index, 0, 0});
         return;
     }
-    // A surface's triangles are found in the order of its tree.
+    // The triangles of a mesh are found in the order of its tree.
     const auto first = found.manifolds.begin() + begin;
     if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
     const bool swapped = b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
@@ -321,7 +321,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
         m->a = entry.pair.a;
         m->b = entry.pair.b;
         const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;   // without a second manifold
-        const auto bring = [&] {   // the old points to where they are now on the larger body
+        const auto bring = [&] {   // moves the old points to their present places on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
                 manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a()[i])
                                                                           : b.pose.to_world(anchors_[old].on_b()[i]);
@@ -349,7 +349,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.anchors.resize(begin);
 }
 
-// Second manifolds where points that were left out are needed; found after all others.
+// Adds second manifolds where reduced points are needed; found after all others.
 void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin, Found& found) {
     const auto old = std::span(manifolds_).subspan(entry.first, entry.count);
     const std::size_t end = found.manifolds.size();
@@ -363,7 +363,7 @@ void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin,
     }
 }
 
-// Brings the manifolds into the order of the entries, where any have come or gone.
+// Brings the manifolds into the order of the entries, where any have been added or removed.
 void NarrowPhase::put_in_order(ThreadPool& pool) {
     const auto unchanged = [](const Found& found) { return found.changes.empty(); };
     if (!moved_ && std::all_of(found_.begin(), found_.end(), unchanged)) return;
@@ -381,7 +381,7 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     spare_manifolds_.resize(all);
     spare_anchors_.resize(all);
     each_share(pool, [&](const Found& found) {
-        // What did not change still lies side by side, mostly: it goes in one piece.
+        // Unchanged manifolds are mostly adjacent: they are copied in one piece.
         Run run;
         const auto flush = [&] {
             copy_plain(manifolds_, run.from, run.count, spare_manifolds_, run.to);

@@ -1,8 +1,8 @@
-// Exact manifolds of all pairs that may touch, shared out over the threads and put in order.
+// Exact manifolds of all pairs that may touch, distributed over the threads and put in order.
 //
-// A pair remembers what was found for it. Apart by more than it has moved since, it is passed over; nearly unmoved, its
-// manifold follows the bodies by its anchors; else the shapes are searched again. Motion counts between the two bodies:
-// a heap that is carried along costs no more than one at rest.
+// A pair remembers its last result. A pair with a gap larger than its motion since then is skipped; a nearly unmoved
+// pair refreshes its persistent manifold; else the shapes are searched again. Only relative motion counts: a heap that
+// is carried along costs no more than one at rest.
 #pragma once
 
 #include "sim/detection/broad_phase.h"
@@ -17,66 +17,68 @@ namespace tumble {
 
 class NarrowPhase {
 public:
-    /// step: pairs of which one body is awake, with the margin of a step. measure: all pairs, touching points only, never
-    /// from memory.
+    /// step: pairs with an awake body, with the margin of a step. measure: all pairs, touching points only, never from
+    /// memory.
     enum class Mode { step, measure };
     enum class Memory { on, off };
 
     explicit NarrowPhase(int threads, Mode mode = Mode::step, Memory memory = Memory::on)
         : mode_(mode), remembers_(memory == Memory::on && mode == Mode::step), found_(std::size_t(threads)) {}
 
-    /// Ascending by (a, b, part). Valid until the next call, which takes over what the solver has written into them
-    /// (impulses, friction, twist) for the pairs that are still there; it may come in the same step again. A pair that
-    /// leaves the list because both its bodies sleep gets its own back when one wakes. `pairs` ascends.
+    /// Manifolds ascending by (a, b, part), valid until the next call. That call keeps the values that the solver has
+    /// written into them (impulses, friction, torsional friction) for pairs that still exist; it may come in the same
+    /// step again. A pair that leaves the list because both its bodies sleep gets its own back when one wakes.
+    /// Precondition: `pairs` ascends.
     std::vector<Manifold>& find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies, double h,
                                 ThreadPool& pool);
 
-    /// Whose these manifolds are, one by one: without having to fetch them from memory.
+    /// Body pairs of these manifolds, in their order: without fetching the manifolds from memory.
     const std::vector<BodyPair>& touching() const { return touching_; }
-    /// Grows whenever that list changes.
+    /// Increases whenever that list changes.
     std::uint64_t changes() const { return changes_; }
 
 private:
-    // What the pairs need of a body, close together: most look at the first two cache lines only.
+    // Data of a body that its pairs need, close together: most pairs read only the first two cache lines.
     struct alignas(64) View {
         Bounds bounds;
-        double travel = 0.0;   // m, sum of what any of its points moved at most from call to call
+        double travel = 0.0;   // m, sum over the calls of the largest motion of any of its points
         double speculative = 0.0;
         Vec3 velocity = Vec3::Zero();
         double spin = 0.0, radius = 0.0;   // spin: m/s of the farthest point
         const CollisionShape* collider = nullptr;
-        enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or surface
+        enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or mesh
         bool awake = false, flying = false;
         Pose pose;
         Quat orientation = Quat::Identity();
     };
-    // Where a body is in another one's frame; turned in single precision, which is enough to tell how far.
+    // Pose of a body in another one's frame; the rotation in single precision, which is enough for distances.
     struct Placement {
         Vec3 position = Vec3::Zero();
         float orientation[4] = {0.0f, 0.0f, 0.0f, 1.0f};   // x, y, z, w
     };
-    // What is known of a pair: the last search, and where the smaller body was for the larger, at the search or at a later look, when
-    // it had moved by `spent` since. One cache line: there are many pairs, and memory hands them out one by one.
+    // Memory of a pair: the last search, and the pose of the smaller body relative to the larger, at the search or at a
+    // later check, when it had moved by `spent` since. One cache line: there are many pairs, and each costs a fetch
+    // from memory.
     struct alignas(64) Search {
         enum class Outcome : std::uint8_t { none, apart, near } outcome = Outcome::none;
-        bool sank = false;                        // by a point that was left out: from now on no point is given up
+        bool sank = false;                        // a reduced point sank: from then on no point is removed
         std::uint16_t axis = 0;                   // hint for boxes
-        float gap = 0.0f, spent = 0.0f;           // m, at least and at most
-        double travel = 0.0;                      // m, of both bodies by then
+        float gap = 0.0f, spent = 0.0f;           // m, lower bound of the gap and upper bound of the motion
+        double travel = 0.0;                      // m, of both bodies until then
         Placement placement;
     };
     static_assert(sizeof(Search) == 64);
     struct Entry {
         BroadPhase::Pair pair;
         std::uint32_t search = 0;                 // index in searches_
-        std::uint32_t first = 0, count = 0;       // in manifolds_ and anchors_
-        std::uint32_t mover = 0;                  // that of the pair's bodies whose thread looks at it
+        std::uint32_t first = 0, count = 0;       // range in manifolds_ and in the persistent manifolds
+        std::uint32_t mover = 0;                  // index of the pair's body whose thread processes it
     };
-    // Of this call, an entry whose manifolds do not stay where they are: where the new ones lie.
+    // An entry of this call with new or moved manifolds, and where the new ones lie.
     struct Change {
         std::uint32_t entry = 0, first = 0, count = 0;
     };
-    struct Found {                                // by one thread
+    struct Found {                                // results of one thread
         CollisionScratch scratch;
         std::vector<Manifold> manifolds;
         std::vector<PersistentManifold> anchors;
@@ -109,17 +111,17 @@ private:
 
     Mode mode_;
     bool remembers_;
-    std::vector<Found> found_;                    // one a thread
+    std::vector<Found> found_;                    // one per thread
     std::vector<Entry> entries_, spare_entries_;  // ascending by pair
     std::vector<Search> searches_;
     std::vector<std::uint32_t> free_searches_;
     std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
     std::vector<std::uint32_t> new_first_, new_count_;   // by entry
-    std::vector<View> views_;                     // one a body
-    std::vector<std::uint64_t> seen_;             // by body: the last time of sharing out that it came up in
+    std::vector<View> views_;                     // one per body
+    std::vector<std::uint64_t> seen_;             // by body: the last distribution that included it
     std::uint64_t share_ = 0;
-    std::uint64_t seen_owners_ = UINT64_MAX;      // of the bodies, when the pairs were shared out last
-    bool moved_ = false;                          // manifolds_ and the entries are no longer in the same order
+    std::uint64_t seen_owners_ = UINT64_MAX;      // ThreadPool::owner_changes() of the last distribution of the pairs
+    bool moved_ = false;                          // manifolds_ and the entries are in different orders
     std::vector<BodyPair> touching_;
     std::uint64_t changes_ = 0;
     std::vector<Manifold> manifolds_, spare_manifolds_;

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-// `upward`: the axis nearest to gravity's, -1 without gravity.
+// `upward`: index of the axis nearest to gravity's, -1 without gravity.
 void cut(std::span<PlacedBody> items, int upward) {
     if (items.size() <= tuning::ordered_column) {
         std::sort(items.begin(), items.end(), PlacedBody::before(upward >= 0 ? upward : longest_side(items)));

@@ -1,5 +1,6 @@
-// A rigid body in motion (notes section 1): what it is, its state X = (x, R or q, P, L), and what follows from the state.
-// World frame unless said otherwise; the body frame has its origin at the centre of mass.
+// A rigid body in motion (notes section 1): its properties, its state X = (x, R or q, P, L), and quantities derived
+// from the state.
+// World frame unless stated otherwise; the body frame has its origin at the center of mass.
 #pragma once
 
 #include "core/vector.h"
@@ -12,35 +13,35 @@
 
 namespace tumble {
 
-/// In a cache line of its own: threads write those of neighbours at the same time.
+/// Has a cache line of its own: threads write neighboring elements at the same time.
 struct alignas(64) BodyVelocity {
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();   // m/s, rad/s
 };
 
 struct Body {
-    // What it is: seldom written, and in other cache lines than the state, so that all threads can keep a copy. What each
-    // step asks for stands first, in one line.
+    // Properties: seldom written, and in other cache lines than the state, so that all threads can keep a copy.
+    // Properties read in each step come first, in one line.
     alignas(64) BodyType type = BodyType::dynamic;
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
-    bool spherical_top = false;              // equal moments, as a ball or a cube: the tensor is the same in every frame
+    bool spherical_top = false;              // equal moments, as of a ball or a cube: the tensor is the same in every frame
     bool asleep = false;
-    bool flying = false;                     // impacts = "exact": on a path known in closed form, not stepped
-    bool flew = false;                       // in the last step: by an integrator of higher order than Euler's two
+    bool flying = false;                     // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
+    bool flew = false;                       // moved in the last step by an integrator of higher order than the two Euler methods
     double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
-    double radius = 0.0;                     // m, about the centre of mass; infinity for a half-space
+    double radius = 0.0;                     // m, about the center of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
     double drag_area = 0.0;                  // m^2, mean projected area
     CollisionShape collider;
-    std::shared_ptr<const KeyframeTrack> track;   // of a kinematic body that moves
+    std::shared_ptr<const KeyframeTrack> track;   // of a moving kinematic body
     Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
     Vec3 principal_inertia = Vec3::Zero();   // kg m^2
-    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
-    Vec3 center_of_mass = Vec3::Zero();      // of the shape, from the scene's body origin, body frame
+    Quat principal_axes = Quat::Identity();  // rotates principal coordinates into body coordinates
+    Vec3 center_of_mass = Vec3::Zero();      // m, relative to the scene's body origin, body frame
     std::string name;
 
-    // State (notes eq. 1). Both forms of the rotation are kept; the world's settings say which one is integrated and
-    // which follows from it.
-    alignas(64) Vec3 position = Vec3::Zero();   // x, of the centre of mass
+    // State (notes eq. 1). Both forms of the rotation are kept; the world's settings select the one that is integrated,
+    // and the other follows from it.
+    alignas(64) Vec3 position = Vec3::Zero();   // x, of the center of mass
     Quat orientation = Quat::Identity();     // q
     Mat3 rotation = Mat3::Identity();        // R
     Vec3 momentum = Vec3::Zero();            // P, kg m/s
@@ -50,7 +51,7 @@ struct Body {
     Vec3 velocity = Vec3::Zero();            // m/s
     Vec3 angular_velocity = Vec3::Zero();    // rad/s
     Mat3 inverse_inertia = Mat3::Zero();     // world frame
-    Vec3 gyration = Vec3::Zero();            // rad/s, of this step (spin_limit.h): for what contact does
+    Vec3 gyration = Vec3::Zero();            // rad/s, gyroscopic correction of this step (gyroscopic_correction.h), for contacts
     // Position correction of this step: moves the pose and leaves the momenta alone.
     Vec3 push_velocity = Vec3::Zero();
     Vec3 push_angular_velocity = Vec3::Zero();
@@ -62,12 +63,12 @@ struct Body {
 
     /// Velocity of the body's point at r = p - x (notes section 4).
     Vec3 point_velocity(const Vec3& r) const { return velocity + angular_velocity.cross(r); }
-    /// P.v / 2 + L.omega / 2, J. Only for dynamic bodies.
+    /// P.v / 2 + L.omega / 2, J. Precondition: a dynamic body.
     double kinetic_energy() const { return 0.5 * (momentum.dot(velocity) + angular_momentum.dot(angular_velocity)); }
 
-    /// Eqs. 2 to 4: velocities and the world inertia from the state. Only for dynamic bodies.
+    /// Eqs. 2 to 4: velocities and the world inertia from the state. Precondition: a dynamic body.
     void derive();
-    /// The same where the momenta have changed and the pose has not.
+    /// The same after a change of the momenta alone.
     void derive_velocities();
 };
 

@@ -1,4 +1,4 @@
-// From a body's description to a body at rest in the simulation: its mass, inertia tensor and collision shape.
+// Builds bodies at rest from their descriptions: mass, inertia tensor and collision shape.
 #pragma once
 
 #include "scene/description/description.h"
@@ -14,7 +14,7 @@ namespace tumble {
 /// Builds bodies. Equal boxes share one collider, and so do bodies of the same mesh or compound.
 class BodyBuilder {
 public:
-    /// `integrator` is the simulation's, for bodies that name none of their own.
+    /// `integrator` is the simulation's, for bodies without their own.
     Body build(const BodyDescription& description, IntegratorKind integrator);
 
 private:
@@ -26,8 +26,8 @@ private:
     CollisionShape collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
     CollisionShape compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
-    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: one is 2 KB
-    // Looked up only, never iterated: the order of addresses decides nothing.
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: each shape takes 2 KB
+    // Looked up only, never iterated: the order of addresses must not affect results.
     std::map<const MeshAsset*, Mesh> meshes_;
     struct KnownCompound {
         Vec3 origin = Vec3::Zero();
@@ -36,7 +36,7 @@ private:
     std::map<const void*, KnownCompound> compounds_;
 };
 
-/// All of a scene's bodies, in its order.
+/// All bodies of a scene, in the scene's order.
 std::vector<Body> build_bodies(const SceneDescription& scene);
 
 }  // namespace tumble

@@ -33,7 +33,7 @@ Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
     Wrench sum;
     sum.force = body.mass * gravity_;
     if (wind_) {
-        // F = 1/2 rho C_d A |u| u with u the air's velocity past the body.
+        // F = 1/2 rho C_d A |u| u with u the air's velocity relative to the body.
         const Vec3 u = wind_->velocity - velocity;
         sum.force += 0.5 * wind_->density * wind_->drag * body.drag_area * u.norm() * u;
     }
@@ -65,7 +65,7 @@ Wrench ForceField::endless(std::size_t index, const Body& body, double from, dou
     return sum;
 }
 
-// The parts that a span has in successive steps are differences of the same times: they add up to the span.
+// A force's spans in successive steps are differences of the same times: they add up to its total span.
 template <class Choose>
 Impulse ForceField::impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const {
     Impulse sum;
@@ -73,7 +73,8 @@ Impulse ForceField::impulse(std::size_t index, const Body& body, double from, do
         const double start = std::max(f.start, from), end = std::min(f.end, to);
         if (!(end > start) || !choose(f)) continue;
         Mat3 rotation = body.rotation;
-        if (!covers(f, from, to) && !body.angular_momentum.isZero(0.0)) {   // throughout: at t_n, as all that acts for a step
+        // a force acting throughout is evaluated at t_n, as are all forces of a step
+        if (!covers(f, from, to) && !body.angular_momentum.isZero(0.0)) {
             const FreeRotation turning(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
             rotation = turning.at(0.5 * (start + end) - from).toRotationMatrix();
         }

@@ -13,28 +13,29 @@ namespace tumble {
 
 class ForceField {
 public:
-    /// `order`: which of the scene's bodies each index stands for; without, the same one.
+    /// `order`: the scene index of each body; without it, the scene's order.
     explicit ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order = {});
 
-    /// The sum of all that acts on the body at time t (s), for its present state.
+    /// The sum of all forces on the body at time t (s), for its present state.
     Wrench at(std::size_t index, const Body& body, double time) const {
         return at(index, body, body.velocity, body.rotation, time);
     }
-    /// The same for another velocity (m/s) and rotation: of the body only what does not move is looked at.
+    /// The same for another velocity (m/s) and rotation: reads only constant properties of the body.
     Wrench at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation, double time) const;
 
     /// Gravity and wind, for the body's present state.
     Wrench fields(const Body& body) const { return fields(body, body.velocity); }
     /// Gravity, wind and the forces at points that act throughout [from, to), for the body's present state.
     Wrench throughout(std::size_t index, const Body& body, double from, double to) const;
-    /// Without the forces that end some time: what a body that loses time in a step does without.
+    /// The same without forces that end at some time: for the part of a step that a clamped body loses.
     Wrench endless(std::size_t index, const Body& body, double from, double to) const;
-    /// The impulse within [from, to) of the forces at points that act in a part of it only. The body turns freely from its present
-    /// state at `from` to the middle of that part.
+    /// The impulse within [from, to) of the forces at points that act in only a part of it. The body rotates freely
+    /// from its present state at `from` to the middle of that part.
     Impulse brief(std::size_t index, const Body& body, double from, double to) const;
-    /// The impulse within [from, to) of the forces at points that end some time, brief or not: such a force has a total impulse.
+    /// The impulse within [from, to) of the forces at points that end at some time, brief or not: such a force has a
+    /// total impulse.
     Impulse ending(std::size_t index, const Body& body, double from, double to) const;
-    /// Of gravity and wind alone: for what the forces at points have given already.
+    /// Gravity and wind alone: for spans in which the forces at points have been applied already.
     ForceField without_points() const;
 
     /// Whether a point force on the body begins or ends within [from, to): such a body must be awake.
@@ -43,14 +44,14 @@ public:
     double next_change(std::size_t index, double time) const;
     /// Whether only gravity acts on the body throughout [from, to): its motion is then known in closed form.
     bool constant(std::size_t index, double from, double to) const;
-    /// Whether no point force acts on the body at a time: nothing turns it.
+    /// Whether no point force acts on the body at a time, so that it has no torque.
     bool torque_free(std::size_t index, double time) const;
-    /// How fast drag slows the body down: |dF/dv| / m per m/s of its speed through the air, 1/m.
+    /// Rate of deceleration by drag: |dF/dv| / m per m/s of the speed relative to the air, 1/m.
     double drag_rate(const Body& body) const;
     /// The air's velocity, m/s.
     Vec3 wind() const { return wind_ ? wind_->velocity : Vec3(Vec3::Zero()); }
 
-    /// Whether nothing but gravity ever acts on the body; on any body, forces at points come and go.
+    /// Whether nothing but gravity ever acts on the body; and whether forces at points ever act on any body.
     bool only_gravity(std::size_t index) const { return !wind_ && at_points_[index].empty(); }
     bool ever_changes() const { return !pushed_.empty(); }
     /// Bodies with forces at points, ascending.

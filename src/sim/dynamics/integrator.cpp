@@ -31,7 +31,7 @@ void advance_pose(Body& body, const Vec3& velocity, const Vec3& angular_velocity
 
 Mat3 nearest_rotation(const Mat3& matrix) {
     Mat3 r = matrix;
-    // Quadratic convergence: from the stretch sqrt(1 + (h omega)^2) of one step, 3 rounds are the rule, 10 the worst.
+    // Quadratic convergence: from the stretch sqrt(1 + (h omega)^2) of one step, usually 3 rounds, at most 10.
     for (int round = 0; round < 20; ++round) {
         const Mat3 next = 0.5 * (r + r.inverse().transpose());
         const double change = (next - r).cwiseAbs().maxCoeff();

@@ -13,7 +13,7 @@ BodyVelocity place_on_track(Body& body, double now, double next, double h) {
     const Vec3 target = to.position + to.rotation * body.center_of_mass;
     body.velocity = (target - body.position) / h;
     body.angular_velocity = rotation_vector(to.rotation * from.rotation.conjugate()) / h;
-    // Where the velocity changes evenly, what it begins with; over a bend in the path, the mean.
+    // The initial velocity where the velocity changes linearly; the mean over a kink of the path.
     const auto begin = [](const Vec3& first, const Vec3& mean, const Vec3& last) {
         const Vec3 change = last - first;
         return (first + last - 2.0 * mean).norm() <= tuning::kinematic_bend * change.norm() ? Vec3(mean - 0.5 * change) : mean;

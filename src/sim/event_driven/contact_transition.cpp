@@ -11,7 +11,8 @@
 namespace tumble {
 namespace {
 
-// Of the body's point at `arm`, without contacts: g + alpha x r + omega x (omega x r), alpha = -I^-1 (omega x L).
+// Acceleration of the body's point at `arm` without contacts: g + alpha x r + omega x (omega x r),
+// alpha = -I^-1 (omega x L).
 Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, bool supported) {
     if (supported || !body.dynamic()) return Vec3::Zero();
     const Vec3& omega = body.angular_velocity;
@@ -19,8 +20,8 @@ Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, b
     return gravity + alpha.cross(arm) + omega.cross(omega.cross(arm));
 }
 
-// n' of the contact's normal (1/s): with the body whose face it is; of crossing edges n stays across both, so that with
-// c = e_a x e_b, n' is the part of c' / |c| across n.
+// n' of the contact's normal (1/s): it rotates with the body whose face it is; of crossing edges n stays across both,
+// so that with c = e_a x e_b, n' is the component of c' / |c| across n.
 Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
     if (c.corners == Corners::of_a || c.on_ball == OnBall::a_over_face) return b.angular_velocity.cross(c.normal);
     if (c.corners == Corners::of_b || c.on_ball == OnBall::b_over_face) return a.angular_velocity.cross(c.normal);
@@ -32,9 +33,10 @@ Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
     return sign / length * (change - c.normal.dot(change) * c.normal);
 }
 
-// What the turning of the normal adds to n.a, for places that pass each other at v. The gap between two points, d n, or between a
-// point and a line along the unit e, less a radius: with s = d n.e, d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. Any other gap:
-// d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based Modeling", resting contact).
+// Contribution of the normal's rotation to the acceleration along n, for places with the relative velocity v. For the
+// gap between two points, d n, or between a point and a line along the unit e, less a radius: with s = d n.e,
+// d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. For any other gap: d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based
+// Modeling", resting contact).
 double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
     if (c.on_ball != OnBall::curve) return 2.0 * normal_rate(c, a, b).dot(v);
     const double distance = (b.position + c.place_b - a.position - c.place_a).norm();
@@ -44,7 +46,7 @@ double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
     return ((v - c.normal.dot(v) * c.normal).squaredNorm() - along * along) / distance;
 }
 
-// A sum whose terms cancel but for rounding is none.
+// A sum whose terms cancel up to rounding is set to zero.
 double beyond_rounding(double sum, double terms) { return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0; }
 
 }  // namespace
@@ -60,12 +62,13 @@ double pressing_acceleration(const Contact& c, const Body& a, const Body& b, con
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
                std::vector<bool>& held) {
     std::vector<std::uint32_t> found;
-    do {   // in rounds: whom a contact holds does not hang on the contacts' order
+    do {   // in rounds: the result must not depend on the contacts' order
         found.clear();
         for (const Contact& c : contacts) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!(c.separation <= std::max(c.touch_distance, near)) || (held[c.a] && held[c.b])) continue;
-            // What rests overlaps by as much as is not pushed out, to the last digit: that is no overlap to be held for.
+            // Position correction leaves this overlap to a resting body, to the last digit: it alone does not hold the
+            // body.
             const double left = tuning::direct_slop * std::min(a.radius, b.radius);
             const bool overlap = c.separation < -(left + c.touch_distance);
             if (!overlap) {

@@ -1,5 +1,5 @@
-// Where bouncing ends. A contact whose next hop would be too short to follow holds from then on: its body lands, and
-// passes to the stepped contact solver. The condition belongs to a contact, not to a body: a box may rock on one edge
+// End of bouncing. A contact whose next hop would be below the Zeno limit holds from then on: its body switches to
+// contact and to the contact solver. The condition belongs to a contact, not to a body: a box may rock on one edge
 // while the other still hops.
 #pragma once
 
@@ -10,22 +10,22 @@
 
 namespace tumble {
 
-/// n . (p_b'' - p_a'') of the contact's points (m/s^2) if nothing held the bodies but what is said to be supported: gravity,
-/// the turning of the bodies, and the turning of the normal. Negative: they press against each other.
+/// n . (p_b'' - p_a'') of the contact's points (m/s^2) if only the flagged bodies were supported: by gravity, the
+/// rotation of the bodies, and that of the normal. Negative: they press against each other.
 double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported);
 
-/// Whether the hop that begins with the contact's present v_rel would end before `time` s, or rise no higher than the search for
-/// impacts can tell from touching: of such a hop the end cannot be found.
+/// Whether the hop that begins with the contact's present v_rel would end before `time` s, or rise no higher than the
+/// tolerance of the search for impacts: the end of such a hop cannot be found.
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
 
-/// Marks the dynamic bodies that their contacts hold, beside those marked already: what touches, or is no farther apart than `near`
-/// (m), and neither parts faster than `release` (m/s: what gravity could bring back within a step or two), nor would part by itself.
-/// What overlaps is held too, to be pushed out.
+/// Marks the dynamic bodies that their contacts hold, in addition to those marked already. A contact holds if its gap
+/// is at most `near` (m), it does not part faster than `release` (m/s: a speed that gravity reverses within a step or
+/// two), and would not part by itself. Overlapping bodies are marked too, to be pushed out.
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
                std::vector<bool>& held);
 
-/// Time (s) in which two that touch and do not approach come into each other by no more than tuning::impact_harmless of the
-/// smaller: with Q the most that their points accelerate against each other, they do so by Q t^2 / 2.
+/// Time (s) in which the overlap of two touching bodies that do not approach stays below tuning::impact_harmless of the
+/// smaller: with Q the largest relative acceleration of their points, the overlap is at most Q t^2 / 2.
 double harmless_time(const Traveller& a, const Traveller& b);
 
 }  // namespace tumble

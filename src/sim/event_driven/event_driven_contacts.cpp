@@ -1,4 +1,4 @@
-// EventDrivenMotion: the bodies that contacts hold. How they go through a step, fall asleep and wake, and how flights end in contact.
+// EventDrivenMotion: bodies in contact. Their motion in a step, their sleep, and the switch from flight to contact.
 #include "sim/event_driven/event_driven_motion.h"
 
 #include "core/sort_unique.h"
@@ -18,7 +18,8 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
     held_.assign(bodies.size(), false);
-    // What rolls over a hill goes off it along the tangent in each step, v^2 h^2 / 2 R: less than gravity's way for as long as it stays on.
+    // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
+    // displacement while it stays on.
     const double g = settings_.gravity.norm();
     mark_held(contacts, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
     bool any = false;
@@ -32,7 +33,7 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vect
     return any;
 }
 
-// Moves a held body evenly to the end of the step. What has to stop on its way goes slower: it ends where it would have
+// Moves a body in contact uniformly to the end of the step. A clamped body moves slower: it ends where it would have
 // stopped.
 void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies, const EventTime& now) {
     const Body& body = bodies[i];
@@ -79,7 +80,7 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
     predict_changed(bodies, now);
 }
 
-// Held bodies that the blow has freed fly from now on, not from the next step.
+// Bodies in contact that the impact released are ballistic from now on, not from the next step.
 void EventDrivenMotion::release_struck(std::vector<Body>& bodies) {
     const auto& struck = cluster_.struck();
     if (std::none_of(struck.begin(), struck.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
@@ -101,11 +102,12 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
     until_ = std::min(until_, now.step + 1);
 }
 
-// What of the cluster now hops too briefly passes into contact: the rest of the step is solved for it as a step of its own.
+// Bodies of the cluster whose hops are now below the Zeno limit switch to contact: the rest of the step is solved for
+// them as a step of its own.
 void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> landed;
     std::vector<std::uint32_t> landing;
-    do {   // in rounds: who lands does not hang on the contacts' order
+    do {   // in rounds: the result must not depend on the contacts' order
         landing.clear();
         for (const Contact& c : cluster_.contacts()) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
@@ -128,9 +130,9 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
     if (!(rest > 0.0)) return;
     landing_manifolds_.clear();
     std::vector<std::uint32_t> touched;
-    for (const Manifold& m : cluster_.manifolds()) {   // those of what it lands on, too: that may lean on something
+    for (const Manifold& m : cluster_.manifolds()) {   // including those of supporting bodies, which may lean on others
         if (bodies[m.a].flying || bodies[m.b].flying) continue;
-        landing_manifolds_.push_back(m);   // the little it would still bounce is given up
+        landing_manifolds_.push_back(m);   // its small remaining bounce is lost
         for (const std::uint32_t k : {m.a, m.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
     }
@@ -161,10 +163,12 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
     for (const std::uint32_t k : landed) changed_.push_back(k);
 }
 
-// Held bodies meet what is fixed, and each other, by steps. But those that a blow has just sent another way, or that have
-// landed, go in what is left of this step no farther than they meet something, and so does who was on his way to them: there
-// the next impact is. So a few times in a step; then they stop there. But two that touch and are free to move go on, as they
-// would lose their common motion, and are left to the next step's contact.
+// Bodies in contact meet fixed bodies, and each other, by steps. Exceptions:
+// - Bodies that an impact has deflected in this step, or that have switched to contact, move for the rest of the step
+//   only until they meet something, and so do bodies that were moving towards them: the next impact is there.
+// - After a few such meetings in a step they stop there.
+// - But two touching bodies that are free to move continue, because stopping would lose their common motion, and are
+//   left to the contact of the next step.
 void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> going, near;
     for (const std::uint32_t k : changed_)

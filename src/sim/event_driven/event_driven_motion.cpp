@@ -66,8 +66,8 @@ void EventDrivenMotion::start(std::uint32_t i, const Trajectory& path, const Eve
     ball.start = now;
 }
 
-// A driven path goes to the step's end, but not across the beginning or end of a force. Moments within a step are told apart by
-// their offsets: the same change always has the same.
+// A driven trajectory ends with the step, or earlier where a force begins or ends. Times within a step are compared by
+// their offsets: the same change always has the same offset.
 EventTime EventDrivenMotion::drive_end(std::uint32_t i, const ForceField& forces, const EventTime& now) const {
     const double step_start = clock_.seconds(now.step), step_end = clock_.seconds(now.step + 1);
     for (double change = forces.next_change(i, step_start); change < step_end; change = forces.next_change(i, change))
@@ -75,7 +75,7 @@ EventTime EventDrivenMotion::drive_end(std::uint32_t i, const ForceField& forces
     return {now.step + 1, 0.0};
 }
 
-// Sets a body free from its present state.
+// Starts a free trajectory from the body's present state.
 void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     Body& body = bodies[i];
     body.flying = true;
@@ -83,7 +83,7 @@ void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const Fo
         start(i, Trajectory::flight(body, settings_.gravity), now, never);
         return;
     }
-    // Under other forces, step by step; the step's end is as good as double precision allows.
+    // Under other forces, step by step; the end of the step is as accurate as double precision allows.
     const bool pushed = fliers_[i].pushed;
     const EventTime end = pushed ? EventTime{now.step + 1, 0.0} : drive_end(i, forces, now);
     const double from = clock_.seconds(now), to = clock_.seconds(end), span = clock_.between(now, end);
@@ -108,7 +108,7 @@ void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const 
     if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();   // the others are derived already
 }
 
-// The body's state and velocities, but not what only contacts need.
+// The body's state and velocities, without the data that only contacts need.
 void EventDrivenMotion::show(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     Body& body = bodies[i];
     if (!body.moves() || body.asleep) return;
@@ -152,7 +152,7 @@ void EventDrivenMotion::predict_changed(const std::vector<Body>& bodies, const E
     changed_.clear();
 }
 
-// A box that holds the body for about the time it takes to leave its own place; at least for the step.
+// A box that contains the body for about the time that it takes to leave its own place; at least for the step.
 void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
     BodyEvent& f = fliers_[i];
     f.boxed_until = never;
@@ -167,8 +167,8 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
     time = std::min(std::max(time, h_), clock_.between(now, f.until));
     if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
     else f.boxed_until = later(now, time);
-    // A part of the way may fit into the box there is: cheaper than to look for neighbours anew. No small part of a step:
-    // parts of what is left of one never come to its end.
+    // A part of the trajectory may fit into the present box: cheaper than a new search for neighbors. Not a small part
+    // of a step: repeated parts of the remainder never reach its end.
     for (const double part : {1.0, 0.5, 0.25}) {
         if (part < 1.0 && part * time < 0.25 * h_) break;
         if (!neighbourhood_.encloses(i, f.path.swept(t, t + part * time).grown(r))) continue;
@@ -176,7 +176,7 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
         return;
     }
     neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
-    // Larger boxes last longer but hold more neighbours.
+    // Larger boxes last longer but have more neighbors.
     const std::size_t neighbours = neighbourhood_.moving(i).size();
     if (neighbours < tuning::few_neighbours) f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
     else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
@@ -207,7 +207,8 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     for (const std::uint32_t j : neighbourhood_.moving(i)) {
         const Ballistic& other = balls_[j];
         if (ball.valid && other.valid) {
-            // Both fall alike: d(t) = d + v t, in touch when d(t)^2 = (r + r')^2. Those too far or parting need no more.
+            // Both fall alike: d(t) = d + v t, touching when d(t)^2 = (r + r')^2. Pairs too far apart or parting are
+            // done.
             const double t = roughly(other.start, now);
             const Vec3 d = position(other, t) - at, v = other.velocity + t * settings_.gravity - velocity;
             const double closing = -d.dot(v), reach = ball.radius + other.radius, c = d.squaredNorm() - reach * reach;
@@ -221,7 +222,8 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
         f.partner_version = fliers_[f.met].version;
         next = f.until;
     }
-    // Nothing more within its path: World takes it up at the end of the step, itself where a force begins or ends.
+    // No event within the trajectory: World continues it at the end of the step, this class where a force begins or
+    // ends.
     if (f.event == BodyEvent::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < EventTime{now.step + 1, 0.0}) {
         f.event = BodyEvent::Event::drives_on;
         queue_.set(i, f.until);
@@ -250,7 +252,7 @@ std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sle
     return until_;
 }
 
-// Counts the body's impacts that follow close on one another; a run of more than any motion has is an error.
+// Counts the body's impacts in quick succession; a run longer than any motion has is an error.
 void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
     BodyEvent& f = fliers_[i];
     f.since_impact = f.impacts_in_row > 0 ? clock_.between(f.last_impact, now) : h_;
@@ -263,26 +265,26 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
     }
     const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
     if (++impacts_in_frame_ > limit)
-        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; impacts = \"stepped\" "
-                                   "may hold what is jammed here", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
+        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; try impacts = \"stepped\" "
+                                   "for jammed bodies", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
 }
 
-// Hops are followed down to a stated time; in a long row of impacts longer and longer ones, up to the step, count as short.
+// Zeno limit: hops are followed down to a fixed duration; in a long run of impacts the limit increases, up to the step.
 double EventDrivenMotion::landing_time(std::uint32_t i) const {
     const int excess = std::max(0, fliers_[i].impacts_in_row - tuning::impacts_before_landing) / 8;
     return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
 }
 
-// Whether the body's last hop was too short to see and to follow, whatever pressed it back. Measured, for what the formula
-// of a contact's acceleration does not know: edges that turn against each other.
+// Whether the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
+// contact's acceleration does not include edges that rotate against each other.
 bool EventDrivenMotion::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
     const BodyEvent& f = fliers_[i];
     return f.impacts_in_row > tuning::impacts_before_stutter && f.since_impact < landing_time(i) &&
            speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
 }
 
-// The commonest impact without the machinery: two frictionless balls, or a ball and a fixed half-space, and nobody else
-// near. Eq. 20 with r x n = 0. False where it is not that.
+// Fast path for the most frequent impacts: two frictionless balls, or a ball and a fixed half-space, with no other body
+// near. Eq. 20 with r x n = 0. Returns false for any other impact.
 bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const EventTime& now) {
     const Body &a = bodies[i], &b = bodies[j];
     const auto* ball = std::get_if<Ball>(&a.collider);
@@ -297,7 +299,7 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
     if (!(v < 0.0)) return false;
     const double press = plane ? -n.dot(settings_.gravity) : 0.0;
-    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;   // this one lands
+    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;   // this one switches to contact
     if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now))) return false;
     const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
     start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
@@ -338,14 +340,14 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
     const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
     if (bounce_balls(i, j, bodies, now)) return;
-    // Where held bodies meet, slow approaches do not bounce, as at a step.
+    // Where bodies in contact meet, slow approaches do not bounce, as at a step.
     const bool meeting = meets(i, j, now);
     if (meeting)
         for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
     const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body,
                                           {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
-    if (!changed && meeting) {   // no more of that in this step
+    if (!changed && meeting) {   // no more of these in this step
         fliers_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
         hold_struck(bodies, forces, now);
@@ -353,8 +355,8 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         return;
     }
     if (!changed) {
-        // Touching without approaching, by rounding: looked at again after a while, a longer one each time, but before anything
-        // can have come of it.
+        // Touching without approaching, by rounding: checked again after a while, which grows each time, but before a
+        // harmful overlap is possible.
         BodyEvent& f = fliers_[i];
         f.event = BodyEvent::Event::looks_again;
         const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
@@ -366,7 +368,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         fliers_[k].spin = unknown;
         changed_.push_back(k);
     }
-    if (meeting) changed_.push_back(i);   // whether or not the blow has come to it, its path goes no farther
+    if (meeting) changed_.push_back(i);   // its trajectory ends here, whether or not the impulse has reached it
     release_struck(bodies);
     land(bodies, forces, now);
     sort_unique(changed_);

@@ -1,5 +1,5 @@
-// Each body's next event, the earliest on top: a binary heap that knows where every body stands in it, ordered by
-// moment and then by body, so that the order never depends on how it came about.
+// Queue of each body's next event, the earliest on top: a binary heap with the position of every body, ordered by time
+// and then by body, so that the order does not depend on its history.
 #pragma once
 
 #include "sim/event_driven/event_time.h"

@@ -1,5 +1,5 @@
-// A moment between two steps: whole steps are counted, only what is left over is a floating-point number of seconds.
-// An hour into a clip an impact's time is so still known to 1e-18 s instead of 1e-12.
+// A time between two steps: whole steps are counted, and only the remainder is a floating-point number of seconds.
+// After an hour of a clip an impact's time is so known to 1e-18 s instead of 1e-12.
 #pragma once
 
 #include <compare>
@@ -10,15 +10,15 @@ namespace tumble {
 
 struct EventTime {
     std::int64_t step = 0;
-    double offset = 0.0;   // s after that step's beginning; may exceed a step's length
+    double offset = 0.0;   // s after the start of that step; may exceed the length of a step
 
     friend auto operator<=>(const EventTime&, const EventTime&) = default;
 };
 
-/// Later than any clip is long.
+/// Later than the end of any clip.
 inline constexpr EventTime never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
 
-/// How long a step is, as the two whole and given numbers it is made of.
+/// The length of a step, as the two given whole numbers.
 struct StepClock {
     double fps = 60.0;
     int steps_per_frame = 1;

@@ -1,4 +1,4 @@
-// A fixed half-space in the world's frame: what most flying bodies have below them, told in a few numbers.
+// A fixed half-space in the world frame: a quick test of ballistic bodies above it.
 #pragma once
 
 #include "sim/ccd/trajectory.h"
@@ -7,11 +7,12 @@ namespace tumble {
 
 struct HalfSpaceFilter {
     Vec3 normal = Vec3::UnitY();
-    double offset = 0.0;   // m: its surface is where normal . p is this
+    double offset = 0.0;   // m: normal . p of its surface
     bool valid = false;    // else this body is no half-space
 
-    /// Whether a ball of this radius (m) about the centre of a body on the path certainly stays above for `horizon` s from
-    /// the path's time `from` on: it is above, would be at the end, and does not fall and rise again in between.
+    /// Whether a ball of this radius (m) about the center of a body certainly stays above for `horizon` s from the
+    /// trajectory's time `from` on: it is above at the start and at the end, and does not fall and rise again in
+    /// between.
     bool stays_below(const Trajectory& path, double radius, double from, double horizon) const;
 };
 

@@ -22,7 +22,8 @@ bool add_once(std::vector<T>& list, const T& value) {
     return true;
 }
 
-// How near (m) two bodies touch in an impact. Bodies that rest on each other do so within the resting contact's own play.
+// Contact tolerance (m) of two bodies in an impact. Bodies that rest on each other have gaps within the slop of resting
+// contact.
 double touch_distance(const Body& a, const Body& b) {
     const double size = std::min(a.radius, b.radius);
     const double place = std::min(a.position.cwiseAbs().maxCoeff(), b.position.cwiseAbs().maxCoeff());
@@ -30,7 +31,7 @@ double touch_distance(const Body& a, const Body& b) {
     return (held ? tuning::touch : tuning::impact_touch) * size + 16.0 * tuning::impact_position_rounding * place;
 }
 
-// Of v_rel (m/s), from the speeds that it is the difference of.
+// Rounding of v_rel (m/s), from the speeds whose difference it is.
 double rounding(const Contact& c, const Body& a, const Body& b) {
     const auto speed = [](const Body& body, const Vec3& arm) { return body.velocity.norm() + body.angular_velocity.norm() * arm.norm(); };
     return tuning::impact_speed_rounding * (speed(a, c.arm_a) + speed(b, c.arm_b));
@@ -49,7 +50,8 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     const std::size_t first = manifolds_.size();
     scratch_.left_out.clear();
     tumble::collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_, manifolds_);
-    // Faces that meet at a trace of an angle meet all at once: corner after corner, that trace alone would tell where they go.
+    // Faces that meet at a negligible angle meet at once: otherwise, corner after corner, that angle alone would decide
+    // their motion.
     const auto apart = [&](const Manifold& m) {
         return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > near; });
     };
@@ -79,7 +81,7 @@ void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
     }
 }
 
-// Whether the body strikes anything now: then it takes part.
+// Whether the body has an approaching contact now: then it takes part.
 bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
     const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();
     expand(body, bodies, neighbourhood, bring);
@@ -87,14 +89,15 @@ bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const
     for (std::size_t m = first; m < manifolds_.size(); ++m) add_contacts(manifolds_[m], bodies, own_);
     for (const Contact& c : own_)
         if (relative_velocity(c, bodies[c.a], bodies[c.b]) < -rounding(c, bodies[c.a], bodies[c.b])) return true;
-    pairs_.resize(pairs);   // as if nobody had looked
+    pairs_.resize(pairs);   // undo the query
     manifolds_.resize(first);
     expanded_.resize(expanded);
     return false;
 }
 
-// Whom the blow has come to takes part with all his contacts: who got an impulse, or was struck, though others may have taken the
-// whole blow in the end; and who flies, strikes something else at this very moment, and saw what he touches change its way.
+// Adds all contacts of a body if
+// - the body got an impulse or had an impact, even if others took all of the impulse in the end; or
+// - the body is ballistic, has another impact at this time, and a body that it touches has changed its velocity.
 bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
     bool grown = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
@@ -110,7 +113,7 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
                             const Bring& bring, const ImpactSettings& settings) {
     struck_.clear();
-    // Should the manifold miss what the search saw, a wider look finds it.
+    // If the manifold misses the contact that the search found, a wider margin finds it.
     for (widening_ = 1.0; widening_ <= 1e4 && struck_.empty(); widening_ *= 1e2) {
         brought_.clear();
         expanded_.clear();
@@ -134,7 +137,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
             resolve_impacts(island, contacts_, bodies, settings);
             note_reach(bodies);
-            for (const std::uint32_t k : island.bodies) bodies[k].derive();   // the velocities before the blow
+            for (const std::uint32_t k : island.bodies) bodies[k].derive();   // the velocities before the impact
             grown = grow(bodies, neighbourhood, bring);
         }
         for (const Contact& c : contacts_) {

@@ -1,6 +1,6 @@
-// All that touches where two bodies meet: the contacts that take part in one impact, resolved together. The cluster grows
-// only as far as the blow reaches: a body's own contacts join when something has struck it, or when it strikes at this very
-// moment itself: sixteen balls that reach the ground under a plate do so together, not one after another.
+// Impact cluster: the contacts that are resolved together in one impact of two bodies. It grows only as far as the
+// impulse reaches: a body's own contacts join when it gets an impulse, or when it has an impact of its own at this very
+// time: sixteen balls that reach the ground under a plate do so together, not one after another.
 #pragma once
 
 #include "sim/geometry/collide.h"
@@ -16,15 +16,15 @@ class ImpactCluster {
 public:
     ImpactCluster() { scratch_.choice = AxisChoice::nearest; }
 
-    /// Brings a body's state to the moment of the impact.
+    /// Moves a body's state to the time of the impact.
     using Bring = std::function<void(std::uint32_t)>;
 
-    /// Resolves the impact of bodies `a` and `b` and all that hangs on it; momenta and velocities are changed in place.
-    /// Returns whether anything did change.
+    /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
+    /// whether anything changed.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
                  const Bring& bring, const ImpactSettings& settings);
 
-    /// Of the last call: the contacts that were looked at, and the dynamic bodies that got an impulse, ascending.
+    /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& struck() const { return struck_; }
@@ -39,7 +39,7 @@ private:
     std::vector<std::uint32_t> brought_, expanded_, looked_at_, struck_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
-    enum class Reach : char { none, motion, blow };   // what an impact does to the two of a contact
+    enum class Reach : char { none, motion, blow };   // effect of an impact on the two bodies of a contact
     std::vector<Contact> contacts_, own_;
     std::vector<double> before_;          // by contact: v_rel before the impact
     std::vector<Reach> reach_;            // by contact

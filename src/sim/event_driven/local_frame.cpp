@@ -11,10 +11,10 @@
 namespace tumble {
 namespace {
 
-// How far along a direction that no two places of a grid are alike in.
+// Coordinate along a direction in which no two places of a grid coincide.
 double along(const Vec3& v) { return v.x() + std::sqrt(2.0) * v.y() + std::sqrt(3.0) * v.z(); }
 
-// The place first; then, for several bodies in one place, as planes often are, all else that makes a difference.
+// Sort key: the place first; then, for bodies at the same place, as planes often are, all other distinguishing values.
 using Key = std::array<double, 12>;
 Key key_of(const Body& body) {
     const auto* space = std::get_if<HalfSpace>(&body.collider);

@@ -1,5 +1,5 @@
-// With exact impacts, the frame and the order that the bodies are computed in: those of the scene itself, not of its file. A scene
-// far from the world's origin keeps the digits of one at it, and the list of its bodies decides nothing.
+// With exact impacts, the frame and the order of the bodies are those of the scene itself, not of its file. A scene far
+// from the world's origin keeps the digits of one at the origin, and the order of the file does not affect results.
 #pragma once
 
 #include "scene/description/description.h"
@@ -10,14 +10,14 @@
 
 namespace tumble {
 
-/// The middle (m, world) of the dynamic bodies' places; the world's origin where there are none.
+/// The middle (m, world) of the dynamic bodies' places; the world's origin without dynamic bodies.
 Vec3 local_origin(const SceneDescription& scene);
 
-/// The scene with `origin` for its origin: its bodies and keyframes. What is only drawn stays in the world's frame.
+/// The scene with its bodies and keyframes relative to `origin`. Objects that are only drawn stay in the world's frame.
 SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin);
 
-/// Moves the bodies into the order of memory_order.h, begun from one that follows from the bodies' places and properties alone. Returns
-/// for each place the body's index in the scene. `gravity`: m/s^2.
+/// Moves the bodies into the order of spatial_sort.h, starting from one that follows from the bodies' places and
+/// properties alone. Returns for each place the body's index in the scene. `gravity`: m/s^2.
 std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity);
 
 }  // namespace tumble

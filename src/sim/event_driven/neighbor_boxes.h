@@ -1,5 +1,5 @@
-// Who may meet whom: each moving body has a box it stays in for a while, and the bodies whose boxes overlap it are its
-// neighbours. A body that leaves its box gets another; nobody else has to be asked.
+// Neighbor boxes: each moving body has a box that it stays in for a while, and the bodies whose boxes overlap it are
+// its neighbors. A body that leaves its box gets another; no other body is visited.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -15,7 +15,7 @@ class NeighborBoxes {
 public:
     explicit NeighborBoxes(const std::vector<Body>& bodies);
 
-    /// Puts the body into this box and finds its neighbours anew; theirs are kept in step.
+    /// Puts the body into this box and finds its neighbors; updates their lists.
     void enclose(std::uint32_t body, const Bounds& box);
     bool known(std::uint32_t body) const { return tree_.holds(body); }
     bool encloses(std::uint32_t body, const Bounds& box) const;
@@ -23,7 +23,7 @@ public:
     const std::vector<std::uint32_t>& moving(std::uint32_t body) const { return moving_[body]; }
     /// Fixed bodies near the body's box; half-spaces always.
     const std::vector<std::uint32_t>& fixed(std::uint32_t body) const { return standing_[body]; }
-    /// Whether there is anybody but half-spaces that a body could ever meet.
+    /// Whether a body could ever meet anything but half-spaces.
     bool crowded() const { return movers_ > 1 || !fixed_.empty(); }
 
 private:

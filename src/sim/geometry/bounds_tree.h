@@ -1,6 +1,6 @@
-// A bounding volume hierarchy over boxes: who overlaps this box, in logarithmic time a hit.
-// One structure for moving bodies, for fixed bodies and for the triangles of a mesh. Built by median splits,
-// n log n, the same tree for the same input on every machine.
+// A bounding volume hierarchy over boxes: finds the boxes that overlap a given box, in logarithmic time per hit.
+// One structure for moving bodies, for fixed bodies and for the triangles of a mesh. Built by median splits in n log n;
+// the same input gives the same tree on every machine.
 #pragma once
 
 #include "core/vector.h"
@@ -19,7 +19,7 @@ public:
     template <class Visit>
     void query(const Bounds& box, Visit&& visit) const {
         if (nodes_.empty()) return;
-        std::uint32_t stack[64];   // a median tree of 2^32 items is 32 deep
+        std::uint32_t stack[64];   // depth of a median-split tree of 2^32 items: 32
         int top = 0;
         stack[top++] = 0;
         while (top > 0) {
@@ -41,8 +41,8 @@ public:
 private:
     struct Node {
         Bounds bounds;
-        std::uint32_t first = 0;   // of the items in order_, or of the two children
-        std::uint32_t count = 0;   // 0: an inner node
+        std::uint32_t first = 0;   // index of the first item in order_, or of the first of two children
+        std::uint32_t count = 0;   // number of items; 0: an inner node
     };
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 

@@ -1,6 +1,6 @@
-// The fifteen axes along which two boxes may be apart (Gottschalk, Lin and Manocha 1996, "OBBTree", section 5): the three face
-// normals of each, and the cross products of an edge of A with one of B. Three side by side; each one's arithmetic is that of
-// one axis alone.
+// The fifteen candidate separating axes of two boxes (Gottschalk, Lin and Manocha 1996, "OBBTree", section 5): three
+// face normals of each box and the cross products of an edge of A with an edge of B. Three axes are computed side by
+// side; each has the arithmetic of one axis alone.
 #pragma once
 
 #include "sim/geometry/collider.h"
@@ -13,7 +13,7 @@ namespace tumble {
 
 class BoxAxes {
 public:
-    // Three numbers, in two registers that every x86-64 has.
+    // Three numbers in two registers that every x86-64 has.
     class Lanes {
     public:
         Lanes() = default;
@@ -27,7 +27,7 @@ public:
         friend Lanes operator*(const Lanes& l, const Lanes& r) { return {l.low_ * r.low_, l.high_ * r.high_}; }
         friend Lanes operator*(double l, const Lanes& r) { return {l * r.low_, l * r.high_}; }
         Lanes abs() const { return {Two(Bits(low_) & INT64_MAX), Two(Bits(high_) & INT64_MAX)}; }
-        // Each one's next, and the one before it, in a ring.
+        // Rotation of the three lanes by one, forwards and backwards.
         Lanes next() const { return {low_[1], high_[0], low_[0]}; }
         Lanes before() const { return {high_[0], low_[0], low_[1]}; }
 
@@ -50,8 +50,8 @@ public:
         }
     }
 
-    Vec3 t, t_in_b;   // m: B's centre in A's frame; A's in B's frame, negated
-    Mat3 r;           // turns B's axes into A's frame
+    Vec3 t, t_in_b;   // m: B's center in A's frame; A's center in B's frame, negated
+    Mat3 r;           // rotation from B's frame to A's frame
 
     /// Separations (m) along the face normals.
     Lanes faces_a() const {
@@ -61,8 +61,8 @@ public:
         return Lanes(t_in_b).abs() - Lanes(b_) - (a_[0] * size_[0] + a_[1] * size_[1] + a_[2] * size_[2]);
     }
 
-    /// Along A's axis i x B's axes: separations not yet divided by the axes' lengths, these lengths squared, and how far B's
-    /// centre lies that way.
+    /// Along A's axis i x B's axes: separations not yet divided by the lengths of the axes, the squares of these
+    /// lengths, and the offset of B's center along them.
     struct Edges {
         Lanes separation, square, across;
     };
@@ -73,11 +73,11 @@ public:
         return {across.abs() - reach, row_[i1] * row_[i1] + row_[i2] * row_[i2], across};
     }
 
-    /// Of A's edge and B's; lowest: the two are parallel.
+    /// Separation along A's edge x B's edge; the lowest number for parallel edges.
     static double separation(const Edges& e, int j) {
         return e.square[j] < tuning::parallel_edges ? lowest : e.separation[j] / std::sqrt(e.square[j]);
     }
-    /// Axes are counted: the faces of A, those of B, the edges i, j as 6 + 3 i + j.
+    /// Axis index: the faces of A, then those of B, then the edge pair i, j as 6 + 3 i + j.
     double along(std::uint32_t axis) const {
         if (axis < 3) return faces_a()[int(axis)];
         return axis < 6 ? faces_b()[int(axis) - 3] : separation(edges(int(axis - 6) / 3), int(axis - 6) % 3);
@@ -87,7 +87,7 @@ public:
 
 private:
     const Vec3 &a_, &b_;
-    Lanes row_[3], size_[3];   // of r; its absolute values
+    Lanes row_[3], size_[3];   // rows of r; absolute values of r
 };
 
 }  // namespace tumble

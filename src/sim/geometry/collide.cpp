@@ -13,7 +13,7 @@ using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using SurfaceRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
-// The pairs that have a routine of their own, in the order it takes them.
+// Shape pairs that have a routine, in the order of its arguments.
 struct Pair {
     const Pose &pose_a, &pose_b;
     double margin;
@@ -39,22 +39,22 @@ struct Pair {
     }
 };
 
-// Neither shape can be on a moving body.
+// Pairs of shapes that are both fixed.
 template <class T>
 constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, SurfaceRef>;
-// Taken apart before.
+// Compounds are split into parts earlier.
 template <class T>
 constexpr bool compound = std::is_same_v<T, CompoundRef>;
 
-// In how many ways a pair with this collider can be told apart by Manifold::part. Below 2^32 for two colliders together:
-// limits::parts and limits::mesh_triangles see to it.
+// Number of values of Manifold::part that this collider contributes to a pair. Precondition: below 2^32 for two
+// colliders together; limits::parts and limits::mesh_triangles ensure it.
 std::uint32_t part_count(const CollisionShape& collider) {
     if (const auto* surface = std::get_if<SurfaceRef>(&collider)) return std::uint32_t((*surface)->triangles.size());
     if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
     return 1;
 }
 
-// Which parts come within the margin of the other shape, by bounds, ascending.
+// Finds the parts whose bounds come within the margin of the other shape, in ascending order.
 void find_near_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, double margin,
                      std::vector<std::uint32_t>& parts) {
     const Pose relative = seen_from(pose, pose_other);
@@ -71,11 +71,13 @@ bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
     return std::all_of(faces.begin(), faces.end(), [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
 }
 
-// Whether what part k would push towards is the body itself: what slides over a seam between parts is not caught by it.
+// Whether part k would push towards the body's own interior: a contact at an internal edge between parts, which must
+// not catch a sliding body.
 bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
     const double size = whole.parts[k].reach;
     return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
-        // From the body's own surface: where it is deep in the other, halfway between the two is inside of it anyway.
+        // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is inside it
+        // anyway.
         const Vec3 probe = pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
         bool inside = false;
         whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
@@ -85,7 +87,7 @@ bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Man
     });
 }
 
-// Each part of a compound against the whole of the other shape, in the given order.
+// Collides each part of a compound with the whole other shape, in the given order.
 void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, bool whole_is_a,
                    double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const std::uint32_t stride = part_count(other);
@@ -102,7 +104,7 @@ void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
         scratch.part -= k * stride;
     }
-    scratch.gap = 0.0;   // one part's says nothing of the others
+    scratch.gap = 0.0;   // the gap of one part does not bound that of the others
 }
 
 }  // namespace
@@ -131,7 +133,7 @@ void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& 
                 return;
             } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
                 Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
-            } else {   // the same pair the other way round: swap, collide, turn the normals
+            } else {   // the same pair in the other order: swap, collide, turn the normals
                 Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
                 for (std::size_t i = first; i < out.size(); ++i) out[i].swap();
             }

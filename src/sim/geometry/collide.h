@@ -1,4 +1,4 @@
-// The narrow phase: exact manifolds between two posed shapes. Every pair of shapes is here, whichever comes first.
+// The narrow phase: exact manifolds between two posed shapes, for every pair of shapes in either order.
 #pragma once
 
 #include "sim/geometry/polygon_clipping.h"
@@ -12,27 +12,29 @@
 
 namespace tumble {
 
-/// Between axes that separate about equally well. steady: the same from step to step, for contacts that stay. nearest: the
-/// better one to the last digits, for the moment of an impact.
+/// Choice between axes that separate about equally well. steady: the same axis from step to step, for lasting contacts.
+/// nearest: the better axis to the last digits, for the time of an impact.
 enum class AxisChoice { steady, nearest };
 
-/// Working space, kept from pair to pair so that nothing is allocated in the loop.
+/// Working space, kept from pair to pair so that the loop allocates nothing.
 struct CollisionScratch {
     AxisChoice choice = AxisChoice::steady;
-    // Of two boxes: the axis that kept them apart last, tried first, and in return the one that does now. And how far apart
-    // (m) the shapes are at least, where nothing was found and that is known.
+    // For two boxes: in, the separating axis of the last query, tried first; out, that of this one. And a lower bound
+    // (m) of the gap between the shapes, where no manifold was found and a bound is known.
     std::uint32_t axis = 0;
     double gap = 0.0;
-    Vec3 way = Vec3::Zero();              // m, world: of B against A in the coming step. Tells over which of two faces they slide
-    bool turning = false;                 // whether one of the bodies turns fast (tuning::rolling_turn)
-    bool on_ball = false;                 // whether a manifold found lies on a ball. Cleared by the caller, as gap
-    // The pair's manifolds of the last step, and which part of it is looked at (Manifold::part): B's face goes on being the
-    // one that the manifold lies on, though A's would do as well.
+    // m, world: displacement of B relative to A in the coming step; selects one of two faces that the shapes slide over
+    Vec3 way = Vec3::Zero();
+    bool turning = false;                 // whether one of the bodies rotates fast (tuning::rolling_turn)
+    bool on_ball = false;                 // whether a manifold found lies on a ball. Cleared by the caller, as is gap
+    // The pair's manifolds of the last step, and the part index of the present one (Manifold::part): a manifold on B's
+    // face stays on B's face when A's face separates equally well.
     std::span<const Manifold> before;
     std::uint32_t part = 0;
     bool was_on_b() const;
     std::vector<ContactPoint> points;
-    std::vector<ContactPoint> left_out;   // of all manifolds found, in order: Manifold::first_left_out. Cleared by the caller
+    // reduced points of all manifolds found, in order: Manifold::first_left_out. Cleared by the caller
+    std::vector<ContactPoint> left_out;
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;
     std::vector<std::uint32_t> labels, vertices, edges_a, edges_b;
@@ -46,15 +48,17 @@ struct CollisionScratch {
     SideScratch sides;
     std::vector<std::pair<std::uint32_t, double>> at_edges, at_vertices;
     std::vector<std::uint32_t> used_vertices, used_edges;
-    std::vector<std::uint32_t> near_parts[2];   // of compounds: of the last one taken apart, and of the one before
+    // indices of the near parts of the last and of the last but one compound that was split
+    std::vector<std::uint32_t> near_parts[2];
 };
 
-/// Appends the manifolds of the pair: points nearer than `margin` (m). Normals point away from `a`; body indices are
-/// left to the caller. Two half-spaces, two surfaces, and a half-space with a surface never touch: they cannot move.
+/// Appends the manifolds of the pair: points with a gap below `margin` (m). Normals point away from `a`; the caller
+/// sets the body indices. Two half-spaces, two meshes, and a half-space with a mesh give no manifolds: they cannot
+/// move.
 void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b, double margin,
              CollisionScratch& scratch, std::vector<Manifold>& out);
 
-// The pairs behind it, each with its first shape as A.
+// The routines per pair, each with its first shape as A.
 void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
                              std::vector<Manifold>& out);
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
@@ -65,7 +69,8 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
                              std::vector<Manifold>& out);
 void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                        CollisionScratch& scratch, std::vector<Manifold>& out);
-/// Both boxes (Polyhedron::is_box): what the general routine gives, in a fraction of the time.
+/// Precondition: both are boxes (Polyhedron::is_box). Gives the result of the general routine in a fraction of the
+/// time.
 void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                    CollisionScratch& scratch, std::vector<Manifold>& out);
 void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,

@@ -19,8 +19,8 @@ void add_point(const Vec3& normal, const Vec3& position, double separation, std:
 
 struct Nearest {
     Vec3 point = Vec3::Zero();
-    bool inside = false;   // the face; else on its border
-    Vec3 edge = Vec3::Zero();   // its direction, where that is nearest; none at a corner
+    bool inside = false;   // nearest point is inside the face; else on its border
+    Vec3 edge = Vec3::Zero();   // direction of the nearest edge; zero at a corner
 };
 
 // The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
@@ -62,7 +62,7 @@ void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose&
     const double reach = a.radius + b.radius + margin;
     if (d.squaredNorm() > reach * reach) return;
     const double distance = d.norm();
-    // Same centre, or so near that the squares underflow: any way is as good.
+    // Coincident centers, or so near that the squares underflow: any direction is as good.
     const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
     add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
@@ -73,9 +73,11 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
                              std::vector<Manifold>& out) {
     const Vec3 center = pose_a.to_body(pose_b.position);
     const double reach = b.radius + margin;
-    // The face it is most outside of: a bound of the distance, and the way out when the centre is inside.
+    // The face with the greatest distance from the center: a lower bound of the gap, and the direction of least
+    // penetration when the center is inside.
     double most = -std::numeric_limits<double>::infinity();
-    const Polyhedron::Face* face = a.faces.data();   // some face even where the centre is no number: the step's end tells of that
+    // some face even where the center is not a number: the end of the step reports that
+    const Polyhedron::Face* face = a.faces.data();
     for (const Polyhedron::Face& f : a.faces) {
         const double d = f.normal.dot(center) - f.offset;
         if (d > reach) return;
@@ -91,7 +93,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
         out.back().set_ball(pose_b.position);
         return;
     }
-    // Only faces seen from the centre can hold the nearest point.
+    // Only faces with the center on their outer side can hold the nearest point.
     double best = std::numeric_limits<double>::infinity();
     Nearest nearest;
     for (const Polyhedron::Face& f : a.faces) {
@@ -107,7 +109,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     }
     const double distance = std::sqrt(best);
     if (distance > reach) return;
-    // Over a face its own normal, and so on its border too when rounding has left no direction.
+    // Over a face the normal is the face's own; on its border too when rounding leaves no direction.
     const bool of_face = nearest.inside || distance <= 1e-12 * a.radius;
     const Vec3 normal = pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
     const double separation = distance - b.radius;
@@ -131,7 +133,7 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
     if (scratch.points.empty()) return;
     if (scratch.turning && scratch.points.size() > Manifold::capacity) {
-        // Of what rolls those count that it rolls on, not those that span a large area with them.
+        // A rolling body keeps the points that it rolls on, not those that span the largest area with them.
         scratch.points.clear();
         for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices) keep(i);
     }
@@ -140,7 +142,7 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     m.corners = Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
     if (m.count > 1) {
-        // All corners lie over the plane: those of the face that lies along it are the area.
+        // All corners lie over the plane: the corners of the face along the plane bound the contact area.
         scratch.incident.clear();
         for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices)
             scratch.incident.push_back(pose_b.to_world(b.vertices[i]));

@@ -1,5 +1,5 @@
-// Box against box: the answers of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp) with the same
-// choices and the same names of features, from the matrix that turns one box into the other.
+// Box against box: the results of the routine for all polyhedra (separating_axis.cpp, feature_contact.cpp), with the
+// same choices and feature labels, from the matrix that rotates one box into the other.
 #include "sim/geometry/box_axes.h"
 #include "sim/geometry/contact_area.h"
 #include "sim/geometry/feature_contact.h"
@@ -19,7 +19,8 @@ struct FaceAxis {
     double separation = lowest;
 };
 
-// The largest; the one whose face the other's centre is highest above wins a tie, as in separating_axis.cpp.
+// The face of largest separation. In a tie, the face with the other's center highest above it wins, as in
+// separating_axis.cpp.
 FaceAxis best_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& separation) {
     int first = 0;
     for (int k = 1; k < 3; ++k)
@@ -30,7 +31,7 @@ FaceAxis best_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& s
     return best;
 }
 
-// Edge of a box along an axis, by the signs of its other two coordinates: all boxes are numbered alike.
+// Edge of a box along an axis, by the signs of its other two coordinates. The numbering is the same for all boxes.
 struct BoxEdges {
     std::array<std::array<std::uint32_t, 4>, 3> index{};
     BoxEdges() {
@@ -46,8 +47,8 @@ struct BoxEdges {
     }
 };
 
-// The corners of a box's faces, by the signs of their coordinates, and which coordinate the side from each to the next runs
-// along the limit of: all boxes are alike.
+// Corners of a box's faces, by the signs of their coordinates, and the coordinate whose limit each side from a corner
+// to the next lies on. The same for all boxes.
 struct BoxFaces {
     struct Side {
         int axis = 0;
@@ -58,7 +59,7 @@ struct BoxFaces {
         std::array<Side, 4> side{};
     };
     std::array<Face, 6> faces;
-    std::array<Vec3, 8> signs;   // by vertex
+    std::array<Vec3, 8> signs;   // corner signs, by vertex
     BoxFaces() {
         const Polyhedron box = make_box(Vec3::Constant(2.0));
         std::copy(box.vertices.begin(), box.vertices.end(), signs.begin());
@@ -72,8 +73,8 @@ struct BoxFaces {
     }
 };
 
-// The face of a box that lies against a plane across a direction (Polyhedron::face_at_support): at the farthest corner, the
-// one with most corners no farther than `depth` behind it, then the one that looks most that way.
+// The face of a box that lies against a plane normal to a direction (Polyhedron::face_at_support): at the farthest
+// corner, the face with most corners no farther than `depth` behind it, then the face best aligned with the direction.
 std::uint32_t face_at_support(const Vec3& half, const Vec3& direction, double depth) {
     std::uint32_t best = 0;
     int best_count = 0;
@@ -102,7 +103,7 @@ struct Polygon {
     int count = 0;
 };
 
-// Keeps sign * p[axis] <= limit. Whether anything had to go: otherwise `out` is left as it was.
+// Clips to sign * p[axis] <= limit. Returns whether a point was cut off: otherwise `out` is unchanged.
 bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t side, Polygon& out) {
     std::array<double, Polygon::capacity> beyond;
     bool cuts = false;
@@ -126,7 +127,8 @@ bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t 
     return true;
 }
 
-// The incident box in the reference box's frame: centre c, axes the columns of r. `n`: the reference face's outward sign.
+// The incident box in the reference box's frame: center c, axes the columns of r. `n`: sign of the reference face's
+// outward normal.
 void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pose& pose, const Vec3& c, const Mat3& r,
               int axis, double sign, bool on_b, bool must_touch, double margin, CollisionScratch& scratch,
               std::vector<Manifold>& out) {
@@ -197,7 +199,8 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     bool flip = false;
     for (int i = 0; i < 3; ++i) {
         const BoxAxes::Edges e = axes.edges(i);
-        // Most are no better than the best: told by the squares, by more than rounding, without root and division.
+        // Most pairs of edges are no better than the best: rejected by their squares, beyond rounding, without root and
+        // division.
         const double needed = std::min(best, margin), square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
         const BoxAxes::Lanes more = e.separation * e.separation - square * e.square;
         for (int j = 0; j < 3; ++j) {
@@ -217,7 +220,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     int face = of_b ? face_b.axis : face_a.axis;
     const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation, .normal = normal_of(of_b, face)};
     SeparatingAxis by_edges{.separation = best};
-    bool speak = edge_i >= 0, given_up = false;   // the edges; for a face
+    bool speak = edge_i >= 0, given_up = false;   // whether an edge contact is used; whether it was rejected for a face
     if (speak) {
         by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
         if (flip) by_edges.normal = -by_edges.normal;
@@ -227,9 +230,9 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
     bool must_touch = axis.separation < 0.0 && !given_up;
     if (may_slide_past(axis.separation, scratch.way, smaller)) {
-        Vec3 way = Vec3::Zero();   // asked for only where both graze
+        Vec3 way = Vec3::Zero();   // computed only where both faces graze
         if (axis.separation < preference) way = pose_a.rotation.transpose() * scratch.way;
-        double most = -preference;   // lower ones are no faces that are grazed
+        double most = -preference;   // lower separations are not grazing
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
                 const double s = (on_b ? faces_b : faces_a)[k];
@@ -243,7 +246,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     if (!speak) {
         const std::size_t first = out.size();
         if (of_b) {
-            // Seen from B: A's centre lies at -t_in_b, its axes are the rows of r.
+            // In B's frame A's center lies at -t_in_b, and A's axes are the rows of r.
             add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch, margin, scratch, out);
         } else {
             add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, must_touch, margin, scratch, out);

@@ -1,5 +1,5 @@
-// Spheres against a triangle surface. Seams between triangles must not catch what slides over them: a point on an edge or
-// a corner counts only if the surface comes no nearer next to it.
+// Spheres against a triangle mesh. Internal edges must not catch a sliding sphere: a point on an edge or a corner
+// counts only if the mesh comes no nearer next to it.
 #include "sim/geometry/collide.h"
 #include "sim/geometry/nearest_on_triangle.h"
 
@@ -28,7 +28,7 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
         if (behind && a.closed) return;
         hits.push_back({distance, t, near.feature, near.point});
     });
-    // The least distance of the triangles at each edge and corner, first in its group after sorting.
+    // The least distance among the triangles at each edge and corner; first in its group after sorting.
     auto &at_edges = scratch.at_edges, &at_vertices = scratch.at_vertices;
     at_edges.clear();
     at_vertices.clear();
@@ -42,7 +42,8 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
     const auto least = [](const auto& list, std::uint32_t id) {
         return std::lower_bound(list.begin(), list.end(), std::make_pair(id, 0.0))->second;
     };
-    // Faces first, then edges, then corners; each silences the features at its border. Ties go to the lower triangle.
+    // Faces first, then edges, then corners; each suppresses the features at its border. Ties go to the lower triangle
+    // index.
     std::sort(hits.begin(), hits.end(), [](const auto& l, const auto& r) {
         const int kind_l = (l.feature + 2) / 3, kind_r = (r.feature + 2) / 3;
         return kind_l != kind_r ? kind_l < kind_r : l.triangle < r.triangle;

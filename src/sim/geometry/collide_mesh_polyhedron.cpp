@@ -1,5 +1,6 @@
-// Polyhedra against a triangle surface, triangle by triangle. Seams must not catch what slides over them: a normal that
-// leans over the border of a triangle counts only if the surface owns it there, else the triangle's own normal stands in.
+// Polyhedra against a triangle mesh, triangle by triangle. Internal edges must not catch a sliding body: a normal that
+// leans over the border of a triangle counts only if the mesh owns it there; else the triangle's own normal replaces
+// it.
 #include "sim/geometry/feature_contact.h"
 #include "sim/geometry/separating_axis.h"
 
@@ -13,13 +14,13 @@ struct TriangleAxis {
     enum class Kind { none, triangle, face, edges };
     Kind kind = Kind::none;
     double separation = 0.0;
-    std::uint32_t feature = 0;    // face or edge of the polyhedron
-    int edge = 0;                 // of the triangle
+    std::uint32_t feature = 0;    // index of a face or edge of the polyhedron
+    int edge = 0;                 // index of an edge of the triangle
     Vec3 normal = Vec3::Zero();   // away from the triangle
 };
 
-// Whether a direction lies on the arc between the normals of an edge's two faces, so that the edge is farthest that way.
-// The direction stands across the edge.
+// Whether a direction lies on the arc between the normals of an edge's two faces, so that the edge is the farthest
+// feature along it. Precondition: the direction is perpendicular to the edge.
 bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
     const Vec3 turn = left.cross(right);
     return left.cross(direction).dot(turn) >= 0.0 && direction.cross(right).dot(turn) >= 0.0 &&
@@ -47,7 +48,8 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
         best = separation;
         axis = {TriangleAxis::Kind::face, separation, f, 0, -face.normal};
     }
-    // Where an edge lies in a face, edge against edge says the same to rounding, and would leave one point of two.
+    // For an edge that lies in a face, the edge pair gives the face's separation to rounding, and would leave one point
+    // of two.
     best = std::max(best, axis.separation + axis_preference(shape.radius, scratch.choice));
     Bounds region;
     for (const Vec3& corner : t) region.add(corner);
@@ -96,11 +98,11 @@ void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& 
     for (const std::uint32_t v : b.faces[face].vertices) of_body.push_back(b.vertices[v]);
     if (on_body) scratch.labels.assign({0u, 1u, 2u});
     else scratch.labels = b.faces[face].vertices;
-    // The manifold's A is the triangle: its normal, or against the body's face.
+    // The manifold's A is the triangle. Normal: that of the triangle, or opposite to that of the body's face.
     add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch, out);
 }
 
-// Whether some contact point of the triangle lies in the body: proof that they do overlap.
+// Whether a contact point of the triangle lies in the body: proof of an overlap.
 bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose) {
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
         const Vec3 on_triangle = pose.to_body(p.position - 0.5 * p.separation * m.normal);
@@ -112,7 +114,7 @@ bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose
 
 void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
                                 double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
-    // In the body's frame: hulls are larger than triangles.
+    // In the body's frame, because hulls are larger than triangles.
     const Pose a_in_b = seen_from(pose_b, pose_a);
     Bounds region;
     {
@@ -124,7 +126,7 @@ void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, cons
     candidates.clear();
     a.tree.query(region, [&](std::uint32_t t) { candidates.push_back(t); });
     std::sort(candidates.begin(), candidates.end());
-    // The body's centre is its origin.
+    // The origin of this frame is the body's center.
     find_sides(a, candidates, a_in_b.rotation.transpose() * -a_in_b.position, scratch.sides);
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::uint32_t index = candidates[k];

@@ -1,4 +1,4 @@
-// Polyhedron against polyhedron: the separating axis names the features, the features make the manifold.
+// Polyhedron against polyhedron: the separating axis selects the features, and the features give the manifold.
 #include "sim/geometry/feature_contact.h"
 #include "sim/geometry/separating_axis.h"
 
@@ -45,7 +45,7 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
     }
 }
 
-// Whether some contact point lies in both shapes: proof that they do overlap.
+// Whether a contact point lies in both shapes: proof of an overlap.
 bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
     const double slack = axis_preference(std::min(a.radius, b.radius));
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
@@ -66,7 +66,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     // In A's frame, which keeps the digits of scenes far from the origin.
     const Pose b_in_a = seen_from(pose_a, pose_b);
     const std::size_t first = out.size();
-    const auto add = [&](EdgeSearch search) {   // whether the shapes seem to overlap
+    const auto add = [&](EdgeSearch search) {   // returns whether the shapes seem to overlap
         SeparatingAxis edges;
         const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, pose_a.rotation.transpose() * scratch.way, scratch, &edges);
         const bool preferred = edges.kind == SeparatingAxis::Kind::edges, overlapping = axis.separation < 0.0 && !axis.grazed;
@@ -77,7 +77,7 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
         return edges.separation < 0.0;
     };
     if (!add(EdgeSearch::nearby) || out.size() == first || proves_overlap(out[first], a, pose_a, b, pose_b)) return;
-    // Rare: deep overlaps, and shapes apart along a pair of edges that the nearby search left out.
+    // Rare: deep overlaps, and shapes separated along a pair of edges that the nearby search skipped.
     out.resize(first);
     add(EdgeSearch::all);
 }

@@ -11,7 +11,7 @@ struct Overloaded : F... {
     using F::operator()...;
 };
 
-// The box about a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
+// The bounding box of a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
 Bounds turned(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
     const Vec3 half = pose.rotation.cwiseAbs() * half_extent;
     return {center - half, center + half};

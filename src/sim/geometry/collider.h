@@ -1,6 +1,6 @@
-// What of a body collides: a half-space, a sphere, a convex polyhedron, a triangle surface as it is, or several convex
-// shapes together.
-// Frame: the body's, with its centre of mass at the origin.
+// Collision shape of a body: a half-space, a sphere, a convex polyhedron, a triangle mesh, or several convex shapes
+// together.
+// Frame: the body's, with its center of mass at the origin.
 #pragma once
 
 #include "core/vector.h"
@@ -12,7 +12,7 @@
 
 namespace tumble {
 
-/// Where a body is: p_world = position + rotation * p_body (notes eq. 5).
+/// Pose of a body: p_world = position + rotation * p_body (notes eq. 5).
 struct Pose {
     Vec3 position = Vec3::Zero();
     Mat3 rotation = Mat3::Identity();
@@ -21,7 +21,7 @@ struct Pose {
     Vec3 to_body(const Vec3& p) const { return rotation.transpose() * (p - position); }
 };
 
-/// A pose in another one's frame.
+/// The given pose in the frame of another one.
 inline Pose seen_from(const Pose& frame, const Pose& pose) {
     return {frame.to_body(pose.position), frame.rotation.transpose() * pose.rotation};
 }
@@ -31,23 +31,23 @@ struct HalfSpace {
     double offset;    // m
 };
 struct Ball {
-    double radius;    // m
+    double radius;    // m; the center is the body's origin
 };
 
-struct Compound;   // sim/collision/compound.h
+struct Compound;   // sim/geometry/compound.h
 
-/// Shared where bodies share a mesh: a hull is built once.
+/// Shared by bodies with the same mesh, so that a hull is built once.
 using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const CollisionMesh>,
                               std::shared_ptr<const Compound>>;
 
-/// World bounds of a posed collider; a half-space's are infinite.
+/// World bounds of a posed shape; infinite for a half-space.
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose);
 
-/// Distance of the farthest point from the centre of mass, m; infinity for a half-space.
+/// Distance of the farthest point from the center of mass, m; infinity for a half-space.
 double bounding_radius(const CollisionShape& collider);
 
-/// How far something may come into the shape and still be pushed back out of the side it came in by, m: the inner radius;
-/// infinity for half-spaces and surfaces, where what counts is how thin the other shape is.
+/// Depth (m) to which another shape may penetrate and still be pushed back out of the side that it came in by: the
+/// inner radius. Infinity for half-spaces and meshes, where the thickness of the other shape counts.
 double depth(const CollisionShape& collider);
 
 }  // namespace tumble

@@ -7,9 +7,9 @@
 namespace tumble {
 namespace {
 
-// A polygon narrower than this part of its length is a line: its area is rounding.
+// Width over length below which a polygon counts as a line: its area would be rounding error.
 constexpr double narrow = 1e-6;
-// Least share of a point. Shares that would be less than that, of points all on one side of the area, are drawn towards 1.
+// Least load share of a point. Smaller shares, of points all on one side of the area, are moved towards 1.
 constexpr double least_share = 0.1;
 
 struct Flat {
@@ -19,11 +19,12 @@ struct Flat {
     double cross(const Flat& o) const { return x * o.y - y * o.x; }
 };
 
-// Coordinates across a normal, from a place: digits far from the world's origin.
+// Coordinates in the plane normal to an axis, relative to a nearby origin, which keeps digits far from the world's
+// origin.
 class Plane {
 public:
     Plane(const Vec3& normal, const Vec3& origin) : origin_(origin) {
-        const int k = normal.x() * normal.x() < 0.36 ? 0 : 1;   // an axis that the normal looks little along
+        const int k = normal.x() * normal.x() < 0.36 ? 0 : 1;   // a coordinate axis at a large angle to the normal
         first_ = (Vec3::Unit(k) - normal[k] * normal) / std::sqrt(1.0 - normal[k] * normal[k]);
         second_ = normal.cross(first_);
     }
@@ -37,16 +38,17 @@ private:
     Vec3 origin_, first_, second_;
 };
 
-// The mean of sqrt(h^2 + x^2) between two x, of h^2: Gauss and Legendre's three points.
+// The mean of sqrt(h^2 + x^2) over an interval of x, given h^2: Gauss-Legendre quadrature with three points.
 double mean_root(double square, double from, double to) {
     constexpr double near = 0.11270166537925831;
     const double a = from + near * (to - from), b = 0.5 * (from + to), c = to - near * (to - from);
     return (5.0 / 18.0) * (std::sqrt(square + a * a) + std::sqrt(square + c * c)) + (8.0 / 18.0) * std::sqrt(square + b * b);
 }
 
-// The integral of the distance from the origin over the triangle (0, p, q): distance grows in proportion to the way out, so it is a
-// third of the height over pq times the integral along pq. Where the foot of the height lies on a long edge, the two sides of it apart: the
-// three points are then within 2e-3 for any edge, and exact for those that the origin lies on or is far from.
+// The integral of the distance from the origin over the triangle (0, p, q). Distance grows linearly along a ray, so the
+// integral is a third of the height over pq times the integral along pq. Where the foot of the height lies on a long
+// edge, its two sides are integrated apart: three points are then within 2e-3 for any edge, and exact for edges through
+// the origin or far from it.
 double distance_integral(const Flat& p, const Flat& q) {
     const Flat edge = q - p;
     const double length_square = edge.dot(edge), twice = p.cross(q);
@@ -62,9 +64,10 @@ template <class At>
 ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
     if (count < 2) return {count == 0 ? Vec3(Vec3::Zero()) : at(0), 0.0};
     const Plane plane(normal, at(0));
-    double twice = 0.0, x = 0.0, y = 0.0, farthest = 0.0;   // twice the area, signed; its moments, six times
+    // twice the signed area, m^2; six times its first moments, m^3; farthest distance, m
+    double twice = 0.0, x = 0.0, y = 0.0, farthest = 0.0;
     Flat far{0.0, 0.0}, p = far;
-    for (std::size_t i = 1; i < count; ++i) {   // triangles from the first corner on
+    for (std::size_t i = 1; i < count; ++i) {   // triangle fan from the first corner
         const Flat q = plane(at(i));
         const double part = p.cross(q), square = q.dot(q);
         twice += part;
@@ -77,7 +80,7 @@ ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
         p = q;
     }
     if (std::abs(twice) <= narrow * farthest) {
-        Flat other{0.0, 0.0};   // the line's other end
+        Flat other{0.0, 0.0};   // the other end of the line
         for (std::size_t i = 1; i < count; ++i)
             if (const Flat q = plane(at(i)); (q - far).dot(q - far) > (other - far).dot(other - far)) other = q;
         return {plane.world({0.5 * (far.x + other.x), 0.5 * (far.y + other.y)}), 0.25 * std::sqrt((far - other).dot(far - other))};
@@ -118,8 +121,9 @@ ContactArea contact_area(const Manifold& m) {
     return area;
 }
 
-// Shares 1 + (arm . slope), arms from the points' mean, with the centroid for their centre: of all that have, those nearest to 1.
-// slope = -S^-1 mean, S the arms' second moments; across a line of points there is nothing to be gained.
+// Shares 1 + (arm . slope), with arms from the mean of the points, such that their centroid is that of the area: of all
+// such shares those nearest to 1. slope = -S^-1 mean, with S the second moments of the arms. Across a line of points
+// the slope is zero.
 void spread_pressure(const ContactArea& area, Manifold& m) {
     m.share.fill(1.0f);
     m.spread = 1.0f;
@@ -152,7 +156,7 @@ void spread_pressure(const ContactArea& area, Manifold& m) {
         slope = {part * slope.x, part * slope.y};
     }
     std::array<double, Manifold::capacity> load;
-    Flat center{0.0, 0.0};   // of the load, from the points' mean
+    Flat center{0.0, 0.0};   // center of the load, relative to the mean of the points
     for (std::size_t i = 0; i < count; ++i) {
         const double share = 1.0 + slope.dot(arm[i]);
         m.share[i] = float(share);
@@ -165,7 +169,7 @@ void spread_pressure(const ContactArea& area, Manifold& m) {
         const Flat from = arm[i] - center;
         distance += load[i] * std::sqrt(from.dot(from));
     }
-    // Where the points' own centre is off the area's, the friction there resists a spin too.
+    // Where the center of the points differs from that of the area, friction at the offset resists a spin too.
     const Flat off{center.x + mean.x, center.y + mean.y};
     const double square = area.mean_distance * area.mean_distance - off.dot(off);
     if (distance > 0.0) m.spread = float(std::min(1.0, square > 0.0 ? std::sqrt(square) / distance : 0.0));

@@ -1,9 +1,9 @@
-// Even pressure over the polygon in which two faces meet, as the few points of a manifold stand for it.
+// Uniform pressure over the polygon in which two faces meet, represented by the few points of a manifold.
 //
-// Friction of even pressure on an area acts at the area's centroid, and resists a spin about the normal there by mu N d,
-// with d the mean distance of the area from its centroid: 2/3 R of a disc. Four points on the rim have another mean, and lie
-// farther out. So each point gets a share of the load that has the centroid for its mean, and the manifold the factor
-// (Manifold::spread) from the points' mean distance to the area's.
+// Friction of a uniform pressure on an area acts at the area's centroid and resists a spin about the normal by mu N d,
+// with d the mean distance of the area from its centroid: 2/3 R for a disc. Four points on the rim have another mean
+// and lie farther out. So each point gets a share of the load such that the mean is the centroid, and the manifold gets
+// the factor (Manifold::spread) from the points' mean distance to the area's.
 #pragma once
 
 #include "sim/geometry/manifold.h"
@@ -13,18 +13,19 @@
 namespace tumble {
 
 struct ContactArea {
-    Vec3 centroid = Vec3::Zero();   // world
+    Vec3 centroid = Vec3::Zero();   // world frame
     double mean_distance = 0.0;     // m, of the area from its centroid; 0: no area
 };
 
-/// `polygon`: convex, its corners in order about `normal`, of either sense; seen along the normal. One without area is a line.
+/// `polygon`: convex, its corners in order about `normal`, in either sense, seen along the normal. A polygon without
+/// area counts as a line.
 ContactArea contact_area(std::span<const Vec3> polygon, const Vec3& normal);
 ContactArea contact_area(std::span<const ContactPoint> polygon, const Vec3& normal);
 
-/// The area that the shares and the spread of `m` stand for.
+/// The area that the shares and the spread of `m` represent.
 ContactArea contact_area(const Manifold& m);
 
-/// Sets the shares of the points of `m`, and its spread.
+/// Sets the shares of the points of `m` and its spread.
 void spread_pressure(const ContactArea& area, Manifold& m);
 
 }  // namespace tumble

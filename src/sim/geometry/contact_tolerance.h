@@ -1,4 +1,4 @@
-// When two surfaces count as touching.
+// The gap below which two surfaces count as touching.
 #pragma once
 
 #include "sim/geometry/settings.h"
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// Nearer than this (m) the surfaces of two bodies with these radii touch.
+/// Contact tolerance (m) of two bodies with these radii.
 inline double touch_distance(double radius_a, double radius_b) { return tuning::touch * std::min(radius_a, radius_b); }
 
 }  // namespace tumble

@@ -15,7 +15,7 @@ extern "C" {
 namespace tumble {
 namespace {
 
-// Qhull's state, freed with everything it allocated.
+// Owns Qhull's state and everything that it allocates.
 struct QhullRun {
     qhT state{};
     QhullRun() { qh_zero(&state, nullptr); }
@@ -28,7 +28,7 @@ struct QhullRun {
     QhullRun& operator=(const QhullRun&) = delete;
 };
 
-// Qhull writes its complaints to a FILE; a library layer prints nothing, so they go to memory and into our message.
+// Qhull writes its messages to a FILE; a library layer prints nothing, so they go to memory and into the error.
 struct MessageFile {
     char* text = nullptr;
     std::size_t length = 0;
@@ -63,7 +63,7 @@ Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin) {
     facetT* facet;
     FORALLfacets {
         Polyhedron::Face face;
-        setT* loop = qh_facet3vertex(qh, facet);   // in order, counter-clockwise from outside
+        setT* loop = qh_facet3vertex(qh, facet);   // in order, counterclockwise from outside
         vertexT *vertex, **vertexp;
         FOREACHvertex_(loop) {
             const int id = qh_pointid(qh, vertex->point);
@@ -78,7 +78,7 @@ Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin) {
         hull.faces.push_back(std::move(face));
     }
     hull.complete();
-    // Whichever way Qhull went round, outward is away from the inside.
+    // Qhull's orientation varies; outward is away from a point inside.
     Vec3 inside = Vec3::Zero();
     for (const Vec3& v : hull.vertices) inside += v;
     inside /= double(hull.vertices.size());

@@ -48,7 +48,7 @@ std::uint32_t DynamicTree::take_node() {
 void DynamicTree::set(std::uint32_t item, const Bounds& box) {
     if (item >= items_.size()) items_.resize(item + 1);
     Item& entry = items_[item];
-    // What has not gone far stays in its place: the tree about it fits nearly as well as before.
+    // An item that has moved little keeps its node: the tree around it fits nearly as well.
     const bool stays = entry.held && entry.box.overlaps(box);
     if (entry.held && !stays) take_out(item);
     entry.box = box;
@@ -63,7 +63,7 @@ void DynamicTree::remove(std::uint32_t item) {
     items_[item].held = false;
 }
 
-// Down to where the joint box with the new one costs least, counting what all boxes on the way grow by.
+// Descends to the node where the joint box costs least, counting the growth of all boxes on the path.
 void DynamicTree::insert(std::uint32_t item, const Box& box) {
     const std::uint32_t added = item | leaf_bit;
     if (root_ == none) {
@@ -118,7 +118,7 @@ void DynamicTree::take_out(std::uint32_t item) {
     resize(sibling, box);
 }
 
-// A child's new box, and those of all that are around it, as far as they change.
+// Sets a child's box, and those of its ancestors as far as they change.
 void DynamicTree::resize(std::uint32_t child, Box box) {
     for (std::uint32_t node = parent(child); node != none; node = parent(child)) {
         Box& old = nodes_[node].box[side_of(child)];
@@ -130,7 +130,7 @@ void DynamicTree::resize(std::uint32_t child, Box box) {
     }
 }
 
-// Swaps a child with a grandchild on the other side where that makes the other side's box smaller.
+// Swaps a child with a grandchild on the other side where that shrinks the other side's box.
 void DynamicTree::rotate(std::uint32_t node) {
     float best = 0.0f;
     int best_side = -1, best_grandchild = 0;
@@ -140,7 +140,7 @@ void DynamicTree::rotate(std::uint32_t node) {
         const Node& other = nodes_[top.child[1 - side]];
         const float now = top.box[1 - side].surface();
         for (int k = 0; k < 2; ++k) {
-            // child[side] would take the place of grandchild k.
+            // child[side] would replace grandchild k.
             const float gain = now - joined(top.box[side], other.box[1 - k]).surface();
             if (gain <= best) continue;
             best = gain;

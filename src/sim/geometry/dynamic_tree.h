@@ -1,8 +1,8 @@
-// A bounding volume hierarchy whose boxes come, go and move one at a time: insertion where the surface grows least
-// (Goldsmith and Salmon 1987), balance by rotations (Kopta and others 2012), all in logarithmic time.
+// A bounding volume hierarchy whose boxes are added, removed and moved one at a time: insertion where the surface area
+// grows least (Goldsmith and Salmon 1987), balance by rotations (Kopta and others 2012), all in logarithmic time.
 //
-// A node holds the boxes of its two children, in single precision and rounded outwards: one cache line tells which way to go.
-// The items' own boxes are kept as they were given, and what is found overlaps those.
+// A node holds the boxes of its two children, in single precision and rounded outwards, so that one cache line decides
+// the descent. The items' own boxes stay in double precision, and results overlap those.
 #pragma once
 
 #include "core/vector.h"
@@ -16,16 +16,16 @@ class DynamicTree {
 public:
     static constexpr std::uint32_t none = UINT32_MAX;
 
-    /// Puts in, or moves, the item with this index (indices are small whole numbers, below 2^31).
+    /// Adds or moves the item with this index. Precondition: indices are small whole numbers, below 2^31.
     void set(std::uint32_t item, const Bounds& box);
     void remove(std::uint32_t item);
     const Bounds& box(std::uint32_t item) const { return items_[item].box; }
     bool holds(std::uint32_t item) const { return item < items_.size() && items_[item].held; }
 
-    /// Working space of a query, one for each thread that asks; kept so that nothing is allocated.
+    /// Working space of a query, one for each querying thread; kept so that queries allocate nothing.
     using Stack = std::vector<std::uint32_t>;
 
-    /// Calls visit(item) for each item whose box overlaps; in an order that depends on the tree's history.
+    /// Calls visit(item) for each item whose box overlaps, in an order that depends on the tree's history.
     template <class Visit>
     void query(const Bounds& box, Stack& stack, Visit&& visit) const {
         const auto look = [&](std::uint32_t child) {
@@ -51,14 +51,14 @@ private:
         Box() = default;
         explicit Box(const Bounds& exact);
         bool operator==(const Box&) const = default;
-        // Without branches: which way it goes is as good as chance.
+        // Branch-free, because the outcome is unpredictable.
         bool overlaps(const Box& b) const {
             return (min[0] <= b.max[0]) & (b.min[0] <= max[0]) & (min[1] <= b.max[1]) & (b.min[1] <= max[1]) &
                    (min[2] <= b.max[2]) & (b.min[2] <= max[2]);
         }
         float surface() const;
     };
-    // A child is another node, or an item with the highest bit set.
+    // A child is a node index, or an item index with the highest bit set.
     struct alignas(64) Node {
         Box box[2];
         std::uint32_t child[2] = {none, none};
@@ -84,7 +84,7 @@ private:
     void rotate(std::uint32_t node);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> free_;   // nodes not in use
+    std::vector<std::uint32_t> free_;   // indices of unused nodes
     std::vector<Item> items_;
     std::uint32_t root_ = none;         // a node, or the only item
 };

@@ -20,7 +20,7 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
     };
     for (const ClipVertex& v : scratch.polygon) keep(v.position, v.feature);
     if (scratch.points.empty() && must_touch) {
-        // Rounding clipped a sliver away: the deepest vertex speaks.
+        // Rounding clipped a sliver away: the deepest vertex replaces it.
         std::size_t deepest = 0;
         for (std::size_t i = 1; i < scratch.incident.size(); ++i)
             if (normal.dot(scratch.incident[i]) < normal.dot(scratch.incident[deepest])) deepest = i;
@@ -38,7 +38,8 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
 void add_edge_manifold(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, const Vec3& normal,
                        double separation, std::uint64_t edge_a, std::uint64_t edge_b, const Pose& frame,
                        std::vector<Manifold>& out) {
-    // Nearest points of two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9); never parallel here.
+    // Nearest points of two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9). Precondition: not
+    // parallel.
     const Vec3 u = a1 - a0, v = b1 - b0, r = a0 - b0;
     const double uu = u.dot(u), vv = v.dot(v), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
     const double s = std::clamp((uv * vr - ur * vv) / (uu * vv - uv * uv), 0.0, 1.0);

@@ -5,9 +5,9 @@
 namespace tumble {
 namespace {
 
-constexpr double same_side = 0.9;   // cosine between two steps' normals: of 26 degrees
+constexpr double same_side = 0.9;   // cosine of the angle between the normals of two steps: 26 degrees
 
-// The load must not be lost where the points have changed: what is left goes to the nearest ones.
+// The load must not be lost where the points have changed: remaining impulses go to the nearest points.
 void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Manifold& m) {
     if (old.normal.dot(m.normal) < same_side) return;
     for (int k = 0; k < old.count; ++k) {

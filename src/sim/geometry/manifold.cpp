@@ -6,25 +6,25 @@
 namespace tumble {
 namespace {
 
-// Two candidates nearly as good as each other must not swap places from step to step: a later one must be better
+// Hysteresis: two candidates that are nearly as good must not swap places from step to step. A later one must be better
 // by this factor.
 constexpr double clearly = 1.02;
-// Points no farther than this part of the manifold's size from touching carry the load or soon will: they come before
-// what is farther off, and the deepest (told apart to the second part) first. Where one that carries is left out, the body
-// sinks there until it is missed, and is kicked out.
+// Points within this fraction of the manifold's size from touching carry the load or soon will: they are preferred to
+// points farther off, the deepest first (compared with the second constant, also a fraction of the size). If a
+// load-carrying point is dropped, the body sinks there until the point is restored, and is then kicked out.
 constexpr double near = 1e-3;
 constexpr double deeper = 1e-5;
-// What adds less than this part of the size, or of its square, adds nothing.
+// A gain below this fraction of the size, or of its square, counts as none.
 constexpr double negligible_size = 1e-6;
 
-// What spans the area may lie over what touches: the upper corners of a thin plate over its lower ones. Then the lower one
-// counts: nearer along the normal by more than twice what it is aside.
+// Points that span the area may lie above points that touch: the upper corners of a thin plate above its lower ones.
+// Then the lower one counts if it is nearer along the normal by more than twice its lateral distance.
 constexpr double steep = 0.5;
 
 Vec3 across(const Vec3& normal, const Vec3& v) { return v - normal.dot(v) * normal; }
 
-// What a point adds to those chosen, seen along the normal: its distance (squared) from one, the area of the triangle with
-// two, how far it lies outside the triangle of three.
+// Gain of a point over those chosen, seen along the normal: its squared distance from one, the area of the triangle
+// with two, its distance outside the triangle of three.
 double gain(const Manifold& chosen, const Vec3& p) {
     const auto at = [&](int i) -> const Vec3& { return chosen.points[std::size_t(i)].position; };
     const auto area = [&](int i, int k) { return chosen.normal.dot((at(k) - at(i)).cross(p - at(i))); };

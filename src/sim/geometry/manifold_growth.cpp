@@ -11,12 +11,12 @@
 namespace tumble {
 namespace {
 
-// Which faces meet (feature_contact.cpp): what is left of a feature without its vertex, edge and side.
+// Id of the faces that meet (feature_contact.cpp): a feature without its vertex, edge and side.
 std::uint64_t faces_of(const Manifold& m) { return m.points[0].feature >> 42; }
 
-// Of shapes with many corners there may be no room: then of the two nearest each other, seen along the normal, the one that hangs
-// higher gives way. Were it the highest of all, the points would gather where the body is deepest: it would tip over to the other
-// side, and back, for ever.
+// Shapes with many corners may have no room for a point. Then, of the two points nearest each other along the normal,
+// the higher one is removed. Removing the highest of all would gather the points where the body is deepest: it would
+// tip over to the other side and back without end.
 void add(const ContactPoint& p, Manifold& first, Manifold& more) {
     Manifold& to = first.count < Manifold::capacity ? first : more;
     if (to.count < Manifold::capacity) {
@@ -76,11 +76,12 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     const auto kept = [&](const ContactPoint& p) { return first.has(p.feature) || more.has(p.feature); };
     for (const ContactPoint& p : candidates)
         if (!kept(p) && sank(p.separation, deepest, radius)) add(p, first, more);
-    // Those of `found` come first. Of many corners these change all the time, as the body rolls: they are always in it.
+    // Points of `found` come first. Shapes with many corners change them all the time as they roll: these points are
+    // always kept.
     const std::size_t always = candidates.size() > 2 * Manifold::capacity ? std::size_t(found.count) : 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
         if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], first, more);
-    if (first.count == 0) {   // all that is left of the first has gone
+    if (first.count == 0) {   // all points of the first have gone
         std::swap(first.points, more.points);
         std::swap(first.count, more.count);
     }

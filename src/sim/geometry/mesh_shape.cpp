@@ -11,9 +11,10 @@
 namespace tumble {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertices, the lower first
+using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertex indices, the lower first
 
-// Turns triangles so that each sheet is wound as its first one is. What has one side only stays as it is and is none.
+// Orients triangles so that each component is wound as its first triangle. One-sided components (Moebius strips) stay
+// as they are and get no index.
 void turn_to_sheets(std::vector<CollisionMesh::Triangle>& triangles) {
     std::vector<std::array<std::uint32_t, 3>> vertices;
     vertices.reserve(triangles.size());
@@ -92,7 +93,7 @@ CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin) {
 }
 
 bool CollisionMesh::owns_normal(const Triangle& triangle, const Vec3& normal) const {
-    constexpr double slack = 1e-9;   // sine of the angle forgiven to rounding
+    constexpr double slack = 1e-9;   // sine of the angle allowed for rounding
     const auto farther = [&](std::uint32_t to, std::uint32_t from) {
         const Vec3 way = vertices[to] - vertices[from];
         return normal.dot(way) > slack * way.norm();

@@ -1,5 +1,5 @@
-// A fixed triangle mesh that collides as it is. Each triangle knows what lies beyond its border, so that a body sliding
-// over a seam between two triangles is not caught by it, and that a body beside a crease is on one side of both.
+// A fixed triangle mesh as collision shape. Each triangle knows its neighbors, so that an internal edge does not catch
+// a sliding body, and that a body beside a crease is on one side of both triangles.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -18,28 +18,30 @@ struct CollisionMesh {
     struct Triangle {
         std::array<std::uint32_t, 3> vertices{};
         Vec3 normal = Vec3::Zero();                       // unit, by the winding
-        // Corner opposite to edge i (from vertex i to i + 1) in the triangle beyond it; -1: the edge is open or crowded.
+        // Corner opposite to edge i (from vertex i to i + 1) in the neighboring triangle; -1: a border edge, or one of
+        // more than two triangles.
         std::array<std::int32_t, 3> across{-1, -1, -1};
-        std::array<std::uint32_t, 3> edge{};              // index of edge i, shared with the neighbour
-        std::uint32_t sheet = none;   // of open surfaces: of triangles joined by edges and wound alike, where that can be
+        std::array<std::uint32_t, 3> edge{};              // index of edge i, shared with the neighbor
+        // of open meshes: index of the connected component of consistently wound triangles, if there is one
+        std::uint32_t sheet = none;
     };
 
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
     std::uint32_t edge_count = 0;
     BoundsTree tree;                                // over the triangles, body frame
-    double radius = 0.0;                            // m, about the body's centre
-    bool closed = false;                            // solid inside: only the outer side pushes. Open: both sides do
+    double radius = 0.0;                            // m, about the body's center
+    bool closed = false;                            // true: solid inside, only the outer side pushes. false: both sides push
 
     Vec3 corner(std::uint32_t triangle, int i) const { return vertices[triangles[triangle].vertices[std::size_t(i)]]; }
 
-    /// Whether a contact normal (from this surface outward, unit) belongs to a triangle: beyond the part of the triangle
-    /// that lies farthest that way, a corner or an edge, the surface must not go on any farther.
+    /// Whether a contact normal (from this mesh outward, unit) belongs to a triangle: beyond the corner or edge that is
+    /// the triangle's farthest feature along it, the mesh must not extend farther.
     bool owns_normal(const Triangle& triangle, const Vec3& normal) const;
 
-    // Vertices joined to vertex v by an edge: ring[ring_start[v]] up to ring[ring_start[v + 1]].
+    // Vertices that an edge joins to vertex v: ring[ring_start[v]] up to ring[ring_start[v + 1]].
     std::vector<std::uint32_t> ring_start, ring;
-    // Triangles at vertex v, in the same way.
+    // Triangles at vertex v, stored in the same way.
     std::vector<std::uint32_t> fan_start, fan;
 };
 

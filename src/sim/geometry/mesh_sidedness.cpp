@@ -25,7 +25,7 @@ std::span<const std::uint32_t> fan_of(const CollisionMesh& s, std::uint32_t vert
     return std::span(s.fan).subspan(s.fan_start[vertex], s.fan_start[vertex + 1] - s.fan_start[vertex]);
 }
 
-// The normals of the sheet's triangles at a vertex, weighted by their angles there; none on the rim.
+// The normals of the component's triangles at a vertex, weighted by their angles there; none on the border.
 std::optional<Vec3> vertex_normal(const CollisionMesh& s, std::uint32_t vertex, std::uint32_t sheet) {
     Vec3 sum = Vec3::Zero();
     for (const std::uint32_t t : fan_of(s, vertex)) {
@@ -41,7 +41,7 @@ std::optional<Vec3> vertex_normal(const CollisionMesh& s, std::uint32_t vertex, 
     return sum;
 }
 
-// The surface's normal at a feature (NearestOnTriangle::feature) of a triangle; none on the rim.
+// The mesh's normal at a feature (NearestOnTriangle::feature) of a triangle; none on the border.
 std::optional<Vec3> normal_at(const CollisionMesh& s, std::uint32_t t, int feature) {
     const Triangle& triangle = s.triangles[t];
     if (feature == 0) return triangle.normal;
@@ -56,8 +56,9 @@ std::optional<Vec3> normal_at(const CollisionMesh& s, std::uint32_t t, int featu
     return sum;
 }
 
-// From a triangle down to where its sheet is nearest to the point, neighbour by neighbour: another fold of the sheet may be
-// nearer, but is no part of this one. Whether the point is behind it there; none where that is the rim.
+// Walks from a triangle over its neighbors to the place of its component that is nearest to the point; another fold of
+// the component may be nearer, but is not reached. Returns whether the point is behind it there; none where that is the
+// border.
 std::optional<bool> sheet_behind(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
     NearestOnTriangle best = nearest(s, t, point);
     double square = (point - best.point).squaredNorm();
@@ -82,7 +83,7 @@ std::optional<bool> sheet_behind(const CollisionMesh& s, std::uint32_t t, const 
     return normal->dot(point - best.point) < 0.0;
 }
 
-// Fills `piece`.
+// Fills `piece` with the connected pieces among the given triangles.
 void find_pieces(const CollisionMesh& s, std::span<const std::uint32_t> triangles, SideScratch& scratch) {
     auto& piece = scratch.piece;
     piece.resize(triangles.size());
@@ -112,7 +113,7 @@ void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> tri
     auto& behind = scratch.behind;
     behind.clear();
     for (const std::uint32_t t : triangles) behind.push_back(plane_behind(surface, t, point));
-    // The nearest place's own triangle is among them, and right: where all agree, all are. Most searches end here.
+    // The triangle of the nearest place is among them and right: if all agree, all are right. Most searches end here.
     const bool mixed = std::adjacent_find(behind.begin(), behind.end(), std::not_equal_to{}) != behind.end();
     if (!mixed || surface.closed) return;
     find_pieces(surface, triangles, scratch);

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-// A point's ends on the surfaces of A and B, body frames.
+// Ends of a point on the surfaces of A and B, body frames.
 struct Ends {
     Vec3 on_a, on_b;
 };
@@ -43,7 +43,7 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
         std::for_each(left_out.begin(), left_out.end(), add);
         return;
     }
-    std::vector<double> farness;   // squared distance from the nearest that is kept or chosen
+    std::vector<double> farness;   // squared distance from the nearest point that is kept or chosen
     for (const ContactPoint& p : left_out) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const Manifold& m : kept)
@@ -60,7 +60,7 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
 
 double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
     double deepest = std::numeric_limits<double>::infinity();
-    if (anchors.spares == 0) return deepest;   // the most part
+    if (anchors.spares == 0) return deepest;   // the most frequent case
     const double between = m.normal.dot(pose_b.position - pose_a.position);
     const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
@@ -71,14 +71,14 @@ double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, cons
     return deepest;
 }
 
-// All points side by side, those that are not there too: the loops have no ends of their own and become vector code.
+// All slots are computed side by side, unused ones too: loops of fixed length become vector code.
 void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
     const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
     const Vec3 between = other.position - of_face.position;   // the difference first: digits far from the origin
     const Vec3 n = of_face.rotation * anchors.normal;
     const auto &foot = anchors.feet.coordinate, &corner = anchors.corners.coordinate;
     constexpr int points = Manifold::capacity;
-    double arm[3][points], height[points];   // of the corners, from the centre of the face's body and over the feet
+    double arm[3][points], height[points];   // m, of the corners, from the center of the face's body and over the feet
     for (int k = 0; k < 3; ++k) {
         const double r0 = other.rotation(k, 0), r1 = other.rotation(k, 1), r2 = other.rotation(k, 2);
         for (int i = 0; i < points; ++i) arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);

@@ -1,9 +1,10 @@
-// A manifold tied to its two bodies: while they hardly move against each other, points, separations and normal follow
-// from the poses and need no new search.
+// A manifold tied to its two bodies: while their relative motion is small, points, separations and normal follow from
+// the poses and need no new search.
 //
-// The normal goes with the body whose face it belongs to, each point's two ends with their own bodies: the foot with the face,
-// the corner above it with the other body. The separation, the corner's height over the face, is then exact for faces, and right to
-// second order in the motion for edges: only where on the surfaces the points lie goes out of date.
+// The normal moves with the body whose face it belongs to, and each point's two ends with their own bodies: the foot
+// with the face, the corner above it with the other body. The separation, the corner's height over the face, is then
+// exact for faces, and right to second order in the motion for edges: only the places of the points on the surfaces go
+// out of date.
 #pragma once
 
 #include "sim/geometry/collider.h"
@@ -15,7 +16,7 @@
 namespace tumble {
 
 struct PersistentManifold {
-    // One end of each point, in the frame of its body: coordinate after coordinate, for all points side by side.
+    // One end of each point, in the frame of its body: one array per coordinate, for all points side by side.
     struct Ends {
         double coordinate[3][Manifold::capacity] = {};
         Vec3 operator[](std::size_t i) const { return {coordinate[0][i], coordinate[1][i], coordinate[2][i]}; }
@@ -23,15 +24,15 @@ struct PersistentManifold {
             for (int k = 0; k < 3; ++k) coordinate[k][i] = p[k];
         }
     };
-    Ends feet, corners;                                // feet: of the body that the normal belongs to
-    Vec3 normal = Vec3::Zero();                        // in the frame of that body
+    Ends feet, corners;                                // feet: in the frame of the body that the normal belongs to
+    Vec3 normal = Vec3::Zero();                        // unit, in the frame of that body
     bool normal_of_b = false;
     const Ends& on_a() const { return normal_of_b ? corners : feet; }
     const Ends& on_b() const { return normal_of_b ? feet : corners; }
 
-    // Points of the same two faces that are in no manifold, in the anchors of the first: their end on the body that the normal
-    // does not belong to, and how high the face lies there along the normal (m, in the frame of the face's body). Single precision:
-    // they only tell whether something has sunk by more than a part of its size.
+    // Reduced points of the same two faces, stored with the first manifold: the end on the body that the normal does
+    // not belong to, and the height of the face there along the normal (m, in the frame of the face's body). Single
+    // precision: they only detect whether a point has sunk by more than a fraction of its size.
     struct Spare {
         float point[3];
         float face;
@@ -44,15 +45,15 @@ struct PersistentManifold {
 /// `normal_of_b`: the normal is that of a face of B.
 PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
 
-/// Adds what was left out: of many, those farthest from what is kept and from each other.
+/// Adds reduced points: of many, those farthest from the kept ones and from each other.
 /// `kept`: the manifold, and its second one where there is one.
 void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
                  PersistentManifold& anchors);
 
-/// Separation of the spare that lies deepest, for `m` brought up to date; infinity where there is none.
+/// Separation (m) of the deepest spare, for a refreshed `m`; infinity without spares.
 double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
 
-/// Normal, positions and separations of `m` for new poses.
+/// Refreshes normal, positions and separations of `m` for new poses.
 void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
 
 }  // namespace tumble

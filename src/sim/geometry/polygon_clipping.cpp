@@ -23,7 +23,7 @@ void clip_to_prism(const std::vector<Vec3>& reference, const Vec3& normal, std::
             ClipVertex cut;
             cut.position = p.position + dp / (dp - dq) * (q.position - p.position);
             cut.feature = (std::uint64_t(1) << 40) | (std::uint64_t(p.edge) << 20) | side_label(std::uint32_t(side));
-            // Leaving: what follows runs along the side. Coming back: it goes on along the cut edge.
+            // Leaving: the following edge runs along the side. Entering: it continues the cut edge.
             cut.edge = dp <= 0.0 ? side_label(std::uint32_t(side)) : p.edge;
             spare.push_back(cut);
         }

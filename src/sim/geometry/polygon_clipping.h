@@ -1,5 +1,5 @@
-// Face against face: the incident polygon cut to the reference face's prism (Sutherland and Hodgman 1974),
-// with a label for each point that names the features it came from.
+// Face against face: the incident polygon clipped to the reference face's prism (Sutherland and Hodgman 1974), with a
+// label for each point that names its features.
 #pragma once
 
 #include "core/vector.h"
@@ -15,14 +15,15 @@ struct ClipVertex {
     std::uint32_t edge = 0;      // label of the polygon edge that starts here
 };
 
-/// Labels of edges that lie on side i of the reference face, apart from those of the incident polygon (its edge index).
+/// Labels of edges that lie on side i of the reference face, distinct from those of the incident polygon (its edge
+/// index).
 constexpr std::uint32_t side_label(std::uint32_t i) { return 0x80000u | i; }
 
 /// A polygon with labels, edge i from vertex i to i + 1.
 void label_polygon(const std::vector<Vec3>& corners, const std::vector<std::uint32_t>& vertex_labels,
                    std::vector<ClipVertex>& polygon);
 
-/// Keeps what lies inside all side planes of the reference polygon (counter-clockwise about `normal`).
+/// Clips the polygon to the inside of all side planes of the reference polygon (counterclockwise about `normal`).
 /// `spare` is working space.
 void clip_to_prism(const std::vector<Vec3>& reference, const Vec3& normal, std::vector<ClipVertex>& polygon,
                    std::vector<ClipVertex>& spare);

@@ -120,7 +120,7 @@ Polyhedron make_box(const Vec3& size) {
     const std::uint32_t loops[6][4] = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
     for (const auto& loop : loops) p.faces.push_back({Vec3::Zero(), 0.0, {loop, loop + 4}});
     p.complete();
-    for (int f = 0; f < 6; ++f) {   // exact planes: no rounding from the normalisation
+    for (int f = 0; f < 6; ++f) {   // exact planes: no rounding from the normalization
         p.faces[f].normal = Vec3::Unit(f / 2) * (f % 2 ? -1.0 : 1.0);
         p.faces[f].offset = h[f / 2];
     }

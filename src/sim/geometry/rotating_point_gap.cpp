@@ -40,7 +40,7 @@ double Swing::bend(double t) const {
     return -w_ * w_ * (c_ * cosine + d_ * sine);
 }
 
-// (C, D) = -R (cos x0, sin x0), and the turn alone takes the corner along  -R cos(wt - x0).
+// (C, D) = -R (cos x0, sin x0), and the rotation alone moves the corner along -R cos(wt - x0).
 double Swing::bottom(double h) const { return std::clamp(atan2_stable(-d_, -c_) / w_, 0.0, h); }
 
 Vec3 Swing::turned(double t) const {

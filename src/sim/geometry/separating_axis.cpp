@@ -31,8 +31,8 @@ FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose&
     const auto height_over = [&](const Polyhedron::Face& face) {
         return face.normal.dot(other_pose.position) - face.offset;
     };
-    // The face that the other's centre is highest above comes first. After it, only faces can win that would still do
-    // if the other reached no farther than its inner radius.
+    // The face with the other's center highest above it comes first. After it, a face can win only if it would still do
+    // with the other's extent reduced to its inner radius.
     std::uint32_t first = 0;
     double highest = lowest;
     for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
@@ -49,7 +49,7 @@ FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose&
     return best;
 }
 
-// A box about a box in another frame.
+// Bounding box of a box in another frame.
 Bounds turned(const Bounds& b, const Pose& pose) {
     const Vec3 center = pose.to_world(b.center()), half = pose.rotation.cwiseAbs() * (0.5 * b.extent());
     return {center - half, center + half};
@@ -57,14 +57,15 @@ Bounds turned(const Bounds& b, const Pose& pose) {
 
 Pose inverse(const Pose& p) { return {-(p.rotation.transpose() * p.position), p.rotation.transpose()}; }
 
-// Where an edge contact can be: in the other shape's bounds, and where both best faces leave room (normal . p >= least).
+// Region of possible edge contacts: in the other shape's bounds, and where both best faces leave room (normal . p >=
+// least).
 struct Region {
     Bounds bounds;
     Vec3 normal[2];
     double least[2];
 };
 
-// For the shallow overlaps that a simulation meets this leaves a handful of a thousand edges.
+// For the shallow overlaps of a simulation this leaves a handful of a thousand edges.
 void edges_in(const Polyhedron& shape, const Region& region, std::vector<std::uint32_t>& edges) {
     edges.clear();
     shape.edge_tree.query(region.bounds, [&](std::uint32_t e) {
@@ -73,11 +74,11 @@ void edges_in(const Polyhedron& shape, const Region& region, std::vector<std::ui
             if (std::max(region.normal[i].dot(tail), region.normal[i].dot(head)) < region.least[i]) return;
         edges.push_back(e);
     });
-    std::sort(edges.begin(), edges.end());   // ties between axes are decided by the lower edge, whatever the tree
+    std::sort(edges.begin(), edges.end());   // ties between axes go to the lower edge, independent of the tree
 }
 
-// In `shape`'s frame. Its best face f says: the other lies above f's plane lowered by the overlap; the other's best
-// face g says: this shape's part in the contact lies below g's plane. Each within `way`.
+// In `shape`'s frame. Its best face f: the other lies above f's plane lowered by the overlap. The other's best face g:
+// this shape's part of the contact lies below g's plane. Each within `way`.
 Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedron& other, const FaceAxis& g,
                       const Pose& other_pose, double way) {
     const Polyhedron::Face &own = shape.faces[f.face], &theirs = other.faces[g.face];
@@ -87,8 +88,8 @@ Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedr
             {own.offset + std::min(0.0, f.separation) - way, into.dot(other_pose.position) - theirs.offset - way}};
 }
 
-// Whether the two edges build a face of the Minkowski difference: their arcs on the Gauss map cross
-// (Gregorius 2013). a, b: A's face normals beside its edge; c, d: B's, negated; all in one frame.
+// Whether the two edges form a face of the Minkowski difference: their arcs on the Gauss map cross (Gregorius 2013). a,
+// b: A's face normals beside its edge; c, d: B's, negated; all in one frame.
 bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 bxa = b.cross(a), dxc = d.cross(c);
     const double cba = c.dot(bxa), dba = d.dot(bxa), adc = a.dot(dxc), bdc = b.dot(dxc);
@@ -125,7 +126,7 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
     }
 }
 
-// The face that shapes apart along `axis` slide past, if there is one: the one that separates most; else `axis`.
+// The face of largest separation that shapes separated along `axis` slide past, if there is one; else `axis`.
 SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, const SeparatingAxis& axis,
                            const Vec3& way, double smaller_radius, AxisChoice choice) {
     SeparatingAxis grazed = axis;

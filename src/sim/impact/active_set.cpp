@@ -7,8 +7,8 @@
 namespace tumble {
 namespace {
 
-// x = A^-1 x by Cholesky, A is overwritten; false when A is not positive definite. Eigen's own goes in blocks by the size
-// of the processor's cache, and so would the last digits.
+// x = A^-1 x by Cholesky, A is overwritten; returns false when A is not positive definite. Eigen's solver splits into
+// blocks by the size of the processor's cache, which would change the last digits.
 bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
     const Eigen::Index n = a.rows();
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -37,7 +37,7 @@ ActiveSet::ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, s
 bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
     bound_ = bound;
     work_ = 0.0;
-    if (bound.velocity) return solve_part(demands, multipliers);   // a bound is on all velocities together
+    if (bound.velocity) return solve_part(demands, multipliers);   // the bound is on all velocities together
     find_parts(demands);
     if (part_count_ == 1) return solve_part(demands, multipliers);
     bool met = true;
@@ -92,7 +92,7 @@ bool ActiveSet::solve_part(const std::vector<Demand>& demands, std::vector<doubl
     return demands.size() <= exact_ ? active_set() : sweeps();
 }
 
-// Only the bodies that the part touches take part: the cost is that of the part, not of the cluster.
+// Only the bodies that the component touches: the cost is that of the component, not of the cluster.
 void ActiveSet::place_bodies() {
     local_.clear();
     std::uint32_t count = 0;
@@ -145,14 +145,14 @@ bool ActiveSet::active_set() {
         }
         if (!take_in(worst)) {
             all_met = false;
-            out_[worst] = 1;   // it cannot be met with those held: the others still can
+            out_[worst] = 1;   // it cannot be met together with the held rows; the others still can
         }
     }
     return false;
 }
 
-// Moves lambda_i up from zero until row i is met; rows whose multiplier reaches zero on the way are let go. Goldfarb and
-// Idnani's step: d moves along the remainder z of w_i by t, the held multipliers by -t R^-1 Q^T w_i.
+// Increases lambda_i from zero until row i is met; rows whose multiplier reaches zero on the way are removed. Goldfarb
+// and Idnani's step: d moves along the remainder z of w_i by t, the held multipliers by -t R^-1 Q^T w_i.
 bool ActiveSet::take_in(std::size_t i) {
     std::vector<double>& lambda = *multipliers_;
     for (;;) {
@@ -187,15 +187,15 @@ bool ActiveSet::take_in(std::size_t i) {
     }
 }
 
-// w = Q along + remainder. A second pass where the first has cancelled digits (Daniel, Gragg, Kaufman, Stewart 1976:
-// twice is enough). False when w depends on the rows held.
+// w = Q along + remainder. A second pass where cancellation has cost digits in the first (Daniel, Gragg, Kaufman,
+// Stewart 1976: twice is enough). Returns false when w depends on the held rows.
 bool ActiveSet::split(const VelocityRow& row) {
     remainder_.setZero(size_);
     row.add_to(remainder_, 1.0);
     along_.assign(held_.size(), 0.0);
     for (std::size_t k = 0; k < held_.size(); ++k) {
         const auto q = basis(k);
-        double t = 0.0;   // the row has twelve numbers at most
+        double t = 0.0;   // the row has at most twelve numbers
         if (row.a != VelocityRow::none) t += row.on_a.dot(q.segment<6>(6 * Index(row.a)));
         if (row.b != VelocityRow::none) t += row.on_b.dot(q.segment<6>(6 * Index(row.b)));
         along_[k] = t;
@@ -237,7 +237,8 @@ void ActiveSet::hold(std::size_t i) {
     out_[i] = 1;
 }
 
-// Column k leaves R; each later column moves up one place and its entry below the diagonal is turned away (Givens).
+// Removes column k of R; each later column moves up one place and its entry below the diagonal is rotated away
+// (Givens).
 void ActiveSet::let_go(std::size_t k) {
     out_[held_[k]] = 0;
     sines_.clear();
@@ -267,9 +268,10 @@ void ActiveSet::let_go(std::size_t k) {
     basis_.resize(held_.size() * std::size_t(size_));
 }
 
-// Of all multipliers that make the same change, those of the least sum of squares: a flat box presses on its four corners
-// alike, not on two of them. With B = W_tight Q, over all rows that are just met, and B^T B c = Q^T d these are B c; where
-// one would turn negative, as far from the active set's own towards them as none does.
+// Of all multipliers with the same change, chooses those of the least sum of squares: a flat box presses equally on its
+// four corners, not on two of them. With B = W_tight Q, over all rows that are just met, and B^T B c = Q^T d these are
+// B c; where one would become negative, the multipliers move from the active set's own towards them as far as none
+// does.
 void ActiveSet::spread() {
     std::vector<double>& lambda = *multipliers_;
     const std::size_t own = held_.size();
@@ -277,7 +279,7 @@ void ActiveSet::spread() {
     for (std::size_t i = 0; i < lambda.size(); ++i)
         if (!out_[i] && value(i) <= (*demands_)[i].tolerance) tight_.push_back(i);
     if (own == 0 || tight_.empty()) return;
-    // Rows that add a direction extend Q for now; those that add none are rows of B beyond the held ones.
+    // Rows that add a direction extend Q temporarily; dependent rows are rows of B beyond the held ones.
     std::vector<std::size_t> dependent;
     for (const std::size_t i : tight_) {
         split(local_[i]);
@@ -311,14 +313,14 @@ void ActiveSet::spread() {
                 lambda[rows[std::size_t(k)]] = std::max(0.0, now[k] + share * (even[k] - now[k]));
         }
     }
-    // What they press with now they are held by, too: unheld, their speeds are only met to the tolerance.
+    // Rows that got a positive multiplier join the held set: otherwise their speeds are only met to the tolerance.
     if (std::all_of(held_.begin(), held_.end(), [&](std::size_t i) { return lambda[i] > 0.0; })) return;
     held_.resize(own);
     triangle_.resize(own * (own + 1) / 2);
     basis_.resize(own * std::size_t(size_));
 }
 
-// One step of iterative refinement on W^T W lambda = -s of the rows held, from the change that the multipliers make.
+// One step of iterative refinement on W^T W lambda = -s of the held rows, from the change that the multipliers make.
 void ActiveSet::refine() {
     std::vector<double>& lambda = *multipliers_;
     change_.setZero(size_);

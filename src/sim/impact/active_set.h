@@ -1,16 +1,18 @@
 // The least change d of the velocities that makes a set of contacts stop approaching:
 //
-//     minimise |d|^2   subject to   w_i . d + s_i >= 0   for i in the set,   w_i unit rows, s_i what they have now.
+//   minimize |d|^2   subject to   w_i . d + s_i >= 0   for i in the set,   w_i unit rows, s_i their present values.
 //
 // Its solution is d = sum of lambda_i w_i with lambda_i >= 0 (no contact pulls) and lambda_i > 0 only where the contact
-// is just stopped: the impulses. Solved by the dual active set method of Goldfarb and Idnani 1983, "A numerically stable
-// dual method for solving strictly convex quadratic programs": the most violated row is taken in, a row whose impulse
-// would turn negative is let go, and no row is ever taken in that depends on those held (the four corners of a flat box
-// have rank three). The held rows are kept as W = Q R, orthogonalised twice where it matters, so the result is exact to
-// rounding. Where rows depend on each other d is unique and the multipliers are not: they are then spread evenly.
+// is just stopped: the impulses. Solved by the dual active set method of Goldfarb and Idnani 1983, "A numerically
+// stable dual method for solving strictly convex quadratic programs":
+// - the most violated row is added;
+// - a row whose impulse would become negative is removed;
+// - no row is added that depends on the held rows (the four corners of a flat box have rank three).
+// The held rows are kept as W = Q R, orthogonalized twice where it matters, so the result is exact to rounding. Where
+// rows depend on each other d is unique and the multipliers are not: they are then spread evenly.
 //
-// Contacts that hang together by no body have nothing to do with each other: each such part of the set is solved by itself.
-// Parts of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
+// Contacts that no body connects are independent: each connected component of the set is solved by itself. Components
+// of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
 #pragma once
 
 #include "sim/impact/settings.h"
@@ -21,15 +23,16 @@
 
 namespace tumble {
 
-/// A length that the velocities may not exceed by a projection, and what they are before it.
+/// An upper bound of the length of the velocities after the projection, and the velocities before it.
 struct VelocityBound {
-    const Eigen::VectorXd* velocity = nullptr;   // none: no bound
+    const Eigen::VectorXd* velocity = nullptr;   // null: no bound
     double longest = 0.0;
 };
 
 class ActiveSet {
 public:
-    /// `rows` of unit length over `bodies` bodies; kept by reference. Parts of up to `exact` demands are solved exactly.
+    /// `rows` of unit length over `bodies` bodies; kept by reference. Components of up to `exact` demands are solved
+    /// exactly.
     ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
 
     struct Demand {
@@ -38,10 +41,11 @@ public:
         double tolerance;   // a row is satisfied from -tolerance on
     };
 
-    /// Finds `multipliers`, one for each demand. False when not all demands can be met together within the bound, if there
-    /// is one (or, beyond reason, were not met in time); the multipliers are then those of the rows that can.
+    /// Finds `multipliers`, one for each demand. Returns false when not all demands can be met together within the
+    /// bound, if there is one (or, exceptionally, when the iterations ran out); the multipliers are then those of the
+    /// rows that can.
     bool solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound = {});
-    /// What the last solve has taken, in squared demands of its parts.
+    /// Cost of the last solve: sum over its components of the squared number of demands.
     double work() const { return work_; }
 
 private:
@@ -69,22 +73,22 @@ private:
     const std::vector<VelocityRow>& rows_;
     std::size_t exact_;
     double work_ = 0.0;
-    std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find of those that demands connect
-    std::vector<std::vector<std::uint32_t>> parts_;   // demands; the first part_count_ of them are in use
+    std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find over the demands
+    std::vector<std::vector<std::uint32_t>> parts_;   // demands of the components; the first part_count_ of them are in use
     std::size_t part_count_ = 0;
     std::vector<Demand> part_demands_;
     std::vector<double> part_multipliers_;
-    std::vector<std::uint32_t> place_;         // body of the cluster to body of the part
+    std::vector<std::uint32_t> place_;         // index of a cluster body in the component
     const std::vector<Demand>* demands_ = nullptr;
     std::vector<double>* multipliers_ = nullptr;
-    std::vector<VelocityRow> local_;           // the set's rows, over the bodies they touch
+    std::vector<VelocityRow> local_;           // the set's rows, over the bodies that they touch
     Index size_ = 0;
     VelocityBound bound_;
-    Eigen::VectorXd start_;                    // the bound's velocities of these bodies
-    std::vector<std::size_t> held_, tight_;    // W = Q R of the held; just met without being held
+    Eigen::VectorXd start_;                    // velocities of these bodies before the projection
+    std::vector<std::size_t> held_, tight_;    // held rows, W = Q R; rows met with equality without being held
     std::vector<char> out_;                    // held, or given up
     std::vector<double> basis_, triangle_;     // Q by columns; R packed by columns
-    Eigen::VectorXd change_, remainder_;       // d; what Q leaves of a row
+    Eigen::VectorXd change_, remainder_;       // d; remainder of a row after projection on Q
     std::vector<double> along_, weights_;      // Q^T w; R^-1 Q^T w
     std::vector<double> sines_, cosines_;
 };

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// Minimises k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
+// Minimizes k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
 // with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
 // "Computing a trust region step").
 std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius,
@@ -63,7 +63,7 @@ ImpactFriction::Block ImpactFriction::make_block(const ImpactSystem& cluster, st
     return block;
 }
 
-// Where there is no normal impulse there is no friction: most contacts of a heap have none in an impact.
+// Without a normal impulse there is no friction: most contacts of a heap have none in an impact.
 void ImpactFriction::add_blocks(const ImpactSystem& cluster) {
     const std::size_t before = blocks_.size();
     for (std::size_t i = 0; i < cluster.size(); ++i) {
@@ -80,7 +80,7 @@ double ImpactFriction::tolerance() const {
     return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
 }
 
-// Finds a lone block's three impulses; among others goes one round towards them. Returns the change of speed made, m/s.
+// Solves a lone block's three impulses; among others does one round towards them. Returns the change of speed, m/s.
 double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal) const {
     const std::size_t i = block.contact;
     const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance, k1 = block.second_compliance;
@@ -139,7 +139,7 @@ void ImpactFriction::look(const ImpactSystem& cluster, std::vector<State>& state
     for (const Block& block : blocks_) states.push_back(state(cluster, block));
 }
 
-// Goes a share of the way from the impulses that the cluster has to others.
+// Interpolates between two sets of impulses of the cluster.
 void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         Block& block = blocks_[k];
@@ -152,7 +152,8 @@ void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, 
     }
 }
 
-// Impulses that change by d and the speeds at them from u to u + K d do the work d . u + d . K d / 2, K the compliance.
+// Impulses that change by d and change their speeds from u to u + K d do the work d . u + d . K d / 2, K the
+// compliance.
 void ImpactFriction::limit_energy(ImpactSystem& cluster) {
     const auto sum = [&](const std::vector<State>& from, const std::vector<State>& to, auto&& term) {
         double all = 0.0;
@@ -166,7 +167,8 @@ void ImpactFriction::limit_energy(ImpactSystem& cluster) {
     set(cluster, kept_, start_, 1.0);
     relax_all(cluster, Normal::fixed);
     look(cluster, least_);
-    // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without cancellation.
+    // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without
+    // cancellation.
     const double g0 = std::min(0.0, sum(start_, least_, mean)), slope = sum(least_, kept_, [](double from, double) { return from; });
     const double bend = 0.5 * sum(least_, kept_, [](double from, double to) { return to - from; });
     const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * bend * g0));

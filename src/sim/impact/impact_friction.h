@@ -1,14 +1,16 @@
-// Friction within an impact: Coulomb's law for impulses, at the moment of the collision.
+// Friction within an impact: Coulomb's law for impulses, at the time of the impact.
 //
-// Each contact's friction impulse f lies across its normal within the disc |f| <= mu j of its normal impulse j: the slip that is
-// left is zero, or f is at the disc's edge and opposes it. Where friction turns a body it changes v_rel as well. The normal
-// impulses change with it, so that v_rel stays what the impact law without friction made of it: -e v_rel of before, where it is the
-// only contact. A rod that lands on its end and does not slip comes back at e times the speed, by every law there is (Newton's,
-// Poisson's, Stronge's). Found by relaxing contact after contact, v_rel first, then f over its disc.
+// Each contact's friction impulse f lies across its normal within the disc |f| <= mu j of its normal impulse j: either
+// the remaining slip is zero, or f is at the disc's edge and opposes it. Where friction rotates a body it changes v_rel
+// as well. The normal impulses change with it, so that v_rel keeps the value that the impact law without friction gave
+// it: -e times the v_rel before the impact, for a single contact. A rod that lands on its end and does not slip
+// rebounds at e times the speed, by every law there is (Newton's, Poisson's, Stronge's). Solved by relaxing contact
+// after contact, v_rel first, then f over its disc.
 //
-// Newton's restitution with Coulomb's friction can gain energy (Kane and Levinson 1985, "Dynamics", the double pendulum; Stronge
-// 1990, "Rigid body collisions with friction"). Friction must not: where it would leave more than there was without, the impulses
-// lie on the way from those that leave the least energy with the normal impulses as they were, as far as they leave no more.
+// Newton's restitution with Coulomb's friction can gain energy (Kane and Levinson 1985, "Dynamics", the double
+// pendulum; Stronge 1990, "Rigid body collisions with friction"). Friction must not: where the energy would exceed that
+// without friction, the impulses are interpolated towards those that leave the least energy with unchanged normal
+// impulses, until it does not.
 #pragma once
 
 #include "sim/impact/impact_system.h"
@@ -24,26 +26,27 @@ public:
 
     ImpactFriction(const ImpactSystem& cluster, Precision precision) : precision_(precision), has_block_(cluster.size(), 0) {}
 
-    /// Brings the friction impulses up to the cluster's present normal impulses and velocities. False when next to nothing
-    /// changed.
+    /// Updates the friction impulses for the cluster's present normal impulses and velocities. Returns false when the
+    /// change is negligible.
     bool apply(ImpactSystem& cluster);
 
     /// Writes the impulses to the contacts, N s on B.
     void store(const ImpactSystem& cluster, std::vector<Contact>& contacts) const;
 
 private:
-    // What a block's three impulses are (N s: normal, f0, f1) and what its contact does (m/s: v_rel, slip along the two).
+    // A block's three impulses (N s: normal, f0, f1) and its contact's speeds (m/s: v_rel, slip along the two).
     struct State {
         std::array<double, 3> impulse, speed;
     };
     enum class Normal { fixed, adapted };   // impulses
 
     struct Block {
-        std::size_t contact;             // of the cluster
-        Vec3 first, second;              // principal directions of the compliance across the normal
+        std::size_t contact;             // index in the cluster
+        Vec3 first, second;              // unit, world: principal directions of the compliance across the normal
         VelocityRow first_row, second_row;
         double first_offset, second_offset;       // m/s
-        double first_compliance, second_compliance, normal_first, normal_second;   // 1/kg, the last two between normal and tangents
+        // 1/kg, the last two couple the normal with the tangents
+        double first_compliance, second_compliance, normal_first, normal_second;
         double f0 = 0.0, f1 = 0.0;       // N s along the two
         double kept = 0.0;               // m/s: v_rel before friction
     };

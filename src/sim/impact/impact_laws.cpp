@@ -18,15 +18,15 @@ ActiveSet::Demand demand(const ImpactSystem& cluster, std::size_t i, double leas
     return {std::uint32_t(i), (cluster.speed(i) - least_speed) / length, cluster.rounding() / length};
 }
 
-// Stopped at walls that all move with w, |y|^2 grows by 2 w.d - |d|^2 <= |w|^2. Much more is a way out between walls that
-// move against each other and are all but parallel, and none. Without moving walls |y| cannot grow.
+// Stopped at walls that all move with w, |y|^2 grows by 2 w.d - |d|^2 <= |w|^2. A much larger result would be an escape
+// between nearly parallel walls in relative motion, and is rejected. Without moving walls |y| cannot grow.
 VelocityBound bound(const ImpactSystem& cluster) {
     if (cluster.wall_velocity() == 0.0) return {};
     const double wall = tuning::impact_wedge * cluster.wall_velocity();
     return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
 }
 
-// Adds the change of y that multipliers make to d; returns lambda . s.
+// Adds to d the change of y that the multipliers make; returns lambda . s.
 double add_change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
                   Eigen::VectorXd& d) {
     double work_before = 0.0;
@@ -38,11 +38,11 @@ double add_change(const ImpactSystem& cluster, const std::vector<ActiveSet::Dema
     return work_before;
 }
 
-// The factor at which a change neither gains nor loses energy: -2 d.y / d.d of a Householder reflection.
+// The factor at which a change keeps the energy: -2 d.y / d.d of a Householder reflection.
 double reflection_factor(double work_before, double square) { return square > 0.0 ? -2.0 * work_before / square : 0.0; }
 
-// The change of y that multipliers make, and their work: the kinetic energy (as seen from the walls, where they move)
-// grows by lambda . s + |d|^2 / 2, with s = w . y + offset before.
+// The change of y that multipliers make, and their work: the kinetic energy (in the frame of the walls, where they
+// move) grows by lambda . s + |d|^2 / 2, with s = w . y + offset before the change.
 struct Change {
     Eigen::VectorXd d;
     double work_before = 0.0, square = 0.0;   // lambda . s, |d|^2
@@ -70,7 +70,7 @@ public:
           slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
           change_(Eigen::VectorXd::Zero(cluster.velocity().size())), changed_(cluster.bodies() + 1, 1) {
-        // What is not dynamic has the last place, and never changes.
+        // A body that is not dynamic has the last place, and never changes.
         const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
         for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
         for (std::size_t i = 0; i < cluster.size(); ++i) rests_.push_back(!cluster.flies(i) && cluster.speed(i) > -resting);
@@ -97,13 +97,13 @@ public:
     }
 
 private:
-    // The approaching contacts, at first without those at rest; false when none of them bounces.
+    // Collects the approaching contacts, at first without those at rest; returns false when none of them bounces.
     bool gather(bool first) {
         active_.clear();
         restitution_.clear();
         bool any = false;
         for (std::size_t i = 0; i < cluster_.size(); ++i) {
-            // Else it is as it was after the pass before.
+            // Else its speed is that of the last pass.
             if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
             if (!(cluster_.speed(i) < -slow_) || (first && rests_[i])) continue;
             active_.push_back(demand(cluster_, i, 0.0));
@@ -114,12 +114,13 @@ private:
     }
 
     // With d the stopping change and q the same weighted by each contact's restitution: y += f (d + q). The factor
-    // f = -d.y / d.d is one but for rounding and what sweeps leave over, and makes e = 1 a Householder reflection, which
-    // keeps the energy whatever d is. Where restitutions differ d + q may gain energy: it then goes as far as it does not.
+    // f = -d.y / d.d is one except for rounding and the error of sweeps, and makes e = 1 a Householder reflection,
+    // which keeps the energy for any d. Where restitutions differ d + q may gain energy: it is then scaled down until
+    // it does not.
     bool reflect() {
         projection_.solve(active_, lambda_, bound(cluster_));
         const double f = 0.5 * reflection();
-        // Squeezed between moving walls there is nothing to stop at, and the impulses cancel: no bounce.
+        // Between closing walls no stopping change exists, and the impulses cancel: no bounce.
         if (!(f > 0.0 && f < 2.0)) return false;
         for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
         apply(cluster_, active_, lambda_, std::min(f, reflection()));
@@ -129,7 +130,7 @@ private:
         return true;
     }
 
-    // Change::reflection() from the bodies of the active contacts alone: a pass touches few of a heap.
+    // Change::reflection() from the bodies of the active contacts alone: a pass touches few bodies of a heap.
     double reflection() {
         const double work_before = add_change(cluster_, active_, lambda_, change_);
         double square = 0.0;
@@ -138,7 +139,7 @@ private:
                 if (body == VelocityRow::none) continue;
                 auto of_body = change_.segment<6>(6 * Eigen::Index(body));
                 square += of_body.squaredNorm();
-                of_body.setZero();   // which counts each body once, and leaves all zero for the next time
+                of_body.setZero();   // counts each body once, and leaves all zero for the next use
             }
         return reflection_factor(work_before, square);
     }
@@ -147,10 +148,10 @@ private:
         return std::all_of(restitution_.begin(), restitution_.end(), [](double e) { return e == 1.0; });
     }
 
-    // One over the margin by which one direction can lie inside all contacts' half-spaces: |z| for the least z with
+    // Inverse of the margin by which one direction can lie inside all contacts' half-spaces: |z| for the least z with
     // w_i . z >= 1. Every reflection moves y along z by at least that margin of its own length, so that all of them
-    // together are no longer than |y| |z|. Zero for jammed sets, whose rows hold each other in balance, and for sets too
-    // large to tell: they get no more passes.
+    // together are no longer than |y| |z|. Zero for jammed sets, whose rows balance each other, and for sets too large
+    // to compute: they get no more passes.
     double depth() {
         if (cluster_.size() > tuning::projection_contacts) return 0.0;
         std::vector<ActiveSet::Demand> all;
@@ -160,7 +161,7 @@ private:
         return std::sqrt(Change(cluster_, all, lambda).square);
     }
 
-    // Between walls that close in, each pass would throw the bodies faster.
+    // Between closing walls, each pass would increase the speeds.
     bool squeezed(int pass) {
         if (cluster_.wall_velocity() == 0.0) return false;
         if (pass > 0) return cluster_.velocity().norm() > longest_;
@@ -176,8 +177,8 @@ private:
     std::vector<ActiveSet::Demand> active_;
     std::vector<double> restitution_, lambda_;
     Eigen::VectorXd change_;                                        // zero between uses
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: their places in the cluster
-    std::vector<char> changed_;                                     // by place: whether the last pass may have
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: the positions of its bodies in the cluster
+    std::vector<char> changed_;                                     // by position: whether the last pass may have changed it
     std::vector<char> rests_;                                       // by contact
 };
 
@@ -202,9 +203,9 @@ bool stop(ImpactSystem& cluster) {
     return met;
 }
 
-// Newton's law asks for more than there is energy for when restitutions differ, or when a contact that parts is hit by
-// the others. Then y lies on the way from the solution y0 of e = 0 to Newton's, where the energy is what it was: both
-// stop every approach, so all between them do.
+// Newton's law needs more energy than available when restitutions differ, or when other contacts hit one that parts.
+// Then y is interpolated between the solution y0 of e = 0 and Newton's, where the energy equals the initial one: both
+// stop every approach, so all points between them do.
 int resolve_together(ImpactSystem& cluster, double threshold) {
     if (!bounces(cluster, threshold)) return 0;
     std::vector<ActiveSet::Demand> stopping, bouncing;
@@ -233,7 +234,7 @@ int resolve_together(ImpactSystem& cluster, double threshold) {
         for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = share * lambda[i] + (1.0 - share) * least[i];
     }
     const double reflection = Change(cluster, bouncing, lambda).reflection();
-    // With e = 1 all along, the energy is kept to the last digits, not only not gained.
+    // With e = 1 throughout, the energy is kept to the last digits, not only bounded.
     apply(cluster, bouncing, lambda, elastic ? reflection : std::min(1.0, reflection));
     return 1;
 }

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// Lower Cholesky factor; a direction without compliance (a pivot that is not positive) gets a column of zeros.
+// Lower Cholesky factor; a direction without compliance (a nonpositive pivot) gets a column of zeros.
 Mat3 cholesky(const Mat3& m) {
     Mat3 g = Mat3::Zero();
     for (int j = 0; j < 3; ++j) {
@@ -67,7 +67,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
         if (!c.touching()) continue;
         VelocityRow row = relative_row(c, c.normal);
         const double length = std::sqrt(row.squared_norm());
-        if (!(length > 0.0)) continue;   // nothing here can move
+        if (!(length > 0.0)) continue;   // the contact has no mobility
         row.on_a /= length;
         row.on_b /= length;
         index_.push_back(k);

@@ -1,6 +1,6 @@
-// The touching contacts of an island as one impact sees them: bodies in velocities weighted by mass (velocity_row.h), each
-// contact a unit row with v_rel = length (w . y + offset). The offset is the share of fixed and kinematic bodies, which
-// have a velocity but no place in y. An impulse j moves y by j length along w.
+// Equations of one impact: the touching contacts of an island, over mass-weighted velocities of its bodies
+// (velocity_row.h). Each contact is a unit row with v_rel = length (w . y + offset). The offset is the contribution of
+// fixed and kinematic bodies, which have a velocity but no entry in y. An impulse j moves y by j length along w.
 #pragma once
 
 #include "sim/contact/model/contact.h"
@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// What an impact can reach: dynamic bodies that hang together, and their contacts; both ascending.
+/// Bodies that an impact can reach: connected dynamic bodies, and their contacts; both ascending.
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;
 };
@@ -22,7 +22,7 @@ struct MassRoot {
     Mat3 turn;            // kg^-1/2 / m; by Cholesky in the body's frame, where needles and plates lose no digits
 
     explicit MassRoot(const Body& body);
-    /// n . (v + omega x r) as a form of y, for an arm r.
+    /// n . (v + omega x r) as a form of y, for an arm r and direction n.
     Vec6 row(const Vec3& arm, const Vec3& direction) const;
     /// y of the body's velocities.
     Vec6 weighted(const Body& body) const;
@@ -30,7 +30,7 @@ struct MassRoot {
 
 class ImpactSystem {
 public:
-    /// Takes in the island's touching contacts. Both lists are kept by reference; nothing is changed before store().
+    /// Reads the island's touching contacts. Both lists are kept by reference; nothing is changed before store().
     ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
 
     std::size_t size() const { return rows_.size(); }
@@ -43,10 +43,10 @@ public:
     /// v_rel, m/s.
     double speed(std::size_t i) const { return length_[i] * (rows_[i].dot(velocity_) + offset_[i]); }
     double length(std::size_t i) const { return length_[i]; }   // kg^-1/2
-    /// Approaches slower than this are rounding, m/s. Follows from the velocities at the start.
+    /// m/s: slower approaches are rounding. Follows from the initial velocities.
     double rounding() const { return rounding_; }
     bool approaching(std::size_t i) const { return speed(i) < -rounding_; }
-    /// |y| of all the cluster's bodies if they went along with the fastest moving wall; 0 where none moves.
+    /// |y| of all the cluster's bodies moving with the fastest wall; 0 without a moving wall.
     double wall_velocity() const { return wall_velocity_; }
     const Eigen::VectorXd& velocity() const { return velocity_; }
 
@@ -61,19 +61,19 @@ public:
     }
     /// Adds `amount` N s along a form from relative_row().
     void push_along(const VelocityRow& row, double amount) { row.add_to(velocity_, amount); }
-    double impulse(std::size_t i) const { return impulse_[i]; }   // N s, of all pushes
+    double impulse(std::size_t i) const { return impulse_[i]; }   // N s, sum of all pushes
 
-    /// Writes the velocities of the bodies that have changed, and each touching contact's impulse and v_rel.
+    /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel.
     void store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const;
 
 private:
     std::uint32_t place(std::uint32_t body) const;
 
-    const std::vector<std::uint32_t>& body_index_;   // place to body, ascending
+    const std::vector<std::uint32_t>& body_index_;   // position to body, ascending
     const std::vector<Contact>& contacts_;
     const std::vector<Body>& bodies_;
     std::vector<MassRoot> roots_;
-    Eigen::VectorXd velocity_, start_;               // y now and at the start
+    Eigen::VectorXd velocity_, start_;               // present and initial y
     std::vector<std::uint32_t> index_;               // row to contact
     std::vector<VelocityRow> rows_;
     std::vector<double> length_, offset_, impulse_;

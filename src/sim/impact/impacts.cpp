@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// Most steps of most islands hold no impact: that is told apart from the contacts as they are.
+// Most steps of most islands have no impact: this is decided from the contacts alone.
 bool may_collide(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                  const ImpactSettings& settings) {
     for (const std::uint32_t k : island.contacts) {
@@ -35,8 +35,8 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
     return passes + 1;
 }
 
-// Friction may turn a body so that it approaches again: then there is more of the impact, with friction's disc grown by
-// it. A bounded number of rounds, the later ones without restitution; the last word is that nothing approaches.
+// Friction may rotate a body so that it approaches again: then the impact continues, with friction's disc enlarged
+// accordingly. The rounds are bounded, the later ones are without restitution; at the end nothing approaches.
 void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
     for (int round = 0; round < tuning::friction_rounds; ++round) {
         if (!friction.apply(cluster) || !approaching(cluster)) return;
@@ -55,7 +55,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     if (passes == 0) return 0;
     if (settings.friction) {
         ImpactFriction friction(cluster, settings.complete ? ImpactFriction::Precision::last_digits : ImpactFriction::Precision::step);
-        // At a step, what friction makes approach again is left to the solver of resting contact.
+        // At a step, contacts that friction makes approach again are left to the solver of resting contact.
         if (settings.complete) add_friction(cluster, settings, friction);
         else friction.apply(cluster);
         friction.store(cluster, contacts);
@@ -68,7 +68,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     Island bounced;
     for (const std::uint32_t k : island.contacts) {
         const Contact& c = contacts[k];
-        // A blow that goes through a contact at rest may leave it parting by rounding: that is no bounce.
+        // An impulse through a contact at rest may leave it parting by rounding, which is not a bounce.
         if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * threshold && c.restitution > 0.0)) continue;
         if (bodies[c.a].flew || bodies[c.b].flew) continue;
         bounced.contacts.push_back(k);

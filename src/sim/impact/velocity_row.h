@@ -1,8 +1,8 @@
-// One linear form of the velocities of a cluster of bodies, in velocities weighted by mass.
+// One linear form of the mass-weighted velocities of a cluster of bodies.
 //
-// A body's weighted velocity is y = (M^1/2 v, C^-1 omega) with C C^T = I^-1. In y the kinetic energy is |y|^2 / 2, so the
-// least change of motion is the least distance, and the impulse along a form moves y along the form itself: whatever the
-// masses, one length measures all. v = M^-1/2 y_1..3, omega = C y_4..6.
+// A body's mass-weighted velocity is y = (M^1/2 v, C^-1 omega) with C C^T = I^-1. In y the kinetic energy is |y|^2 / 2,
+// so the least change of motion is the least distance, and the impulse along a form moves y along the form itself,
+// independent of the masses. v = M^-1/2 y_1..3, omega = C y_4..6.
 #pragma once
 
 #include "core/vector.h"
@@ -13,10 +13,10 @@ namespace tumble {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// w . y over at most two bodies; a body that is not dynamic has no place in y.
+/// w . y over at most two bodies; a body that is not dynamic has no entry in y.
 struct VelocityRow {
     static constexpr std::uint32_t none = UINT32_MAX;
-    std::uint32_t a = none, b = none;   // places of the bodies in y, six numbers each
+    std::uint32_t a = none, b = none;   // positions of the bodies in y, six numbers each
     Vec6 on_a = Vec6::Zero(), on_b = Vec6::Zero();
 
     double dot(const Eigen::VectorXd& y) const {

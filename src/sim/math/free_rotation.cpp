@@ -9,16 +9,16 @@
 namespace tumble {
 namespace {
 
-// A modulus this small leaves sines: its square is below the rounding of 1.
+// For a modulus this small the functions are sines: its square is below the rounding of 1.
 constexpr double smallest_modulus = 1e-9;
-// Squares of (relative) momenta below this are at the end of a double's range; whatever wobbles so little is steady.
+// Squares of (relative) momenta below this are at the end of a double's range; so small a wobble counts as steady.
 constexpr double negligible = 1e-280;
 
 struct HalfAngle {
     double cos, sin;
 };
 
-/// Of the angle in (-pi, pi] whose cosine and sine are given.
+/// The angle in (-pi, pi] with this cosine and sine.
 HalfAngle half_angle(double c, double s) {
     if (c >= 0.0) {
         const double h = std::sqrt(0.5 * (1.0 + c));
@@ -28,7 +28,7 @@ HalfAngle half_angle(double c, double s) {
     return {0.5 * s / h, h};
 }
 
-/// The same orientation with a length of one to second order of what rounding has changed it by.
+/// The same orientation, with a length of one to second order of its rounding error.
 Quat unit(const Quat& q) { return Quat(q.coeffs() * (1.5 - 0.5 * q.squaredNorm())); }
 
 }  // namespace
@@ -48,7 +48,7 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     const double most = principal_inertia.maxCoeff();
     if (principal_inertia.minCoeff() == most) return set_steady(length * largest / most);
 
-    // Moments near 1, by a power of two: their differences must stay what they are to the last bit.
+    // Moments near 1, scaled by a power of two: their differences must stay exact to the last bit.
     const double unit_inertia = std::ldexp(1.0, std::ilogb(most));
     const Vec3 inertia = principal_inertia / unit_inertia;
     const double rate = length * largest / unit_inertia;
@@ -58,7 +58,7 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     m.cwiseAbs().maxCoeff(&main);
     if (m.cross(m.cwiseQuotient(inertia)).isZero(0.0)) return set_steady(rate / inertia[main]);
 
-    // Axes by moment of inertia; then turned round where need be, so that m circles axis 3 of (1, 2, 3).
+    // Axes by moment of inertia; then cyclically permuted where needed, so that m circles axis 3 of (1, 2, 3).
     std::array<int, 3> o{0, 1, 2};
     std::sort(o.begin(), o.end(), [&](int a, int b) { return inertia[a] < inertia[b]; });
     // 2 T Imid - |L|^2, > 0 when m circles the axis of the least moment.
@@ -74,7 +74,7 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     const double b = m2 * m2 * (d21 / i2) + m3 * m3 * (d31 / i3);   // ||L|^2 - 2 T I1|
     if (!(a > negligible) || !(d32 * b > negligible)) return set_steady(rate / inertia[main]);
 
-    const double sense = std::copysign(1.0, m3) * s;   // of m's way around axis 3
+    const double sense = std::copysign(1.0, m3) * s;   // direction of m around axis 3
     amplitude_cn_ = std::sqrt(i1 * a / d31);
     amplitude_sn_ = sense * std::sqrt(i2 * a / d32);
     amplitude_dn_ = std::copysign(std::sqrt(i3 * b / d31), m3);
@@ -82,12 +82,12 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     modulus_squared_ = std::min(1.0, d21 * a / (d32 * b));
     complement_squared_ = std::min(1.0, d31 * std::fabs(side) / (d32 * b));
 
-    // The azimuth is that of one body axis, the pole, which may be axis 1 or 3: its rate is, for 1,
+    // The azimuth is that of one body axis, the pole, either axis 1 or axis 3. Its rate is, for axis 1,
     //   |L| (m2^2/I2 + m3^2/I3) / (m2^2 + m3^2) = |L| (1/I3 + (1/I2 - 1/I3) M2^2/M3^2 sn^2 / (1 + nu sn^2))
-    // with nu = M1^2/M3^2,
-    // for 3 the same with the axes 1 and 3 exchanged, sn^2 M2^2/M1^2 and nu = M2^2/M1^2 - 1. Either is right; chosen is
-    // the one whose two parts are smaller, as their roundings remain. Per |L| t, with t the time of about a turn, they are:
-    const double slowness = 1.0 + 1.0 / (i2 * phase_rate_ / rate);   // of u: its start counts as much as its way
+    // with nu = M1^2/M3^2, and for axis 3 the same with the axes 1 and 3 exchanged, sn^2 M2^2/M1^2 and
+    // nu = M2^2/M1^2 - 1. Both are valid; the code chooses the one whose two terms are smaller, because their rounding errors remain.
+    // Per |L| t, with t the time of about one revolution, they are:
+    const double slowness = 1.0 + 1.0 / (i2 * phase_rate_ / rate);   // of u: the initial phase counts as much as its change
     const double phases_1 = 1.0 / i3 + d31 * a / (i3 * (i3 * b + i1 * a)) * slowness;
     const double phases_3 = 1.0 / i1 + phase_rate_ / rate + d21 / (i1 * i2) * slowness;
     pole_circulates_ = phases_3 < phases_1;
@@ -136,14 +136,14 @@ void FreeRotation::start_separatrix(double sn, double cn) {
     phase_start_ = sn * carlson_rf(cn * cn, cn * cn, 1.0);   // asinh(sn / cn)
 }
 
-// The same elsewhere, and what belongs to the modulus.
+// The same for other parameters, and the constants of the modulus.
 void FreeRotation::start_periodic(double sn, double cn) {
     kind_ = Kind::periodic;
     // Descending Landen transformation: k1 = (1 - k')/(1 + k'), k1'^2 = 4 k'/(1 + k')^2 (DLMF 19.8.12).
     double k = std::sqrt(modulus_squared_), complement = std::sqrt(complement_squared_);
     while (k > smallest_modulus && levels_ < most_levels) {
         const double sum = 1.0 + complement;
-        k = (1.0 - complement) / sum;   // to an absolute rounding, which is what it is worth
+        k = (1.0 - complement) / sum;   // its accuracy is an absolute rounding error
         complement = 2.0 * std::sqrt(complement) / sum;
         level_[std::size_t(levels_++)] = {k, complement * complement};
         landen_scale_ /= 1.0 + k;
@@ -191,11 +191,11 @@ FreeRotation::Phase FreeRotation::phase(double u) const {
     return p;
 }
 
-// The rotation that takes the principal frame to one whose first axis is L's: R_b(-theta) R_p(-alpha), with theta the
-// angle of m and the pole, alpha that of m about the pole. Half angles by square roots.
+// The rotation from the principal frame to one whose first axis is L's: R_b(-theta) R_p(-alpha), with theta the angle
+// between m and the pole, and alpha that of m about the pole. Half angles by square roots.
 Quat FreeRotation::frame(const Phase& phase) const {
     const auto half_periods = static_cast<long long>(phase.half_periods);
-    const double turned = half_periods & 1 && !pole_circulates_ ? -1.0 : 1.0;   // of sn and cn, each half period
+    const double turned = half_periods & 1 && !pole_circulates_ ? -1.0 : 1.0;   // sign change of sn and cn after each half period
     const double x = turned * amplitude_cn_ * phase.value.cn, y = turned * amplitude_sn_ * phase.value.sn,
                  z = amplitude_dn_ * phase.value.dn;
     const double p = pole_circulates_ ? z : x, a = pole_circulates_ ? x : y, b = pole_circulates_ ? y : z;
@@ -203,7 +203,7 @@ Quat FreeRotation::frame(const Phase& phase) const {
     HalfAngle alpha = half_angle(a / across, b / across);
     const HalfAngle theta = half_angle(p / all, across / all);
     if (pole_circulates_) {
-        // Each half period of the phase is half a turn of alpha: a quarter turn of its half.
+        // Each half period of the phase is half a revolution of alpha: a quarter revolution of its half.
         switch ((amplitude_sn_ < 0.0 ? -half_periods : half_periods) & 3) {
             case 1: alpha = {-alpha.sin, alpha.cos}; break;
             case 2: alpha = {-alpha.cos, -alpha.sin}; break;

@@ -1,16 +1,17 @@
-// Torque-free rotation of a rigid body in closed form: what Euler's equations say about any later or earlier time, at
-// the same cost and with the same error for all of them. There is no step.
+// Torque-free rotation of a rigid body in closed form: the solution of Euler's equations at any later or earlier time,
+// at the same cost and with the same error for all times. There is no step.
 //
 // The momentum in body axes, m(t), moves along the curve where the sphere |m| = |L| meets the energy's ellipsoid; its
-// components are Jacobi's elliptic functions cn, sn and dn of a phase u = lambda t + u0. That gives the orientation but
-// for a turn about L: the azimuth of one body axis, the pole, whose rate is an elliptic integral of the third kind. So
-// q(t) = (frame of m and the pole at 0)^-1, turn by the azimuth about L, (the same frame at t).
+// components are Jacobi's elliptic functions cn, sn and dn of a phase u = lambda t + u0. That gives the orientation
+// except for a rotation about L: the azimuth of one body axis, the pole, whose rate is an elliptic integral of the
+// third kind. So
+//   q(t) = (frame of m and the pole at 0)^-1, rotation by the azimuth about L, (the same frame at t).
 //
 // van Zon and Schofield 2007, "Numerical implementation of the exact dynamics of free rigid bodies", J. Comput. Phys.
 // 225; Landau and Lifshitz, "Mechanics", section 37; Jacobi's functions by the ascending Landen transformation (DLMF
-// 22.7), the integrals by Carlson's method (core/elliptic.h). Written so that nothing cancels: differences of moments
-// of inertia are taken first, the complementary modulus is kept instead of 1 - k^2, and the pole is the axis whose
-// azimuth is the smaller phase.
+// 22.7), the integrals by Carlson's method (core/elliptic.h). Written without cancellation: differences of moments of
+// inertia are taken first, the complementary modulus is kept instead of 1 - k^2, and the pole is the axis whose azimuth
+// is the smaller phase.
 //
 // Error: a few roundings of the phase, about 1e-15 (1 + |omega| t) rad, also near the separatrix and for needles.
 #pragma once
@@ -23,10 +24,10 @@ namespace tumble {
 
 class FreeRotation {
 public:
-    FreeRotation() = default;   // does not turn
+    FreeRotation() = default;   // constant orientation
 
-    /// principal_inertia: kg m^2; principal_axes turns principal coordinates into body coordinates; orientation turns
-    /// body into world; angular_momentum: world, kg m^2/s. All at t = 0.
+    /// principal_inertia: kg m^2; principal_axes rotates principal coordinates into body coordinates; orientation
+    /// rotates body into world; angular_momentum: world, kg m^2/s. All at t = 0.
     FreeRotation(const Vec3& principal_inertia, const Quat& principal_axes, const Quat& orientation,
                  const Vec3& angular_momentum);
 
@@ -36,17 +37,17 @@ public:
 private:
     enum class Kind {
         rest,
-        steady,      // about an axis that stays: a sphere, or a spin about a principal axis
+        steady,      // about a constant axis: a sphere, or a spin about a principal axis
         periodic,    // about the axis of the least or the greatest moment of inertia
-        separatrix,  // between these two, exactly: towards the middle axis, once
+        separatrix,  // exactly between these two: approaches the middle axis, once
     };
 
     struct Jacobi {
         double sn, cn, dn;
     };
     struct Phase {
-        double half_periods = 0.0;   // whole: u = 2 K half_periods + rest
-        Jacobi value{0.0, 1.0, 1.0}; // of the rest; cn >= 0
+        double half_periods = 0.0;   // integer: u = 2 K half_periods + rest
+        Jacobi value{0.0, 1.0, 1.0}; // at the rest; cn >= 0
         double integral = 0.0;       // int_0^u sn^2 / (1 + nu sn^2) du
     };
 
@@ -60,22 +61,22 @@ private:
     Quat frame(const Phase& phase) const;
     Quat from_principal(const Quat& turn) const;
 
-    static constexpr int most_levels = 16;   // 12 are needed for the smallest k' there is
+    static constexpr int most_levels = 16;   // the smallest k' of a double needs 12
 
     Kind kind_ = Kind::rest;
-    Quat start_ = Quat::Identity();      // orientation at t = 0; of the periodic kinds, up to the frame of m there
+    Quat start_ = Quat::Identity();      // orientation at t = 0; of the periodic kinds, relative to the frame of m at t = 0
     Quat to_principal_ = Quat::Identity();
     Vec3 axis_ = Vec3::UnitY();          // steady: of L, world, unit
-    double rate_ = 0.0;                  // rad/s; steady: of the turn. Else of the azimuth where sn = 0
+    double rate_ = 0.0;                  // rad/s; steady: of the rotation; else of the azimuth where sn = 0
 
-    // Principal axes in the order (pole, a, b), a right-handed frame: which, and with which sign.
+    // Principal axes in the order (pole, a, b), a right-handed frame: index and sign of each.
     std::array<int, 3> order_{0, 1, 2};
     std::array<double, 3> sign_{1.0, 1.0, 1.0};
-    bool pole_circulates_ = false;       // the pole is the axis m circles (dn); else it is that of cn
-    double amplitude_cn_ = 0.0, amplitude_sn_ = 0.0, amplitude_dn_ = 0.0;   // of m / |L|, signed
+    bool pole_circulates_ = false;       // the pole is the axis that m circles (dn); else it is that of cn
+    double amplitude_cn_ = 0.0, amplitude_sn_ = 0.0, amplitude_dn_ = 0.0;   // amplitudes of m / |L|, signed
     double phase_rate_ = 0.0, phase_start_ = 0.0;   // lambda (rad/s), u0
     double half_period_ = 0.0;           // 2 K
-    double azimuth_factor_ = 0.0;        // rad: times the integral
+    double azimuth_factor_ = 0.0;        // rad, factor of the integral
     double nu_ = 0.0;
     double modulus_squared_ = 0.0, complement_squared_ = 0.0;   // k^2, k'^2
     double integral_start_ = 0.0, integral_half_period_ = 0.0;
@@ -85,7 +86,7 @@ private:
     };
     int levels_ = 0;
     std::array<Level, most_levels> level_{};
-    double landen_scale_ = 1.0;          // of u, at the last level
+    double landen_scale_ = 1.0;          // factor of u at the last level
 };
 
 }  // namespace tumble

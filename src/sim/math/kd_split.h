@@ -1,5 +1,5 @@
-// Bodies in halves of neighbours: cut at the median along a side of their box, and so on (k-d tree, Bentley 1975). Which half one is
-// in depends on the bodies alone: of equal places the lower number comes first.
+// Halves a set of bodies by place: cut at the median along a side of their bounding box, and recursively (k-d tree,
+// Bentley 1975). The halves depend on the bodies alone: at equal places the lower index comes first.
 #pragma once
 
 #include "core/vector.h"
@@ -21,7 +21,7 @@ struct PlacedBody {
     }
 };
 
-/// The axis along which they are spread most, `skipped` left out.
+/// The axis of largest spread, except `skipped`.
 inline int longest_side(std::span<const PlacedBody> items, int skipped = -1) {
     Bounds box;
     for (const PlacedBody& item : items) box.add(item.position);
@@ -32,7 +32,7 @@ inline int longest_side(std::span<const PlacedBody> items, int skipped = -1) {
     return axis;
 }
 
-/// Brings the lower half to the front, and tells how many that are.
+/// Moves the lower half to the front and returns its size.
 inline std::size_t cut_at_median(std::span<PlacedBody> items, int axis) {
     const std::size_t half = items.size() / 2;
     std::nth_element(items.begin(), items.begin() + std::ptrdiff_t(half), items.end(), PlacedBody::before(axis));

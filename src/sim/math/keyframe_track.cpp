@@ -11,7 +11,7 @@ namespace {
 // Below this angle (rad) the series to second order is exact to rounding.
 constexpr double small_angle = 1e-4;
 
-// For q(u) = exp(phi(u)): the angular velocity in the turning frame is J(phi) phi' with the right Jacobian
+// For q(u) = exp(phi(u)): the angular velocity in the rotating frame is J(phi) phi' with the right Jacobian
 // J = I - (1 - cos t)/t^2 [phi] + (t - sin t)/t^3 [phi]^2, t = |phi| (Sola et al. 2018, "A micro Lie theory", eq. 143).
 Vec3 body_spin(const Vec3& phi, const Vec3& rate) {
     const double t2 = phi.squaredNorm(), t = std::sqrt(t2);
@@ -64,11 +64,11 @@ KeyframeTrack::KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpola
     spin_.assign(n, Vec3::Zero());
     for (std::size_t i = 0; i + 1 < n; ++i)
         turn_.push_back(rotation_vector(keys_[i].rotation.conjugate() * keys_[i + 1].rotation));
-    // At both ends the body is at rest, as it is before and after.
+    // At both ends the body is at rest, as it is outside of the keyframes.
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const double before = keys_[i].time - keys_[i - 1].time, after = keys_[i + 1].time - keys_[i].time;
         velocity_[i] = smooth_slope<Vec3>((keys_[i].position - keys_[i - 1].position) / before, (keys_[i + 1].position - keys_[i].position) / after, before, after);
-        // Turning back along the last segment is -turn seen from its end: the same axis in both frames.
+        // Rotating back along the last segment is -turn seen from its end: the same axis in both frames.
         spin_[i] = smooth_slope<Vec3>(turn_[i - 1] / before, turn_[i] / after, before, after);
     }
 }

@@ -1,8 +1,9 @@
-// The path of a kinematic body: smooth through its keyframes, still before the first and after the last.
-// Position: cubic Hermite spline with Catmull-Rom tangents for uneven times, limited so that nothing overshoots: between two equal
-// keys the body stands still. Rotation: the same in rotation vectors of each segment, q(u) = q_i exp(phi(u)), so that the angular
-// velocity is continuous and evenly spaced keys of a steady turn give a steady turn. Linear: constant velocity and constant turn
-// between keys.
+// The path of a kinematic body: smooth through its keyframes, at rest before the first and after the last.
+// Position: cubic Hermite spline with Catmull-Rom tangents for nonuniform times, limited against overshoot: between two
+// equal keys the body stands still.
+// Rotation: the same in rotation vectors of each segment, q(u) = q_i exp(phi(u)), so that the angular velocity is
+// continuous and uniformly spaced keys of a steady rotation give a steady rotation.
+// Linear: constant velocity and angular velocity between keys.
 #pragma once
 
 #include "core/vector.h"
@@ -14,7 +15,7 @@ namespace tumble {
 
 class KeyframeTrack {
 public:
-    /// Keys in increasing time, at least one; rotations are taken the short way round from key to key.
+    /// Precondition: at least one key, in increasing time. Rotations take the shorter arc from key to key.
     KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpolation);
 
     struct Motion {

@@ -24,7 +24,7 @@ MassProperties sphere_mass(double radius, double density) {
 }
 
 MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
-    // From the middle of the bounds, so that a mesh far from its origin loses no digits.
+    // Relative to the middle of the bounds, so that a mesh far from its origin loses no digits.
     const Vec3 apex = mesh.bounds().center();
     double volume = 0.0;
     Vec3 first = Vec3::Zero();                  // integral of x dV
@@ -81,11 +81,11 @@ MassProperties with_mass(const MassProperties& properties, double mass) {
 }
 
 PrincipalInertia principal_inertia(const Mat3& tensor) {
-    // Relative to the moments: what the integrals over a mesh of thousands of triangles lose at most.
+    // Tolerance relative to the moments: the largest rounding error of integrals over a mesh of thousands of triangles.
     constexpr double same = 1e-14;
     Mat3 a = tensor, axes = Mat3::Identity();
     const auto negligible = [&](int p, int q) { return std::abs(a(p, q)) <= same * std::min(a(p, p), a(q, q)); };
-    // Each sweep squares what is left off the diagonal, and 5 or 6 are enough.
+    // Each sweep squares the remaining off-diagonal elements, and 5 or 6 are enough.
     for (int sweep = 0; sweep < 20; ++sweep) {
         if (negligible(0, 1) && negligible(0, 2) && negligible(1, 2)) break;
         for (const auto& [p, q] : {std::array{0, 1}, std::array{0, 2}, std::array{1, 2}}) {

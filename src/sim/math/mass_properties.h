@@ -1,4 +1,4 @@
-// Mass, centre of mass and inertia tensor of the shapes (notes section 1): exact formulas, no sampling.
+// Mass, center of mass and inertia tensor of the shapes (notes section 1): exact formulas, no sampling.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -11,7 +11,7 @@ namespace tumble {
 struct MassProperties {
     double mass = 0.0;                          // kg
     Vec3 center_of_mass = Vec3::Zero();         // m, in the shape's frame
-    Mat3 inertia = Mat3::Zero();                // kg m^2, about the centre of mass, axes of the shape's frame
+    Mat3 inertia = Mat3::Zero();                // kg m^2, about the center of mass, axes of the shape's frame
 };
 
 /// A solid box of full edge lengths `size`: I_x = m (y^2 + z^2) / 12 and cyclic.
@@ -24,10 +24,10 @@ MassProperties sphere_mass(double radius, double density);
 /// (Tonon 2004, "Explicit exact formulas for the 3-D tetrahedron inertia tensor"; Blow and Binstock 2004).
 MassProperties mesh_mass(const TriangleMesh& mesh, double density);
 
-/// The same body placed in another frame.
+/// The same body in another frame.
 MassProperties placed(const MassProperties& properties, const Vec3& position, const Quat& rotation);
 
-/// Several bodies as one, by the parallel axis theorem (Steiner); all in one frame. Where they overlap, both count.
+/// Several bodies as one, by the parallel axis theorem (Steiner); all in one frame. Overlaps count twice.
 MassProperties sum_of_masses(const std::vector<MassProperties>& parts);
 
 /// The same body with another mass.
@@ -35,12 +35,12 @@ MassProperties with_mass(const MassProperties& properties, double mass);
 
 struct PrincipalInertia {
     Vec3 moments = Vec3::Zero();       // kg m^2, in no particular order
-    Quat axes = Quat::Identity();      // turns principal coordinates into the tensor's
+    Quat axes = Quat::Identity();      // rotates principal coordinates into the tensor's frame
 };
 
 /// tensor = R diag(moments) R^T, by Jacobi's rotations (Golub and Van Loan 2013, "Matrix Computations", section 8.5).
-/// A diagonal tensor keeps its axes; moments that differ only by a mesh's rounding come out equal to the last bit, and of
-/// a body with three equal ones every axis is principal: it gets the tensor's own.
+/// A diagonal tensor keeps its axes. Moments that differ only by a mesh's rounding come out equal to the last bit. With
+/// three equal moments every axis is principal: the result has the tensor's own axes.
 PrincipalInertia principal_inertia(const Mat3& tensor);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// What forces do to a rigid body, taken together; world frame.
+// Resultant of the forces on a rigid body; world frame.
 #pragma once
 
 #include "core/vector.h"
@@ -7,13 +7,13 @@ namespace tumble {
 
 struct Wrench {
     Vec3 force = Vec3::Zero();    // N
-    Vec3 torque = Vec3::Zero();   // N m, about the centre of mass
+    Vec3 torque = Vec3::Zero();   // N m, about the center of mass
 };
 
-/// What a wrench gives over a span of time; world frame.
+/// Integral of a wrench over a span of time; world frame.
 struct Impulse {
     Vec3 linear = Vec3::Zero();    // N s
-    Vec3 angular = Vec3::Zero();   // N m s, about the centre of mass
+    Vec3 angular = Vec3::Zero();   // N m s, about the center of mass
     friend Impulse operator+(const Impulse& l, const Impulse& r) { return {l.linear + r.linear, l.angular + r.angular}; }
 };
 

@@ -1,4 +1,4 @@
-// Energy, momenta and contacts of the world as it stands: the rows of the energy table and of `tumble info`.
+// Energy, momenta and contacts of the present world: the rows of the energy table and of `tumble info`.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -9,11 +9,11 @@
 
 namespace tumble {
 
-/// Energies and momenta over the dynamic bodies: kinetic 1/2 P.v + 1/2 L.omega, potential -sum m g.x, L about the world's origin;
-/// `origin` (m, world) is where the coordinates of the bodies begin.
+/// Energies and momenta over the dynamic bodies: kinetic 1/2 P.v + 1/2 L.omega, potential -sum m g.x, L about the
+/// world's origin. `origin` (m, world): origin of the bodies' coordinates.
 Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity, const Vec3& origin);
 
-/// Adds the touching points and the deepest overlap.
+/// Adds the number of touching points and the deepest overlap.
 void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m);
 
 BodyReport describe(const Body& body);

@@ -1,4 +1,4 @@
-// The poses of all bodies at one frame time: the only thing that passes from the simulation to the renderer.
+// The poses of all bodies at one frame time: the only data passed from the simulation to the renderer.
 #pragma once
 
 #include "core/vector.h"
@@ -13,7 +13,7 @@ struct BodyState {
     Vec3 origin;             // m, of the body's own origin: where its shape is drawn
     Vec3 center_of_mass;     // m
     Quat orientation;        // unit
-    Vec3 velocity;           // m/s, of the centre of mass
+    Vec3 velocity;           // m/s, of the center of mass
     Vec3 angular_velocity;   // rad/s
 };
 

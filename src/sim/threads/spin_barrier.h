@@ -1,5 +1,5 @@
-// A meeting point of a few threads that come to it within microseconds of each other: they wait by looking, and give the
-// core away only when somebody is late.
+// A barrier for a few threads that reach it within microseconds of each other: they spin, and yield the core only when
+// a thread is late.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    static constexpr int patience = 100;   // some microseconds: the others are running, or the core is needed for them
+    static constexpr int patience = 100;   // spins, some microseconds in all; after that the core may be needed for the others
     const std::size_t threads_;
     alignas(64) std::atomic<std::size_t> arrived_{0};
     alignas(64) std::atomic<std::size_t> round_{0};

@@ -7,9 +7,9 @@
 namespace tumble {
 namespace {
 
-// Looks of a waiting thread before it goes to sleep: some 3 microseconds by itself, then some 300 more, in which whoever
-// else wants the core gets it: the other thread, perhaps, where both have come to stand on one. To wake a sleeper takes as long as
-// many a stage of a step.
+// Polls of a waiting thread before it sleeps: about 3 microseconds of spinning, then about 300 of yielding, in which
+// other threads get the core, such as a worker on the same core. Waking a sleeper takes as long as many a stage of a
+// step.
 constexpr int patience = 100, yielding_patience = 600;
 
 template <class Ready>
@@ -28,12 +28,12 @@ ThreadPool::ThreadPool(int threads) {
     try {
         for (int i = 1; i < threads; ++i) workers_.push_back(start_thread<std::jthread>([this, i] { live(std::size_t(i)); }));
     } catch (...) {
-        end_workers();   // those that were started wait for work
+        end_workers();   // workers that have started wait for work
         throw;
     }
 }
 
-/// The life of a worker.
+/// Main loop of a worker.
 void ThreadPool::live(std::size_t thread) {
     std::size_t seen = 0;
     while (true) {
@@ -46,7 +46,7 @@ void ThreadPool::live(std::size_t thread) {
         seen = round_;
         work(thread);
         if (running_.fetch_sub(1) == 1) {
-            const std::lock_guard lock(mutex_);   // the caller is either before its look or asleep
+            const std::lock_guard lock(mutex_);   // the caller is either before its poll or asleep
             done_.notify_one();
         }
     }
@@ -60,7 +60,7 @@ void ThreadPool::end_workers() {
         stop_ = true;
     }
     start_.notify_all();
-    workers_.clear();   // joins them, before what they use is gone
+    workers_.clear();   // joins them while the data that they use still exists
 }
 
 void ThreadPool::give(std::uint32_t body, std::size_t thread) {

@@ -1,8 +1,9 @@
-// A few threads that share out a loop. Which thread does which item is left to chance; items write only to places of
-// their own, so that the result is not.
+// A few threads that share a loop. The assignment of items to threads is arbitrary; items write only to their own
+// places, so that results do not depend on it.
 //
-// Bodies belong to a thread each, so that what is kept of them stays in one core's cache from stage to stage and step to
-// step: fetching what another core has written costs as much as the work on it. Whose they are changes no result either.
+// Each body belongs to one thread, so that its data stays in one core's cache from stage to stage and step to step:
+// fetching data that another core has written costs as much as the work on it. This assignment changes no result
+// either.
 #pragma once
 
 #include <atomic>
@@ -20,8 +21,8 @@ namespace tumble {
 
 class ThreadPool {
 public:
-    /// `threads` in all, the caller's included.
-    /// Throws RunError where there are no more to be had.
+    /// `threads`: total number, including the caller's.
+    /// Throws RunError if that many cannot be started.
     explicit ThreadPool(int threads);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -42,10 +43,10 @@ public:
         return body < owner_.size() && owner_[body] != nobody ? owner_[body] : body / 64 % std::size_t(size());
     }
     void give(std::uint32_t body, std::size_t thread);
-    /// Grows whenever a body is given to another thread.
+    /// Increases whenever a body is assigned to another thread.
     std::uint64_t owner_changes() const { return owner_changes_; }
 
-    /// Calls visit(body) for all of them, each on its thread; below `grain` bodies all on the caller's.
+    /// Calls visit(body) for each body on its thread; below `grain` bodies all on the caller's.
     template <class Visit>
     void for_bodies(std::span<const std::uint32_t> bodies, std::size_t grain, Visit&& visit) {
         if (workers_.empty() || bodies.size() < grain) {
@@ -76,7 +77,7 @@ private:
     std::atomic<std::size_t> next_{0};
     std::size_t count_ = 0, chunk_ = 1;
     bool one_each_ = false;
-    // Changed with the mutex held, looked at without it: phases follow each other within microseconds, faster than a
+    // Changed with the mutex held, read without it: phases follow each other within microseconds, faster than a
     // sleeping thread wakes up.
     std::atomic<std::size_t> running_{0}, round_{0};
     std::atomic<bool> stop_{false};

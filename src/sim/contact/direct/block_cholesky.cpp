@@ -43,8 +43,8 @@ void BlockCholesky::analyse(std::size_t bodies, const std::vector<Pair>& pairs) 
     pairs_ = pairs;
     order(pairs);
 
-    // Eliminating a body couples all those it is still coupled to: with the pattern of its first one merged into that
-    // one's, every pattern is complete when its turn comes (George and Liu 1981, section 5.2).
+    // Eliminating a body couples all bodies that it is still coupled to. Merging its pattern into that of the first of
+    // them makes every pattern complete at its turn (George and Liu 1981, section 5.2).
     std::vector<std::vector<std::uint32_t>> pattern(bodies);
     for (const Pair& p : pairs) {
         const std::uint32_t r = std::min(place_[p.i], place_[p.j]), c = std::max(place_[p.i], place_[p.j]);

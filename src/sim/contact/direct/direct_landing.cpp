@@ -1,8 +1,10 @@
-// A body that lands while it stands on something else, as a rocking block on its other edge, solved in parts of the step.
+// Landings of a body that already stands on something, as of a rocking block on its other edge: solved in parts of the
+// step.
 //
-// A gap that closes on the way is held from closing at an even speed from the step's start: as if the corner had landed then, and
-// what carried the body until then had not. A rocking block so loses a tenth of its energy in each landing, at 60 steps a second,
-// beyond what the landing takes. In n parts, as long as the soft solver's, it is an n-th of that.
+// A contact row closes a gap at constant speed from the start of the step, as if the corner had landed then and the
+// other corner no longer carried the body. At 60 steps per second a rocking block so loses a tenth of its energy in
+// each landing, beyond the loss of the landing itself. In n parts, each as long as the soft solver's substep, it is an
+// n-th of that.
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/settings.h"

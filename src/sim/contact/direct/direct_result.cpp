@@ -1,4 +1,4 @@
-// DirectSolver: the impulses and velocities that were found go back to the manifolds and bodies.
+// DirectSolver: transfer of the impulses and velocities found to the manifolds and bodies.
 #include "sim/contact/direct/direct_solver.h"
 
 #include <vector>
@@ -19,7 +19,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
         m.tangent = geometry.tangent_1;
         const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
-        Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A
+        Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A's center
         for (int i = 0; i < patch.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
             m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;

@@ -92,7 +92,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.friction[1].estimate = m.friction[1];
         patch.twist.estimate = m.twist;
         const Vec3& n = geometry.normal;
-        const double gives = n.dot((a.inverse_inertia + b.inverse_inertia) * n);   // zero for what no impulse moves
+        const double gives = n.dot((a.inverse_inertia + b.inverse_inertia) * n);   // zero for bodies that no impulse moves
         patch.free_slip = std::hypot(patch.friction[0].offset + dot(patch, patch.friction[0], free_),
                                      patch.friction[1].offset + dot(patch, patch.friction[1], free_));
         patch.free_spin = std::abs(patch.twist.offset + dot(patch, patch.twist, free_));
@@ -136,7 +136,7 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
     return sum;
 }
 
-// Friction's limits follow the normal impulses of the round before.
+// Sets friction limits from the normal impulses of the last round.
 void DirectSolver::set_limits(Patch& patch) {
     double load = 0.0, levers = 0.0;
     Vec3 aside = Vec3::Zero();
@@ -163,16 +163,17 @@ void DirectSolver::evaluate_speeds() {
         each_row(patch, [&](Row& row) { row.speed = row.offset + dot(patch, row, velocity_); });
 }
 
-// Impulses for velocities so far along the step, and what the second derivatives weigh the rows with.
+// Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
 void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const {
     const double tie = -tuning::direct_tie * speed_scale_ / compliance_;
     for (int i = 0; i < patch.count; ++i) {
         Row& row = patch.normal[i];
         const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
         row.impulse = std::max(0.0, y);
-        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack is all ties
+        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack has only ties
     }
-    // Both directions of friction and, where it shares their limit, the twist over its lever: a ball (spin_friction.h).
+    // Both friction directions and, where they share the limit, the torsional friction over its lever: a ball
+    // (spin_friction.h).
     Row* const rows[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
     const double levers[3] = {1.0, 1.0, patch.spin_lever};
     const int count = patch.spins ? 3 : 2;
@@ -238,7 +239,7 @@ bool DirectSolver::factor(bool pushing) {
                 active = active || on;
                 w.normal[i] = on ? stiffness : 0.0;
             }
-            // Pushed apart, not aside.
+            // Pushed apart, not sideways.
             const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
             w.friction[0][0] = w.friction[1][1] = aside;
             w.friction[2][2] = patch.count > 1 ? aside * length_ * length_ : 0.0;
@@ -271,7 +272,7 @@ bool DirectSolver::factor(bool pushing) {
     return matrix_.factor();
 }
 
-// Of the function that is minimised, along the step.
+// Slope of the minimized function along the step.
 double DirectSolver::slope(double along, double mass_slope, double mass_curvature) {
     double sum = mass_slope + along * mass_curvature;
     for (Patch& patch : patches_) {
@@ -281,7 +282,7 @@ double DirectSolver::slope(double along, double mass_slope, double mass_curvatur
     return sum;
 }
 
-// Where the slope is a tenth of what it was: regula falsi with the Illinois rule, kept off the ends.
+// Finds where the slope is a tenth of its initial value: regula falsi with the Illinois rule, kept off the ends.
 double DirectSolver::line_search(double slope_0, double mass_slope, double mass_curvature) {
     const double enough = 0.1 * std::abs(slope_0);
     double high = 1.0, slope_high = slope(1.0, mass_slope, mass_curvature);
@@ -325,12 +326,12 @@ bool DirectSolver::minimise(int most_steps) {
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
         for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.change = 0.0; });
-        if (-slope_0 < 1e-30 * energy) return true;   // what is left is rounding
+        if (-slope_0 < 1e-30 * energy) return true;   // the remainder is rounding
     }
     return false;
 }
 
-// What is minimised, for choosing where to begin.
+// The minimized function, for choosing the start.
 double DirectSolver::objective(const std::vector<double>& u) {
     for (std::size_t k = 0; k < u.size(); ++k) scratch_[k] = u[k] - free_[k];
     double sum = kinetic_energy(scratch_);
@@ -340,12 +341,12 @@ double DirectSolver::objective(const std::vector<double>& u) {
             const double y = row.estimate + (row.target - row.offset - dot(patch, row, u)) / compliance_;
             if (y > 0.0) sum += 0.5 * compliance_ * y * y;
         }
-        // Friction's part only matters for the choice where it is small against this.
+        // Friction matters for the choice only where it is small compared with the normal terms.
     }
     return sum;
 }
 
-// From the last step's impulses where they make a better start than none.
+// Starts from the last step's impulses where they are better than none.
 void DirectSolver::start() {
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
     for (Patch& patch : patches_) {
@@ -362,7 +363,7 @@ void DirectSolver::start() {
     if (!(objective(velocity_) <= objective(free_))) velocity_ = free_;
 }
 
-// Contact takes energy and gives none; friction stays within its cone.
+// Contact must not add energy; friction must stay within its cone.
 bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
@@ -372,7 +373,7 @@ bool DirectSolver::admissible() const {
         for (int i = 0; i < patch.count; ++i) {
             const Row& row = patch.normal[i];
             load += row.impulse;
-            // Squeezed between walls there is no solution.
+            // A body squeezed between walls has no solution.
             if (row.offset + dot(patch, row, velocity_) < row.target - closing) return false;
         }
         const double friction = std::hypot(patch.friction[0].impulse, patch.friction[1].impulse);
@@ -390,7 +391,8 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     if (patches_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
-    if (speed_scale_ <= tuning::direct_rounding * fastest_) {   // nothing comes nearer, without gravity: what overlaps is pushed apart all the same
+    // nothing approaches, without gravity: overlaps are pushed apart all the same
+    if (speed_scale_ <= tuning::direct_rounding * fastest_) {
         velocity_ = free_;
         store(problem, bodies, push_out(problem.patches.h));
         return true;
@@ -406,10 +408,10 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     return true;
 }
 
-// From free_ and what the rows ask for to velocity_ and their impulses.
+// From free_ and the rows' targets to velocity_ and their impulses.
 bool DirectSolver::solve_rounds() {
-    // Friction soft at first, where Newton's method does not stall on the edges of the discs; then stiffer from round to
-    // round, each beginning where the one before ended, as far as that goes.
+    // Friction starts soft, where Newton's method does not stall on the edges of the discs; it becomes stiffer from
+    // round to round, each starting from the solution of the last, as far as that converges.
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
     start();
     bool found = false;
@@ -437,14 +439,16 @@ bool DirectSolver::solve_rounds() {
     return true;
 }
 
-// Overlaps are pushed out by a way of its own that leaves the velocities alone: least squares over the active contacts.
+// Position correction: overlaps are removed by a pseudo-velocity that leaves the velocities unchanged, by least squares
+// over the active contacts.
 bool DirectSolver::push_out(double h) {
     std::fill(push_.begin(), push_.end(), 0.0);
     const double stiffness = total_mass_ / tuning::direct_push_compliance;
     bool any = false;
     for (Patch& patch : patches_) {
         for (int i = 0; i < patch.count; ++i) {
-            // What comes apart by its own speed, a bounce, is pushed by what that lacks: a push moves bodies past their momenta.
+            // A bouncing contact separates by its own speed and is pushed only by the difference: a push moves bodies
+            // past their momenta.
             const Row& row = patch.normal[i];
             const double parting = std::max(0.0, row.offset + dot(patch, row, velocity_));
             const double beyond = patch.overlap[i] - tuning::direct_slop * patch.size;

@@ -2,16 +2,16 @@
 // stacks, heavy on light, and the few bodies of a simple scene.
 //
 // With u the velocities at the step's end, u* those with the forces alone, and M the masses, contact asks for
-//     M (u - u*) = J^T f,   0 <= f_n  perp  J_n u >= b,   friction against the slip within mu f_n (with the twist: soft_solver.h),
-// b = -s/h for points s > 0 apart, 0 at the surface. Solved as an augmented Lagrangian: with
-// an estimate e of the impulses and a compliance R, u is the minimum of the convex function
-//     (u - u*)^T M (u - u*)/2 + sum R/2 [e + (b - J u)/R]^2  over the contacts where the bracket is positive
-// with, for friction, the bracket's distance kept inside the limit; f = bracket is the next estimate, and friction's limits
-// follow f_n from round to round (Alart and Curnier 1991). Each minimum is found by Newton's method with line search
-// (semismooth; its matrix M + J^T J/R over the active rows is factored by block_cholesky.h). The estimates of the last
-// step make most solves of a resting island one evaluation.
+//   M (u - u*) = J^T f,   0 <= f_n  perp  J_n u >= b,   friction against the slip within mu f_n
+// (torsional friction: soft_solver.h), b = -s/h for points s > 0 apart, 0 at the surface. Solved as an augmented
+// Lagrangian: with an estimate e of the impulses and a compliance R, u is the minimum of the convex function
+//   (u - u*)^T M (u - u*)/2 + sum R/2 [e + (b - J u)/R]^2  over the contacts where the bracket is positive
+// with, for friction, the bracket's distance kept inside the limit; f = bracket is the next estimate, and friction's
+// limits follow f_n from round to round (Alart and Curnier 1991). Each minimum is found by Newton's method with line
+// search (semismooth; its matrix M + J^T J/R over the active rows is factored by block_cholesky.h). The estimates of
+// the last step make most solves of a resting island one evaluation.
 //
-// Lengths are measured in the island's mean radius, so that turning and moving weigh alike.
+// Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
 #include "sim/contact/direct/block_cholesky.h"
@@ -26,22 +26,22 @@ namespace tumble {
 
 class DirectSolver {
 public:
-    /// Solves the island and changes bodies and manifolds as ContactProblem says. False, and nothing changed, when no
-    /// solution was found.
+    /// Solves the island and changes bodies and manifolds as ContactProblem specifies. Returns false, and changes
+    /// nothing, when no solution was found.
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
 
-    /// Block operations of a factorisation for this island.
+    /// Block operations of a factorization for this island.
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                             std::span<const std::uint32_t> manifolds);
-    /// Factorisations that the last solve took.
+    /// Factorizations of the last solve.
     int factorisations() const { return factorisations_; }
 
 private:
     static constexpr int none = contact_rows::none;
     using Row = contact_rows::Row;
     using Patch = contact_rows::Patch;
-    struct Weights {                    // second derivatives of a patch's terms
-        double normal[4] = {}, friction[3][3] = {};   // friction: both directions and the twist
+    struct Weights {                    // second derivatives of a constraint's terms
+        double normal[4] = {}, friction[3][3] = {};   // friction: both directions and the torsional row
     };
 
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
@@ -68,15 +68,15 @@ private:
 
     struct Mass {
         double mass = 0.0;      // kg
-        Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();   // over the squared length
+        Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();   // kg, over the squared length
     };
     double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;   // m, kg, m/s, m/s
     double compliance_ = 0.0, friction_compliance_ = 0.0;          // 1/kg: R
-    bool driven_ = false;            // something given moves: energy may come in
+    bool driven_ = false;            // touches a prescribed motion: energy may enter
     int factorisations_ = 0;
     std::vector<Mass> masses_;
-    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_, kept_;   // u*, u, du, ...; six a body
-    std::vector<double> way_;        // m, in the step, of a body that is solved in parts
+    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_, kept_;   // u*, u, du, ...; six numbers per body
+    std::vector<double> way_;        // m, displacement in the step of a body that is solved in parts
     std::vector<Patch> patches_;
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

@@ -32,12 +32,13 @@ void add_impact(const Contact& c, Body& a, Body& b) {
 
 namespace {
 
-// Even pressure resists a spin as its points would, each nearer to where friction acts as one by the spread.
+// Uniform pressure resists a spin as its points would with their distances from the friction point scaled by the
+// spread.
 void set_rubbing(const Manifold& m, std::span<Contact> contacts) {
     const auto touching = std::size_t(std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.touching(); }));
     if (touching < 2) return;
     const bool whole = touching == contacts.size();
-    Vec3 center = Vec3::Zero();   // from A's
+    Vec3 center = Vec3::Zero();   // relative to A's center
     double weights = 0.0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         if (!contacts[i].touching()) continue;

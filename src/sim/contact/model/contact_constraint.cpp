@@ -10,12 +10,12 @@
 namespace tumble {
 namespace {
 
-// The direction that friction was kept in; any one across the normal before the first step.
+// The stored direction of friction; before the first step, any direction across the normal.
 Vec3 tangent_of(const Manifold& m) {
     Vec3 t = m.tangent - m.normal.dot(m.tangent) * m.normal;
     const double square = t.squaredNorm();
     if (square > 0.25) return t / std::sqrt(square);
-    // The axis the normal looks along least.
+    // The coordinate axis at the largest angle to the normal.
     t = m.normal.x() * m.normal.x() < 0.36 ? Vec3::UnitX() : Vec3::UnitY();
     return (t - m.normal.dot(t) * m.normal).normalized();
 }
@@ -64,9 +64,9 @@ ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, co
     ContactConstraint patch;
     patch.size = std::min(a.radius, b.radius);
     const double near = tuning::friction_near * patch.size;
-    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // from A's
+    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // relative to A's center
     double weights = 0.0, shares = 0.0;
-    bool whole = true;   // all of the area touches or nearly does
+    bool whole = true;   // whether all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const PredictedGap seen = passing(m, i, a, b, before_a, before_b, settings.h);

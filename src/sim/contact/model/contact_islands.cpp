@@ -11,7 +11,7 @@ constexpr std::uint32_t no_island = UINT32_MAX;
 
 ContactIslands::ContactIslands(std::size_t bodies) : members_(bodies) {}
 
-// Of those that do not take part the bodies are looked at, which lie far apart in memory, of the others not.
+// Reads only bodies that may take part: bodies lie far apart in memory.
 ContactIslands::Role ContactIslands::look(std::uint32_t i, const std::vector<Body>& bodies) {
     Member& member = members_[i];
     if (member.round != round_) member = {.round = round_, .role = bodies[i].dynamic() ? Role::aside : Role::still};
@@ -42,7 +42,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         const std::uint32_t i = root(a), j = root(b);
         members_[std::max(i, j)].parent = std::min(i, j);
     }
-    // Number the islands by their lowest body, count, then deal out.
+    // Numbers the islands by their lowest body, counts, then fills the lists.
     first_body_.assign(1, 0);
     first_manifold_.assign(1, 0);
     for (const std::uint32_t i : awake) {

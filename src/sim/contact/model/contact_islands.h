@@ -1,6 +1,5 @@
-// Groups of dynamic bodies that hang together through manifolds. What happens in one cannot reach another within a step,
-// so islands are solved independently, on any thread, and fall asleep as one. The time taken goes with the bodies that
-// are awake, whatever sleeps beside them.
+// Islands: sets of dynamic bodies connected by manifolds. Within a step islands cannot affect each other, so they are
+// solved independently, on any thread, and fall asleep as a whole. The cost scales with the awake bodies only.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -16,16 +15,18 @@ class ContactIslands {
 public:
     explicit ContactIslands(std::size_t bodies);
 
-    /// Islands of the manifolds, ordered by their lowest body. `touching`: whose the manifolds are. `awake`: the bodies that take
-    /// part, ascending: dynamic, neither asleep nor in exact flight. Others belong to none and join nothing; manifolds without a
-    /// body that takes part, and bodies without manifolds, are left out. The same lists and the same bodies awake give the same islands.
+    /// Islands of the manifolds, ordered by their lowest body.
+    /// - `touching`: the body pairs of the manifolds.
+    /// - `awake`: the bodies that take part, ascending: dynamic, not asleep, not ballistic.
+    /// Other bodies belong to no island and connect none. Manifolds without a body that takes part, and bodies without
+    /// manifolds, are skipped. The same pairs and the same awake bodies give the same islands.
     void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
 
-    /// How often they were found: the same since then.
+    /// Number of times the islands were rebuilt: equal numbers mean the same islands.
     std::uint64_t changes() const { return round_; }
 
     std::size_t size() const { return first_body_.size() - 1; }
-    /// Of all islands, one after the other.
+    /// Bodies of all islands, one island after the other.
     std::span<const std::uint32_t> bodies() const { return bodies_; }
     std::span<const std::uint32_t> bodies(std::size_t island) const {
         return std::span(bodies_).subspan(first_body_[island], first_body_[island + 1] - first_body_[island]);
@@ -33,22 +34,22 @@ public:
     std::span<const std::uint32_t> manifolds(std::size_t island) const {
         return std::span(manifolds_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
     }
-    /// Whose its manifolds are, one by one.
+    /// Body pairs of the island's manifolds, in the same order.
     std::span<const BodyPair> pairs(std::size_t island) const {
         return std::span(pairs_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
     }
-    /// How many pairs of bodies touch: parts and triangles may in many manifolds.
+    /// Number of body pairs that touch; a pair of compounds or meshes may have many manifolds.
     std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
-    /// Whether it touches nothing but its own bodies.
+    /// Whether the island touches only its own bodies.
     bool floats(std::size_t island) const { return floats_[island] != 0; }
 
 private:
-    // still: neither held nor moved by contacts. aside: asleep or in exact flight, not held by this step's contacts.
+    // still: not moved by contacts. aside: asleep or ballistic, not affected by the contacts of this step.
     enum class Role : std::uint8_t { still, takes_part, aside };
     Role look(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
 
-    // By body; valid where `round` says so.
+    // Per body; valid where `round` is the present one.
     struct Member {
         std::uint64_t round = 0;
         std::uint32_t parent = 0, island = 0;
@@ -56,10 +57,10 @@ private:
         bool touched = false;
     };
     std::vector<Member> members_;
-    std::vector<std::uint32_t> held_;              // by manifold: a body of it that takes part
+    std::vector<std::uint32_t> held_;              // by manifold: index of one of its bodies that takes part
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
-    std::vector<BodyPair> pairs_;                  // beside manifolds_
+    std::vector<BodyPair> pairs_;                  // in the order of manifolds_
     std::vector<std::uint32_t> touching_pairs_;    // by island
     std::vector<std::uint8_t> floats_;
 };

@@ -1,5 +1,5 @@
-// How an island bears its load: how much its bodies carry against what they weigh, and how high it is piled. Where either is
-// much, sweeps converge slowly, whether it is a stack of many or one heavy body on a light one.
+// Load estimate of an island: the mass that its bodies carry relative to their own, and the height of its pile. Where
+// either is large, sweeps converge slowly, for a stack of many bodies as for one heavy body on a light one.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -12,11 +12,11 @@
 namespace tumble {
 
 struct LoadEstimate {
-    /// The largest ratio, over the island's bodies, of the mass a body carries (its own included) to its own mass. From
-    /// the bodies that touch something fixed outwards, each hands down what it carries in equal shares to its neighbours
-    /// one level nearer.
+    /// The largest ratio, over the island's bodies, of the mass that a body carries (its own included) to its own mass.
+    /// Starting with the bodies farthest from a fixed support, each body distributes its carried mass in equal shares
+    /// to its neighbors one level nearer.
     double ratio = 1.0;
-    int levels = 1;   // bodies between the farthest one and what is fixed, itself included
+    int levels = 1;   // number of bodies in the longest of the shortest chains to a fixed support, which does not count
 };
 
 class LoadEstimates {
@@ -29,10 +29,10 @@ public:
 private:
     struct Node {
         int level = -1, neighbours = 0;
-        std::uint32_t first = 0;   // in neighbours_
+        std::uint32_t first = 0;   // index of the first neighbor
         double load = 0.0;         // kg
     };
-    std::vector<Node> nodes_;      // by body; only the island's are valid
+    std::vector<Node> nodes_;      // by body; valid for the island's bodies
     std::vector<std::uint32_t> neighbours_, order_;
 };
 

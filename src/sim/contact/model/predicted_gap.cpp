@@ -11,9 +11,9 @@
 namespace tumble {
 namespace {
 
-// With d the places' distance vector across the line, d0 n at first, and u the velocity of one against the other across the line,
-//     |d0 n + u t|  is least at  t = -d0 n.u / u^2,  or at the step's end.
-// Where that is an overlap the bodies do meet.
+// With d the distance vector of the places across the line, initially d0 n, and u the relative velocity of the places
+// across the line, |d0 n + u t| is least at t = -d0 n.u / u^2, or at the end of the step.
+// If that is an overlap, the bodies do meet.
 double gap_of_curves(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
     const double gap = m.points[0].separation;
     if (!(gap > 0.0)) return gap;
@@ -54,14 +54,16 @@ PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b,
     for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[std::size_t(i)].separation);
     const double bottom = swing.bottom(h), reach = swing.gap_by_turn(bottom);
     if (!(bottom > 0.0)) return as_it_is;
-    // Rolling over more than one corner a step: half a step from the bottom a circle is so far above it. Fewer are hits.
+    // Height of the path half a step before its bottom: a body that rolls over more than one corner per step may pass
+    // by that much below the deepest point. Deeper is an impact.
     const double passed = std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
     if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, swing.closing_by_turn(bottom));
     return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom), closing - swing.closing(bottom)};
 }
 
-// With r = r_e + r_x along and across the unit vector e of w:  r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
+// With r = r_e + r_x along and across the unit vector e of w:
+//   r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
 Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
     if (!m.ball_over_face()) return Vec3::Zero();
     const bool of_a = m.on_ball == OnBall::a_over_face;
@@ -70,7 +72,7 @@ Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVe
     const Vec3 arm = m.ball() - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
-    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face's turn is as much
+    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face's rotation matters too
     const Vec3 axis = turn / w, beside = axis.cross(arm), across = arm - axis.dot(arm) * axis;
     const auto [sine, cosine] = sincos(w * h);
     const Vec3 round = ((cosine - 1.0) * across + (sine - w * h) * beside) / h;

@@ -21,7 +21,7 @@ void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
 
 namespace {
 
-// Touching now, or before the step is over.
+// Whether the bodies touch, or will before the end of the step.
 bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
     const double touch = touch_distance(a.radius, b.radius);
     for (int i = 0; i < m.count; ++i) {
@@ -32,7 +32,7 @@ bool meets(const Manifold& m, const Body& a, const Body& b, double h, double spe
     return false;
 }
 
-// Fixed, or kinematic and on no way in the coming step.
+// Fixed, or kinematic without motion in the coming step.
 bool stands(const Body& body) {
     return !body.dynamic() && body.velocity.isZero(0.0) && body.angular_velocity.isZero(0.0);
 }
@@ -42,7 +42,7 @@ bool stands(const Body& body) {
 bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
     if (sleepers_ == 0) return false;
     bool woken = false;
-    // A woken group may touch another sleeping one: repeat until nobody wakes.
+    // A woken group may touch another sleeping one: repeat until no body wakes.
     for (bool again = true; again;) {
         again = false;
         for (const Manifold& m : manifolds) {
@@ -58,7 +58,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
     return woken;
 }
 
-// Whether it has been at rest for one of the spans.
+// Whether the body has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
     const double least = (tuning::sleep_looks + 1) * h;   // steps may be as long as a span: its trend must be known
@@ -77,7 +77,7 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     return rests;
 }
 
-// Whether its velocity changes steadily.
+// Whether the body's velocity changes steadily.
 bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
     trend.since += h;
     if (trend.since >= tuning::sleep_look) {
@@ -97,7 +97,8 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
         for (const std::uint32_t i : islands.bodies(island)) {
-            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);   // each step, whatever the others do
+            // in each step, whatever the other bodies do
+            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);
             const bool rests = follow(watches_[i].spans, bodies[i], h) && !under_way;
             still = still && rests && !bodies[i].flying;
         }

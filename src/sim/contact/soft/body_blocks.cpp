@@ -24,7 +24,7 @@ void BodyBlocks::add(std::span<const std::uint32_t> island, const std::vector<Bo
     open_ = false;
 }
 
-// The items ascend by body, and so do those of each half.
+// The items are ascending by body, and so are those of each half.
 void BodyBlocks::cut(std::span<PlacedBody> items) {
     if (items.size() <= most_) {
         for (const PlacedBody& item : items) order_.push_back(item.body);

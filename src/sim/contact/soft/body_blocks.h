@@ -1,6 +1,6 @@
-// The bodies of islands in blocks of neighbours, for threads to keep to: large islands are cut at the median along the longest
-// side of their box, and so on, until each block is small enough (k-d tree, Bentley 1975); small islands share one. Where an
-// island is cut depends on its own bodies alone.
+// Splits the bodies of islands into blocks of neighbors, one thread each: large islands are cut at the median along the
+// longest side of their box, recursively, until each block is small enough (k-d tree, Bentley 1975); small islands
+// share a block. The cuts of an island depend on its own bodies alone.
 #pragma once
 
 #include "sim/dynamics/body.h"
@@ -14,17 +14,17 @@ namespace tumble {
 
 class BodyBlocks {
 public:
-    /// `most`: bodies of a block.
+    /// `most`: largest number of bodies of a block.
     explicit BodyBlocks(std::size_t most) : most_(most) {}
 
     void clear();
-    /// One more island's bodies, ascending.
+    /// Adds an island. Precondition: its bodies are ascending.
     void add(std::span<const std::uint32_t> island, const std::vector<Body>& bodies);
 
     /// All bodies, block by block.
     const std::vector<std::uint32_t>& order() const { return order_; }
     std::size_t size() const { return first_.size() - 1; }
-    /// Where in the order a block begins; that of size() is the end.
+    /// Position in the order where a block begins; for size(), the end.
     std::size_t first(std::size_t block) const { return first_[block]; }
 
 private:
@@ -33,7 +33,7 @@ private:
     std::size_t most_;
     std::vector<std::uint32_t> order_;
     std::vector<std::size_t> first_{0};
-    bool open_ = false;          // the last block takes further small islands
+    bool open_ = false;          // the last block accepts further small islands
     std::vector<PlacedBody> items_, halves_;
 };
 

@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-// The forces' impulse P = F h on the way h (v + push): work P . (v + push); and so for the turn.
+// The impulse P = F h of the forces along the displacement h (v + push): work P . (v + push); likewise for the
+// rotation.
 double work_on(const ForceAccount& forces, const Body& solved) {
     return forces.impulse.dot(solved.velocity + solved.push_velocity) +
            forces.turn.dot(solved.angular_velocity + solved.push_angular_velocity);
@@ -30,7 +31,7 @@ void open_account(ForceAccount& account, const Body& body, const BodyVelocity& b
 
 void EnergyBudget::add(ForceAccount& forces, const Body& solved) {
     const double energy = solved.kinetic_energy(), forces_work = work_on(forces, solved);
-    forces.gain = std::clamp(energy - forces.start - forces_work, 0.0, energy);   // what is lifted and does not move has none
+    forces.gain = std::clamp(energy - forces.start - forces_work, 0.0, energy);   // a lifted body without motion has none
     start += forces.start;
     with_forces += forces.with_forces;
     now += energy;

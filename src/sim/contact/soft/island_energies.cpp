@@ -29,7 +29,7 @@ void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bod
     reached_.assign(blocks.order().size(), 0);
 }
 
-// Written to only where it changes: all threads read what lies beside it.
+// Written only where it changes: all threads read its neighborhood.
 void IslandEnergies::lies_deep(std::size_t place) {
     const std::atomic_ref deep(island(place).deep);
     if (deep.load(std::memory_order_relaxed) == 0) deep.store(1, std::memory_order_relaxed);
@@ -65,7 +65,7 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
     }
 }
 
-// What floats keeps its momentum: only what is not in its common motion can be too much.
+// A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.
 void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const {
     const Island& island = islands_[account.island];
     RigidMode motion;

@@ -22,8 +22,8 @@ void put_all(float* row, const std::array<double, 8>& values) {
     for (std::size_t i = 0; i < 8; ++i) row[i] = float(values[i]);
 }
 
-// What the direct solver holds between masses of 1 : 1e6 would be a blow for soft contacts: of its impulses no more is
-// handed over than some weights of the lighter body.
+// An impulse that the direct solver holds between masses of 1 : 1e6 would be a violent kick in soft contacts: the warm
+// start is limited to a few times the weight of the lighter body.
 void temper(Manifold& m, const ContactProblem& problem) {
     if (!m.solved_directly) return;
     m.solved_directly = false;
@@ -38,8 +38,8 @@ void temper(Manifold& m, const ContactProblem& problem) {
     if (sum > most) scale_impulses(m, most / sum);
 }
 
-// A sweep goes from point to point, and what comes last is held best: the deepest, not a corner for its number, which is another in a
-// mirror image. (With the deepest first, small boxes topple.)
+// A sweep visits point after point, and the last one is satisfied best: the deepest, not the one with the highest
+// index, which differs in a mirror image. (With the deepest first, small boxes topple.)
 std::array<std::uint8_t, Manifold::capacity> deepest_last(const Manifold& m) {
     constexpr std::size_t n = Manifold::capacity;
     double gap[n];
@@ -80,7 +80,7 @@ void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayo
     substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_)};
     energies_.open(layout, problem.bodies);
-    const std::size_t dynamic = 1 + layout.blocks().order().size();   // slots
+    const std::size_t dynamic = 1 + layout.blocks().order().size();   // number of slots
     places_.resize(dynamic);
     reached_.assign(dynamic, 0);
     slots_ = dynamic + layout.movers().size();
@@ -94,7 +94,7 @@ void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayo
     sources_.resize(groups * lanes);
 }
 
-// Of the places first to last in the blocks' order.
+// For the positions first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
     const double share = 1.0 / substeps_, swinging = tuning::swing_turn / problem.patches.h;
     for (std::size_t k = first; k < last; ++k) {
@@ -116,7 +116,7 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
     }
 }
 
-// And slot 0, which stands still.
+// Includes slot 0, which stands still.
 void SoftBatch::pack_movers(const ContactProblem& problem) {
     const std::size_t dynamic = layout_->blocks().order().size();
     for (Floats* array : {&inertia_, &before_, &forces_}) {
@@ -128,8 +128,8 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     for (std::size_t k = 0; k < layout_->movers().size(); ++k) {
         const Body& body = problem.bodies[layout_->movers()[k].body];
         const BodyVelocity& start = problem.before[layout_->movers()[k].body];
-        // The way of the whole step, evenly faster from substep to substep as the body's velocity grows or turns: all at once it
-        // would ask more of friction than a substep's load allows.
+        // The change of velocity over the whole step is spread evenly over the substeps, as the body's velocity grows
+        // or rotates: all at once would ask more of friction than the load of a substep allows.
         const Vec3 faster = 2.0 / substeps_ * (body.velocity - start.velocity);
         const Vec3 spun_up = 2.0 / substeps_ * (body.angular_velocity - start.angular_velocity);
         Vec3 turned = Vec3::Zero();
@@ -147,7 +147,7 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     }
 }
 
-// `made`: room for a place that is not kept.
+// `made`: storage for a place that is not kept.
 const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
                                               const std::vector<std::uint32_t>& slot, Place& made) const {
     const Body& b = problem.bodies[body];
@@ -164,7 +164,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     temper(m, problem);
     Place made_a, made_b;
     const Place &first = find_place(m.a, manifold, problem, slot, made_a), &second = find_place(m.b, manifold, problem, slot, made_b);
-    // Arms go from the body that moves, of two from the smaller: from the other's centre single precision may be too coarse.
+    // Arms start at the body that moves, of two at the smaller one: from the other's center single precision may be too
+    // coarse.
     const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
     const Place &a = swapped ? second : first, &b = swapped ? first : second;
     const std::size_t lanes = std::size_t(kernel_.lanes);
@@ -187,7 +188,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         const int i = order[std::size_t(k)];
         const ContactPoint& p = m.points[std::size_t(i)];
         PredictedGap seen{p.position, p.separation, 0.0};
-        // For a substep more than the step: the last sweep looks as far ahead.
+        // For one substep more than the step: the last sweep looks that far ahead.
         if (curves) seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
         if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
@@ -200,7 +201,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         point[soft::impulse * stride] = float(share * p.impulse);
         point += soft::point_rows * stride;
     }
-    if (count == 0) return release(m);   // left to bounce
+    if (count == 0) return release(m);   // skipped, because it will bounce
     source.count = std::uint8_t(count);
     source.swapped = swapped;
     lane_points_[g] = std::max(lane_points_[g], source.count);
@@ -212,7 +213,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
     put_row(soft::size, size);
     put_row(soft::spread, double(m.spread));
-    // Seen from the other body the second tangent is opposite too, and so is an impulse along the first.
+    // Seen from the other body the second tangent is reversed too, and so is an impulse along the first.
     put_row(soft::friction_1, (swapped ? -share : share) * m.friction[0]);
     put_row(soft::friction_2, share * m.friction[1]);
     put_row(soft::twist, share * m.twist);
@@ -247,7 +248,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     const std::size_t first_body = blocks.first(own.begin), end_body = blocks.first(own.end);
     const auto group_of = [&](std::size_t home) { return layout.first_group(layout.first_color(home)); };
     const std::size_t first_across = group_of(across), all_across = layout.groups() - first_across;
-    // Colour by colour: in this thread's blocks, then between blocks.
+    // Color by color: in this thread's blocks, then between blocks.
     const auto each_color = [&](auto&& pass) {
         for (std::size_t c = layout.first_color(own.begin); c < layout.first_color(own.end); ++c)
             pass(layout.first_group(c), layout.first_group(c + 1));
@@ -278,7 +279,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     meet();
     for (int step = 0; step < substeps_; ++step) {
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
-        if (!layout_->movers().empty()) {   // which all threads look at
+        if (!layout_->movers().empty()) {   // read by all threads
             meet();
             if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
             meet();
@@ -302,7 +303,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
 }
 
-// Impulses to the manifolds, and to the momenta of their bodies.
+// Transfers impulses to the manifolds and to the momenta of their bodies.
 void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
     const std::size_t lanes = std::size_t(kernel_.lanes);
     const double all = substeps_ * mass_unit_;
@@ -320,7 +321,7 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         m.friction[1] = all * double(head[soft::friction_2 * lanes]);
         m.twist = all * double(head[soft::twist * lanes]);
         m.tangent = three(soft::tangent_1);
-        const Vec3 force = mass_unit_ * three(soft::force), moment = mass_unit_ * three(soft::moment);   // on B; about A's centre
+        const Vec3 force = mass_unit_ * three(soft::force), moment = mass_unit_ * three(soft::moment);   // on B; about A's center
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;

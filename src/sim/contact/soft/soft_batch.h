@@ -1,8 +1,8 @@
-// Islands that are solved softly (soft_solver.h), in the kernel's lanes (soft_layout.h).
+// Islands of the soft solver (soft_solver.h) in the kernel's lanes (soft_layout.h).
 //
-// A sweep goes through each block's manifolds, colour by colour, and then through those between the blocks. Blocks share no
-// moving body: each thread keeps to its own, whose bodies and rows stay in its core's cache, and the threads meet twice a
-// sweep, not once a colour.
+// A sweep visits each block's manifolds, color by color, and then those between the blocks. Blocks share no moving
+// body: each thread has its own blocks, whose bodies and rows stay in its core's cache, and threads synchronize twice
+// per sweep, not once per color.
 #pragma once
 
 #include "sim/contact/soft/island_energies.h"
@@ -20,8 +20,11 @@ class SoftBatch {
 public:
     explicit SoftBatch(const soft::Kernel& kernel);
 
-    /// By one thread; then all the rest, by all threads of a team. `layout`: closed, and to stay until then. slot: as it has them.
-    /// `finer`: times as many substeps; `mass_unit` (kg): a power of two that masses and impulses are counted in.
+    /// prepare() is called by one thread, the following functions by all threads of a team.
+    /// - `layout`: closed, and valid until then.
+    /// - slot: as in the layout.
+    /// - `finer`: substep multiplier.
+    /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
     void prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit);
     void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
              SpinBarrier& barrier);
@@ -37,15 +40,15 @@ private:
         std::vector<float> memory_;
         float* data_ = nullptr;
     };
-    // What packing needs of a body, close together in memory.
+    // Data of a body needed for packing, close together in memory.
     struct Place {
         Vec3 position = Vec3::Zero();
         double radius = 0.0, friction = 0.0, restitution = 0.0;
         std::uint32_t slot = 0;
         bool dynamic = false;
-        bool swings = false;   // turns so fast that its corners come down along curves
+        bool swings = false;   // rotates so fast that its corners approach along curves
     };
-    // Which points of a lane's manifold are its points.
+    // The manifold points that the points of a lane stand for.
     struct Source {
         std::uint8_t count = 0;
         std::uint8_t point[Manifold::capacity] = {};
@@ -70,12 +73,12 @@ private:
     float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
 
     const soft::Kernel& kernel_;
-    double d_ = 0.0;                                  // s, a substep
+    double d_ = 0.0;                                  // s, length of a substep
     int substeps_ = 1;
     double mass_unit_ = 1.0;                          // kg
     soft::Substep substep_{};
-    Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats a slot
-    const SoftLayout* layout_ = nullptr;              // slot k + 1 is the k-th of its blocks' order; then the movers'
+    Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats per slot
+    const SoftLayout* layout_ = nullptr;              // slot k + 1 is the k-th body of its blocks' order; the movers follow
     std::size_t slots_ = 0;
     std::vector<Place> places_;                       // by slot
     IslandEnergies energies_;
@@ -83,7 +86,7 @@ private:
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;
     std::vector<Source> sources_;                     // by lane
-    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has
+    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has reached it
 };
 
 }  // namespace tumble

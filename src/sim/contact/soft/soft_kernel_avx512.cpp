@@ -6,7 +6,7 @@
 
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wuninitialized"   // g++ 12 on its own "undefined" vectors
+#pragma GCC diagnostic ignored "-Wuninitialized"   // false positive of g++ 12 on its own "undefined" vectors
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <immintrin.h>
 

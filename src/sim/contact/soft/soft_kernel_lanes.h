@@ -1,5 +1,5 @@
-// The kernel's code for TUMBLE_LANES lanes: included by one source file for each instruction set, inside an unnamed
-// namespace, so that no two of them share a symbol. Equations: soft_solver.h.
+// The kernel's code for TUMBLE_LANES lanes: included by one source file per instruction set, inside an unnamed
+// namespace, so that no two share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
 constexpr float spin_share = float(tuning::spin_share), disc = float(spin_friction::disc), steep = float(spin_friction::steep),
@@ -12,7 +12,7 @@ constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push
 
 struct Motion {
     Vector linear, angular;
-    Lanes inverse_mass;   // with velocities
+    Lanes inverse_mass;   // gathered with the velocities
 };
 
 // half 0: velocities, half 1: displacements.
@@ -26,7 +26,7 @@ inline Tensor load_inertia(const Bodies& bodies, const std::uint32_t* lane) {
     return {e.low.r[0], e.low.r[1], e.low.r[2], e.low.r[3], e.high.r[0], e.high.r[1]};
 }
 
-// Velocities of what impulses move.
+// Stores the velocities of bodies that impulses move.
 inline void save(const Bodies& bodies, const std::uint32_t* lane, std::uint32_t moved, const Motion& m) {
     const Eights e{transposed({{m.linear.x, m.linear.y, m.linear.z, m.angular.x}}),
                    transposed({{m.angular.y, m.angular.z, m.inverse_mass, Lanes{}}})};
@@ -63,12 +63,12 @@ struct Group {
 
 constexpr int coupled(int i, int k) { return coupling + k * (k - 1) / 2 + i; }   // of points i < k
 
-// An impulse on B, and its moment about A's centre.
+// An impulse on B, and its moment about A's center.
 struct Impulse {
     Vector linear, angular;
 };
 
-// Of a manifold: along the normal at each point, along both tangents and as a twist (`friction`).
+// Of a manifold: normal impulses at each point, along both tangents and torsional (`friction`).
 template <class AtPoint>
 inline Impulse total(const Group& g, int points, AtPoint&& along_normal_at, const Vector& friction) {
     const Vector n = g.vector(normal), t1 = g.vector(tangent_1);
@@ -83,7 +83,7 @@ inline Impulse total(const Group& g, int points, AtPoint&& along_normal_at, cons
     return {along_normal * n + across, angular};
 }
 
-// And its opposite on A.
+// Applies the impulse to B and its opposite to A.
 inline void apply(const Group& g, const Impulse& j, Motion& a, Motion& b) {
     a.linear = a.linear - a.inverse_mass * j.linear;
     b.linear = b.linear + b.inverse_mass * j.linear;
@@ -91,7 +91,7 @@ inline void apply(const Group& g, const Impulse& j, Motion& a, Motion& b) {
     b.angular = b.angular + g.tensor(inertia_b) * (j.angular + cross(g.vector(between), j.linear));
 }
 
-// What B does seen from A: the velocity of B's part at A's centre and the spin. At an arm r from A's centre the velocity is
+// Motion of B relative to A: the velocity at A's center and the spin. At an arm r from A's center the velocity is
 // linear + angular x r, and along the normal n: n . linear + angular . (r x n).
 struct Relative {
     Vector linear, angular;
@@ -99,7 +99,8 @@ struct Relative {
         : linear(b.linear - a.linear + cross(b.angular, g.vector(between))), angular(b.angular - a.angular) {}
 };
 
-// Across the normal: the last step's direction, or, where there is none, the axis that the normal looks along least.
+// Unit vector across the normal: the last step's direction, or, without one, from the axis at the largest angle to the
+// normal.
 inline Vector tangent(const Vector& n, const Vector& last) {
     const Vector kept = last - dot(n, last) * n;
     const Lanes square = dot(kept, kept);
@@ -117,16 +118,17 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         const Group g(groups, k);
         const Tensor of_a = load_inertia(bodies, g.a), of_b = load_inertia(bodies, g.b);
         const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1), c = g.vector(between);
-        // Lanes without a manifold have no normal: their compliances are made 1, their impulses stay 0.
+        // Lanes without a manifold have no normal: their compliances are set to 1, their impulses stay 0.
         const Lanes empty = n.x == 0.0f && n.y == 0.0f && n.z == 0.0f ? all(1.0f) : Lanes{};
         const Lanes both = load(bodies, g.a, 0).inverse_mass + load(bodies, g.b, 0).inverse_mass + empty;
         g.set(tangent_1, t1);
         g.set(inertia_a, of_a);
         g.set(inertia_b, of_b);
 
-        // Friction acts at the centroid of the area, where all points touch or nearly do; else at that of those which do.
+        // Friction acts at the centroid of the area where all points touch or nearly do; else at the centroid of the
+        // touching points.
         const Lanes near = friction_near * g[size];
-        Lanes far{};   // points
+        Lanes far{};   // number of points not near
         for (int i = 0; i < g.points; ++i) far += g.at(i, separation) < near ? Lanes{} : g.at(i, normal_mass);
         const auto whole = far == 0.0f;
         Vector center{};
@@ -195,7 +197,8 @@ void move(std::size_t first, std::size_t last, const Bodies& bodies, float subst
     }
 }
 
-// How far the points are apart now. Bodies move between the two sweeps of a substep: what relax finds holds for the next push.
+// Present distances of the points. Bodies move between the two sweeps of a substep: the gaps of relax hold for the next
+// push.
 template <int points>
 inline void find_gaps(const Group& g, const Bodies& bodies) {
     const Relative moved(g, load(bodies, g.a, 1), load(bodies, g.b, 1));
@@ -204,16 +207,16 @@ inline void find_gaps(const Group& g, const Bodies& bodies) {
     for (int i = 0; i < points; ++i) g.at(i, gap) = g.at(i, separation) + parted + dot(moved.angular, g.vector(i, turn));
 }
 
-// The velocities that a manifold's impulses act on: of its points along the normal; the slips along both tangents and the
-// twist's speed, where friction acts. As the impulses change each other's they are brought up to date by the couplings; the
-// bodies get the sum of the impulses in the end.
+// Velocities that a manifold's impulses act on: of its points along the normal; the slips along both tangents and the
+// spin at the friction point. Couplings update them as impulses change; the bodies get the sum of the impulses at the
+// end.
 template <int points>
 struct Speeds {
     Lanes parting[points];
     Vector friction;
 };
 template <int points>
-struct Changes {   // of impulses
+struct Changes {   // of the impulses of a manifold
     Lanes normal[points];
     Vector friction;
 };
@@ -231,10 +234,10 @@ inline Speeds<points> speeds_of(const Group& g, const Motion& a, const Motion& b
     return speeds;
 }
 
-// Of the load: its sum over the points, times their levers (spin_friction.h).
+// Moment of the load: sum over the points of load times lever (spin_friction.h).
 template <int points>
 inline Lanes levers_of(const Group& g, Lanes load_all, Lanes load_levers) {
-    Vector turning{};   // load times arm x normal, from A's centre
+    Vector turning{};   // load times arm x normal, from A's center
 #pragma GCC unroll 4
     for (int i = 0; i < points; ++i) turning = turning + g.at(i, impulse) * g.vector(i, turn);
     const Vector t1 = g.vector(tangent_1), t2 = cross(g.vector(normal), t1), arm = g.vector(friction_arm);
@@ -242,8 +245,8 @@ inline Lanes levers_of(const Group& g, Lanes load_all, Lanes load_levers) {
     return load_levers + (1.0f - g[spread]) * root(aside_1 * aside_1 + aside_2 * aside_2);
 }
 
-// Coulomb's disc about where friction acts, and a twist about the normal, both within what the normal impulses allow now; what
-// spins in spite of its twist shares it (spin_friction.h).
+// Coulomb's disc at the friction point, and a torsional moment about the normal, both within the limit of the present
+// normal impulses; a remaining spin shares the limit (spin_friction.h).
 template <int points>
 inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes<points>& changes) {
     Lanes load_all = Lanes{}, load_levers = Lanes{};
@@ -254,14 +257,14 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
     }
     Lanes limit = g[friction_coefficient] * load_all, twist_limit = g[friction_coefficient] * load_levers;
     const Lanes v1 = speeds.friction.x, v2 = speeds.friction.y, v3 = speeds.friction.z;
-    // What stops the slip and the twist altogether, if that is allowed.
+    // Impulses that stop slip and spin completely, if within the limit.
     Lanes j1 = g[friction_1] - (g[stick_mass] * v1 + g[stick_mass + 1] * v2);
     Lanes j2 = g[friction_2] - (g[stick_mass + 1] * v1 + g[stick_mass + 2] * v2);
     const Lanes still = g[twist] - g[twist_mass] * v3;
     Lanes j3 = larger(-twist_limit, smaller(twist_limit, still));
     const auto slips = j1 * j1 + j2 * j2 > limit * limit;
     auto turns = j3 != still;
-    if (any(Lanes(slips | turns))) {   // the bits of what is true are no zero
+    if (any(Lanes(slips | turns))) {   // true is a nonzero bit pattern
         load_levers = levers_of<points>(g, load_all, load_levers);
         twist_limit = g[friction_coefficient] * load_levers;
         j3 = larger(-twist_limit, smaller(twist_limit, still));
@@ -270,13 +273,13 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
         const Lanes slip = v1 * v1 + v2 * v2, spin = reach * reach * v3 * v3;
         const auto spins = turns && twist_limit > 0.0f && spin > spin_share * spin_share * slip;
         const auto slides = spins || slips;
-        // The limits of what spins as it does now (spin_friction.h).
+        // Limits for the present ratio of spin to slip (spin_friction.h).
         const Lanes x = spins ? disc * spin / (slip + disc * spin) : Lanes{}, y = 1.0f - x;
         const Lanes square = (sliding_square * y * y + steep * spinning_square * x * x) / (y * y + steep * x * x);
         const Lanes t = (square - sliding_square) * (1.0f / (spinning_square - sliding_square));
         const Lanes arm = spins ? reach * root(square) : Lanes{}, per_arm = spins ? 1.0f / arm : Lanes{};
         limit = spins ? limit * root(1.0f - t * (1.0f - bent + bent * t) * (1.0f - spinning_limit)) : limit;
-        // Else one mass for all directions: friction then ends up against the slip, from where each direction's own mass would turn it
+        // Else one mass for all directions: friction then ends up opposite to the slip; separate masses would turn it
         // aside.
         const Lanes mass = spins ? smaller(g[slide_mass], g[twist_mass] * per_arm * per_arm) : g[slide_mass];
         const Lanes s1 = g[friction_1] - mass * v1, s2 = g[friction_2] - mass * v2, s3 = per_arm * g[twist] - mass * arm * v3;
@@ -292,7 +295,7 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
     g[twist] = j3;
 }
 
-// One point after the other.
+// Visits one point after the other.
 template <bool pushing, int points>
 inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds, Changes<points>& changes) {
     const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
@@ -313,7 +316,8 @@ inline void solve_normals(const Group& g, const Motion& a, const Motion& b, cons
             const Lanes bias = apart ? closing : larger(spring, most);
             const Lanes mass = apart ? all(1.0f) : choose(&Softness::mass_scale);
             Lanes keep = apart ? Lanes{} : choose(&Softness::impulse_scale);
-            // Deeper than the limit the spring pushes no faster, but between bodies that move carries some more all the same.
+            // Below the depth limit the spring pushes no faster, but between bodies that move it still carries more
+            // load.
             const Lanes limited = spring < most && !held ? all(1.0f) : Lanes{};
             if (any(limited)) keep = limited > 0.0f ? keep * larger(most / spring, all(least_give)) : keep;
             next = old - g.at(i, normal_mass) * mass * (speeds.parting[i] + bias) - keep * old;
@@ -352,7 +356,7 @@ inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) 
     solve_normals<pushing>(g, a, b, substep, speeds, changes);
     if (was_idle && idle<points>(g)) return;
     if constexpr (!pushing) {
-        // Friction last, so that it holds what the normal impulses now allow.
+        // Friction last, so that it stays within the limit of the new normal impulses.
 #pragma GCC unroll 4
         for (int i = 0; i < points; ++i) speeds.friction = speeds.friction + changes.normal[i] * g.vector(i, to_friction);
         solve_friction(g, speeds, changes);
@@ -376,7 +380,7 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
             case 2: solve<pushing, 2>(g, bodies, substep); break;
             case 3: solve<pushing, 3>(g, bodies, substep); break;
             case 4: solve<pushing, 4>(g, bodies, substep); break;
-            default: break;   // all left to bounce
+            default: break;   // all points skipped because they will bounce
         }
     }
 }

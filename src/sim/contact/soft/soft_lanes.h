@@ -1,5 +1,5 @@
-// Vectors of TUMBLE_LANES floats, and the transposition of rows in memory into them: part of soft_kernel_lanes.h, which says how it
-// is included.
+// Vectors of TUMBLE_LANES floats, and the transposition of rows in memory into them: part of soft_kernel_lanes.h, which
+// says how it is included.
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
 typedef float Eight __attribute__((vector_size(32)));   // a body's velocities, or its displacements
@@ -26,11 +26,11 @@ struct Tensor {   // symmetric
     }
 };
 
-// Four floats of each lane: lane after lane in memory, transposed in registers.
+// Four floats per lane: lane after lane in memory, transposed in registers.
 struct Quads {
     Lanes r[4];
 };
-// Eight floats of each lane, one vector a float.
+// Eight floats per lane, one vector per float.
 struct Eights {
     Quads low, high;
 };

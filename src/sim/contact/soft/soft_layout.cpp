@@ -9,15 +9,15 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t colors = 64;   // bits of a mask; what finds none free is solved one by one
-// Manifolds of a colour side by side by what they cost: with impulses before those without, which may stay idle, and as many
-// points together: no lane waits for another's fourth.
+constexpr std::size_t colors = 64;   // bits of a mask; a manifold without a free color is solved one by one
+// Manifolds of a color are grouped by cost: those with impulses before those without, which may stay idle, and by their
+// number of points: no lane waits for another's fourth.
 constexpr std::size_t costs = 2 * Manifold::capacity;
 std::size_t cost_class(const Manifold& m) {
     return std::size_t(Manifold::capacity - m.count) + (normal_impulse(m) > 0.0 ? 0 : Manifold::capacity);
 }
 
-// By any thread; written to only where it changes, for all read what lies beside it.
+// May be called by any thread; writes only a change, because all threads read the neighboring flags.
 void set(std::uint8_t& flag) {
     const std::atomic_ref shared(flag);
     if (shared.load(std::memory_order_relaxed) == 0) shared.store(1, std::memory_order_relaxed);
@@ -32,7 +32,7 @@ SoftLayout::Mover SoftLayout::mover(const std::vector<Body>& bodies, std::uint32
 void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot, std::size_t team) {
     blocks_.clear();
     islands_.clear();
-    const std::size_t dynamic = 1 + part.bodies.size();   // slots
+    const std::size_t dynamic = 1 + part.bodies.size();   // number of slots
     block_of_.resize(dynamic);
     island_of_.resize(dynamic);
     lasts_ = true;
@@ -57,9 +57,9 @@ void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std
     found_movers_.assign(team, {});
 }
 
-// Greedily in the manifolds' order: the least colour neither body has, inside of the blocks and between them. What a body
-// gets depends on its island alone. Each thread colours its own blocks, whose manifolds its core's cache holds, and one what lies
-// between them.
+// Greedy coloring in the manifolds' order: the lowest color that neither body has, inside the blocks and between them.
+// The colors of a body depend on its island alone. Each thread colors its own blocks, whose manifolds its core's cache
+// holds, and one thread the manifolds between blocks.
 void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                        const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team) {
     const Share own = blocks_of(thread, team);
@@ -79,7 +79,7 @@ void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, co
         std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
         std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
         const auto c = std::size_t(std::countr_one(of_a | of_b));
-        if (c == colors) {   // one by one, in the end
+        if (c == colors) {   // solved one by one at the end
             class_[k] = none;
             continue;
         }
@@ -105,7 +105,7 @@ void SoftLayout::close(const SoftPart& part, std::size_t lanes) {
     for (std::size_t home = 0; home < homes; ++home) {
         for (std::size_t c = 0; c < colors; ++c) {
             std::uint32_t lane = std::uint32_t(groups * lanes);
-            for (std::size_t p = 0; p < costs; ++p) {   // sizes become places
+            for (std::size_t p = 0; p < costs; ++p) {   // sizes become positions
                 std::uint32_t& of_class = class_size_[(home * colors + c) * costs + p];
                 const std::uint32_t size = of_class;
                 of_class = lane;

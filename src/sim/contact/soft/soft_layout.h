@@ -1,8 +1,8 @@
-// Where the manifolds of a part go in the soft kernel's groups (soft_kernel.h), lane by lane: bodies in blocks of neighbours
-// (body_blocks.h), the manifolds inside of a block coloured by themselves so that none of a colour share a body, those between
-// blocks apart.
+// Layout of a batch's manifolds in the soft kernel's groups (soft_kernel.h), lane by lane. Bodies are in blocks of
+// neighbors (body_blocks.h); the manifolds inside a block are colored on their own so that none of one color share a
+// body, and so are those between blocks.
 //
-// A layout holds as long as the same pairs touch: that of small islands is kept from step to step.
+// A layout is valid while the same pairs touch: that of small islands is kept from step to step.
 #pragma once
 
 #include "sim/contact/soft/settings.h"
@@ -16,20 +16,20 @@
 
 namespace tumble {
 
-/// What is solved together: manifolds (ascending) and dynamic bodies of one island or several.
+/// A batch: manifolds (ascending) and dynamic bodies of one island or several, solved together.
 struct SoftPart {
     std::vector<std::uint32_t> bodies, manifolds;
-    std::vector<BodyPair> pairs;              // whose the manifolds are, one by one
-    std::vector<std::size_t> island_ends;     // in `bodies`
-    int finer = 1;                            // substeps in place of one
+    std::vector<BodyPair> pairs;              // body pairs of the manifolds, in their order
+    std::vector<std::size_t> island_ends;     // positions in `bodies`
+    int finer = 1;                            // substep multiplier
 };
 
 class SoftLayout {
 public:
     static constexpr std::uint32_t none = UINT32_MAX;
 
-    /// A kinematic body, as all its manifolds see it, or one that turns as one of them does: riders differ in where they are
-    /// carried to. It has a slot of its own: it moves, and is never written to.
+    /// A kinematic body, as seen by all its manifolds, or a rotating one as seen by one of them: carried bodies differ
+    /// in where they are carried to. It has a slot of its own: it moves, and is never written.
     struct Mover {
         std::uint32_t body = 0, manifold = 0;
         auto operator<=>(const Mover&) const = default;
@@ -37,24 +37,25 @@ public:
     static Mover mover(const std::vector<Body>& bodies, std::uint32_t body, std::uint32_t manifold);
 
     struct Island {
-        std::size_t first, end;               // places in the blocks' order
-        std::size_t first_block, end_block;   // its own if they are several
-        std::uint8_t leans = 0;               // on what stands
-        std::uint8_t driven = 0;              // by a kinematic body
+        std::size_t first, end;               // positions in the blocks' order
+        std::size_t first_block, end_block;   // of a large island, its own blocks
+        std::uint8_t leans = 0;               // touches a body that stands
+        std::uint8_t driven = 0;              // touches a moving kinematic body
     };
     struct Share {
         std::size_t begin, end;
     };
 
-    /// In turn: by one thread; by each of a team of so many; by one. slot: by body, the part's own are set, to its place in the
-    /// blocks' order plus one; what touches them and does not move has 0.
+    /// Called in this order: open() by one thread; the next by each thread of a team; close() by one. slot: by body,
+    /// set for the batch's own bodies to the position in the blocks' order plus one; 0 for touching bodies that do not
+    /// move.
     void open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot, std::size_t team);
     void color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
     void close(const SoftPart& part, std::size_t lanes);
 
-    /// Whether it is good for one more step with the same pairs: where large islands are cut depends on where their bodies are, and
-    /// what manifolds cost changes slowly.
+    /// Whether the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
+    /// bodies' positions, and the costs of manifolds change slowly.
     bool lasts() { return lasts_ && ++steps_ < tuning::soft_layout_steps; }
 
     const BodyBlocks& blocks() const { return blocks_; }
@@ -70,10 +71,11 @@ public:
     const std::vector<Mover>& movers() const { return movers_; }   // ascending
 
     std::size_t groups() const { return first_group_.back(); }
-    /// The colours of a block, or, for the number of blocks, of what lies between them; and where a colour's groups begin.
+    /// Colors of a block, or, for the number of blocks, of the manifolds between blocks; and the first group of a
+    /// color.
     std::size_t first_color(std::size_t home) const { return first_color_[home]; }
     std::size_t first_group(std::size_t color) const { return first_group_[color]; }
-    /// By lane of all groups; none in lanes left over.
+    /// By lane of all groups; none in unused lanes.
     std::uint32_t manifold(std::size_t lane) const { return lane_manifolds_[lane]; }
 
 private:
@@ -85,14 +87,14 @@ private:
     struct Taken {
         std::uint64_t inside = 0, across = 0;
     };
-    std::vector<Taken> taken_;                          // by slot: colours, inside of the block and between blocks
-    std::vector<std::uint32_t> class_;                  // by manifold of the part: home, colour, cost
+    std::vector<Taken> taken_;                          // by slot: colors, inside the block and between blocks
+    std::vector<std::uint32_t> class_;                  // by manifold of the batch: home, color, cost
     std::vector<std::uint32_t> class_size_;
-    std::vector<std::size_t> first_group_;              // of each colour that is used, and the end
-    std::vector<std::size_t> first_color_;              // of each block, then of what lies between them, and the end
+    std::vector<std::size_t> first_group_;              // of each color in use, and the end
+    std::vector<std::size_t> first_color_;              // of each block, then of the manifolds between blocks, and the end
     std::vector<std::uint32_t> lane_manifolds_;
     bool lasts_ = false;
-    int steps_ = 0;   // since it was made
+    int steps_ = 0;   // since the layout was made
 };
 
 }  // namespace tumble

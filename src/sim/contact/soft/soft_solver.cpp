@@ -12,8 +12,8 @@
 namespace tumble {
 namespace {
 
-// The mass (kg) that single precision counts in: squares of impulses must neither overflow nor vanish. 1 for what a hand or a crane
-// lifts; for dust and moons the power of two in the middle of the scene's masses, by which numbers change without rounding.
+// Unit of mass (kg) for single precision: squares of impulses must neither overflow nor vanish. 1 for everyday objects;
+// for dust and moons the power of two in the middle of the scene's masses, which changes numbers without rounding.
 double mass_unit(const std::vector<Body>& bodies) {
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (const Body& body : bodies) {
@@ -28,7 +28,7 @@ double mass_unit(const std::vector<Body>& bodies) {
 }  // namespace
 
 int substeps_of(double h) {
-    // A step of exactly so many substeps must not get one more by rounding.
+    // Rounding must not add a substep to a step of exactly so many.
     const double n = std::ceil(h / tuning::soft_substep - 1e-6);
     return int(std::clamp(n, double(tuning::soft_least_substeps), double(tuning::soft_most_substeps)));
 }
@@ -68,7 +68,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
             batches_[0]->run(problem, slot_, thread, threads, barrier);
         });
     }
-    // Neighbours in the list, and the same ones from step to step.
+    // Neighbors in the list, and the same ones from step to step.
     const auto each_of = [&](std::size_t thread, std::size_t team, auto&& visit) {
         for (std::size_t s = small_.size() * thread / team; s < small_.size() * (thread + 1) / team; ++s) visit(small_[s]);
     };

@@ -1,20 +1,22 @@
 // Resting contact and friction of whole heaps: many small substeps, one sweep each, with soft constraints.
 //
-// The step h is cut into n substeps. In each, velocities take their share of the step's forces, contacts are swept once from
-// the impulses of the substep before, bodies move by the new velocities, and a second sweep takes out again of the
-// velocities what only pushed overlaps apart ("Small Steps", Macklin and others 2019; soft constraints and relaxation:
-// Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
-//     b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
-// of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses, of
-// b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Not yet touching points (s > 0) may approach by s/d and no
-// more. Friction: a force f at one place of the manifold, the centroid of its contact area, |f| <= mu sum N_i, and a twist T about its
-// normal, |T| <= mu N d, with d the area's mean distance from there. Where the twist does not stop the spin, and the spin is no mere
-// trace (spin_share), the two share one limit, that of Coulomb's law over the area (spin_friction.h): what slides and spins has less
-// friction against either.
+// The step h is cut into n substeps. In each, velocities take their share of the step's forces, contacts are swept once
+// from the impulses of the last substep, bodies move by the new velocities, and a second sweep removes from the
+// velocities the part that only pushed overlaps apart ("Small Steps", Macklin and others 2019; soft constraints and
+// relaxation: Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
+//   b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
+// of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses,
+// of b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Points that do not touch yet (s > 0) may approach by
+// s/d and no more.
 //
-// Contacts are coloured so that none of one colour share a moving body; those of a colour are solved side by side, a lane
-// each, in single precision, relative to the poses of the step's start (soft_batch.h). The sums of the impulses then change
-// the momenta in double precision, equal and opposite to the last bit.
+// Friction: a force f at one point of the manifold, the centroid of its contact area, |f| <= mu sum N_i, and a
+// torsional moment T about its normal, |T| <= mu N d, with d the area's mean distance from there. Where T does not stop
+// the spin, and the spin is not negligible (spin_share), the two share one limit, that of Coulomb's law over the area
+// (spin_friction.h): a contact that slides and spins has less friction against either.
+//
+// Contacts are colored so that none of one color share a moving body; those of a color are solved side by side, a lane
+// each, in single precision, relative to the poses of the step's start (soft_batch.h). The sums of the impulses then
+// change the momenta in double precision, equal and opposite to the last bit.
 #pragma once
 
 #include "sim/contact/model/contact_constraint.h"
@@ -29,9 +31,10 @@
 
 namespace tumble {
 
-/// What both contact solvers work on. Bodies come with the velocities after the step's forces, kinematic ones with the mean of the
-/// step; velocities of the step's start beside them. A solver changes the momenta, derives the velocities, and sets the push velocities so that
-/// h (velocity + push), with the gyration, is the body's way in the step. Bodies that no impulse has reached are left as they are.
+/// Input and output of both contact solvers. Bodies have the velocities after the step's forces, kinematic ones the
+/// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
+/// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
+/// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
 struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
@@ -46,21 +49,23 @@ public:
     explicit SoftSolver(std::size_t bodies, const soft::Kernel& kernel = soft::best_kernel());
     ~SoftSolver();
 
-    /// `parts`: manifolds (ascending) and dynamic bodies of one island or several each; parts share no dynamic body.
-    /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on how islands are dealt into parts nor on the number of threads.
+    /// `parts`: batches of manifolds (ascending) and dynamic bodies of one island or several; batches share no dynamic
+    /// body.
+    /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on the batching nor on the
+    /// number of threads.
     using Part = SoftPart;
     void solve(const ContactProblem& problem, std::span<const Part> parts, bool same, ThreadPool& pool);
 
 private:
     const soft::Kernel& kernel_;
     std::vector<std::uint32_t> slot_;                 // by body
-    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one a thread
-    std::vector<SoftLayout> layouts_;                 // one a part
-    std::vector<std::size_t> small_;                  // parts that one thread solves
+    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one per thread
+    std::vector<SoftLayout> layouts_;                 // one per batch
+    std::vector<std::size_t> small_;                  // batches that one thread solves
     double mass_unit_ = 0.0;                          // kg; of the scene's bodies, which do not change
 };
 
-/// Substeps of a step of h seconds.
+/// Number of substeps of a step of h seconds.
 int substeps_of(double h);
 
 }  // namespace tumble

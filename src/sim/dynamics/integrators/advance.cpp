@@ -22,7 +22,7 @@ void for_each_part(const Body& body, const ForceField& forces, std::size_t index
                    const Part& part) {
     while (from < to) {
         const double end = std::min(to, forces.next_change(index, from));
-        // What acts at the part's middle acts throughout; asked at its ends, rounding of times would decide.
+        // A force that acts at the part's middle acts throughout; at the part's ends, rounding of times would decide.
         const double middle = 0.5 * (from + end);
         const auto law = [&](const Vec3& velocity, const Mat3& rotation) {
             return forces.at(index, body, velocity, rotation, middle);
@@ -32,14 +32,14 @@ void for_each_part(const Body& body, const ForceField& forces, std::size_t index
     }
 }
 
-// The power of two that is the cube root of x or up to twice as large: libm's would not be the same everywhere.
+// The power of two between the cube root of x and twice that: libm's cbrt differs between platforms.
 double cube_root_above(double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
     return std::ldexp(1.0, exponent > 0 ? (exponent + 2) / 3 : exponent / 3);
 }
 
-// The rate (1/s) at which the motion changes: of drag, of the rotation, of the angular velocity by the torque.
+// Rate (1/s) of change of the motion: by drag, by the rotation, and of the angular velocity by the torque.
 double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, bool turns, double drag_rate,
                const Vec3& wind, double span) {
     const Vec3 velocity = mass.inverse_mass * s.momentum;
@@ -47,10 +47,10 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
     const Wrench wrench = law(velocity, rotation);
     double rate = 0.0;
     if (drag_rate > 0.0) {
-        // Of dv/dt = a - k |u| u, k half the drag rate, it is k |u|; where the speed is yet to come, sqrt(k a).
+        // Of dv/dt = a - k |u| u, k half the drag rate, it is k |u|; where the speed still builds up, sqrt(k a).
         const double speed = (velocity - wind).norm(), acceleration = mass.inverse_mass * wrench.force.norm();
         rate += drag_rate * speed + std::sqrt(drag_rate * acceleration);
-        // The singularity is |u| / a away. In h it amounts to k a^2 h^3 of the velocity, at last to nothing.
+        // The singularity is |u| / a away. Over h it contributes k a^2 h^3 to the velocity, which vanishes for small h.
         if (acceleration > 0.0) {
             const double nothing = tuning::extrapolation_no_drag * (velocity.norm() + acceleration * span);
             const double finest = cube_root_above(drag_rate * acceleration * acceleration / nothing);
@@ -98,7 +98,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
             state.position += span * mass.inverse_mass * (state.momentum + 0.5 * span * force);
             state.momentum += span * force;
         } else {
-            // Nothing but forces at points depends on the orientation: without them it is left out of the steps.
+            // Only forces at points depend on the orientation: without them it is excluded from the steps.
             RigidMass moved = mass;
             const Vec3 angular_momentum = state.angular_momentum;
             if (!turns) state.angular_momentum.setZero();
@@ -110,7 +110,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
                                                safe_text(body.name), start, end, tuning::most_substeps));
                 }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
-                // The rest in equal steps at the present rate; the next one decides anew.
+                // Divides the rest into equal steps at the present rate; the next step decides anew.
                 const double rest = span - done, count = std::ceil(rest * rate / tuning::extrapolation_phase);
                 extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
                 if (!(count > 1.0)) break;

@@ -1,5 +1,5 @@
-// A body without contact over a span of time, by one of the integrators, under the scene's forces. Where a force begins
-// or ends within the span, the span is taken in parts: no step goes across.
+// Advances a body without contact over a span of time, by one of the integrators, under the scene's forces. A span in
+// which a force begins or ends is split there: no step goes across.
 #pragma once
 
 #include "sim/dynamics/forces.h"
@@ -7,17 +7,19 @@
 
 namespace tumble {
 
-/// Whether the kind moves bodies by advance_one_step (the two Euler methods are World's own).
+/// Whether advance_one_step moves bodies of this kind (the two Euler methods belong to World).
 bool steps_whole_state(IntegratorKind kind);
 
 /// One step of splitting or runge_kutta_4 from `from` to `to`, in s.
 void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from,
                       double to);
 
-/// The body's state at `to`, from its present one at `from`, as good as double precision allows (about 1e-12 over some
-/// seconds): free flight in closed form; under drag alone the rotation in closed form and the centre by extrapolation;
-/// under forces at points everything by extrapolation, in as many steps as the rates ask for. Throws RunError when that
-/// is too many.
+/// The body's state at `to`, from its present one at `from`, as accurate as double precision allows (about 1e-12 over
+/// some seconds):
+/// - free flight in closed form;
+/// - under drag alone the rotation in closed form and the center by extrapolation;
+/// - under forces at points everything by extrapolation, in as many steps as the rates require.
+/// Throws RunError for too many steps.
 RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from, double to);
 
 }  // namespace tumble

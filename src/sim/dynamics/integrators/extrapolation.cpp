@@ -30,7 +30,7 @@ void extrapolation_step(RigidState& state, const RigidMass& mass, const ForceLaw
     const StateVector first = rate_of_change(y, mass, forces);
     StateVector change = StateVector::Zero();
     for (const Part& part : substep_counts) {
-        // d = what has been added to y. The midpoint rule, and Gragg's mean over the last two points at the end.
+        // d = the sum added to y. The midpoint rule, and Gragg's mean over the last two points at the end.
         const double step = h / part.count;
         StateVector last = StateVector::Zero(), d = step * first;
         for (int i = 1; i < part.count; ++i) {

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-// Longer by tan(x) / x, with half the angle for quaternions: advance_pose() turns by the angle's tangent.
+// Longer by tan(x) / x, with half the angle for quaternions: advance_pose() rotates by the angle's tangent.
 Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
     const double length = form == RotationForm::quaternion ? 0.5 * h : h, square = length * length * omega.squaredNorm();
     if (square < tuning::spin_series_turn * tuning::spin_series_turn)
@@ -24,7 +24,7 @@ Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
 Vec3 by_series(const Body& body, double h) {
     const Vec3 &omega = body.angular_velocity, &l = body.angular_momentum;
     const Vec3 change = body.inverse_inertia * l.cross(omega);   // omega'
-    // I^-1 turns with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
+    // I^-1 rotates with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
     const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) + body.inverse_inertia * l.cross(change);
     return omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
 }
@@ -34,7 +34,7 @@ Vec3 in_closed_form(const Body& body, double h) {
     return rotation_vector(rotation.at(h) * body.orientation.conjugate()) / h;
 }
 
-// Of torque-free rotation over the step.
+// Mean angular velocity of torque-free rotation over the step.
 Vec3 mean(const Body& body, double h) {
     return h * body.angular_velocity.norm() < tuning::spin_series_turn ? by_series(body, h) : in_closed_form(body, h);
 }

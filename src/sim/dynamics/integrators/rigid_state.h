@@ -1,5 +1,5 @@
-// What the integrators of higher order work on: the state of one body, its mass, and a law of force; nothing else of
-// the simulation. World frame unless said otherwise.
+// Input of the higher-order integrators: the state of one body, its mass, and a law of force, independent of the rest
+// of the simulation. World frame unless stated otherwise.
 #pragma once
 
 #include "core/vector.h"
@@ -11,30 +11,31 @@ struct Body;
 
 /// X = (x, q, P, L) (notes eq. 1 with section 3.1's quaternion).
 struct RigidState {
-    Vec3 position = Vec3::Zero();           // m, of the centre of mass
+    Vec3 position = Vec3::Zero();           // m, of the center of mass
     Quat orientation = Quat::Identity();    // body to world
     Vec3 momentum = Vec3::Zero();           // kg m/s
-    Vec3 angular_momentum = Vec3::Zero();   // kg m^2/s, about the centre of mass
+    Vec3 angular_momentum = Vec3::Zero();   // kg m^2/s, about the center of mass
 };
 
-/// How a body resists.
+/// Inertia of a body.
 struct RigidMass {
     double inverse_mass = 0.0;               // 1/kg
     Mat3 inverse_inertia = Mat3::Zero();     // 1/(kg m^2), body frame
     Vec3 principal_inertia = Vec3::Ones();   // kg m^2
-    Quat principal_axes = Quat::Identity();  // turns principal coordinates into body coordinates
+    Quat principal_axes = Quat::Identity();  // rotates principal coordinates into body coordinates
 };
 
 RigidState state_of(const Body& body);
 RigidMass mass_of(const Body& body);
-/// Also makes what is derived from the state.
+/// Also updates the quantities derived from the state.
 void set_state(Body& body, const RigidState& state);
 
 /// The rotation matrix of a quaternion of any length: the stages of a step leave the unit sphere a little.
 Mat3 rotation_of(const Quat& q);
 
-/// What acts on a body in a place, with a velocity: Wrench(velocity, rotation) of any callable, which must outlive it.
-/// No time: a span of time over which forces come or go is stepped in parts.
+/// Force and torque on a body for a velocity and a rotation: Wrench(velocity, rotation) of any callable, which must
+/// outlive it.
+/// Independent of time: a span of time over which forces begin or end is stepped in parts.
 class ForceLaw {
 public:
     template <class Callable>

@@ -1,5 +1,5 @@
-// The classical method of Runge and Kutta (Kutta 1901): four evaluations a step, error O(h^4). Neither symplectic nor
-// reversible: energy drifts, by O(h^5) a step. The quaternion is brought back to length 1 after each step.
+// The classical method of Runge and Kutta (Kutta 1901): four evaluations per step, error O(h^4). Neither symplectic nor
+// reversible: energy drifts, by O(h^5) per step. The quaternion is normalized after each step.
 #pragma once
 
 #include "sim/dynamics/integrators/rigid_state.h"

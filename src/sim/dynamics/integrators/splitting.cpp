@@ -14,7 +14,8 @@ void kick(RigidState& s, const RigidMass& mass, const ForceLaw& forces, double h
     s.angular_momentum += h * wrench.torque;
 }
 
-// The part of the kinetic energy m_i^2 / 2 I_i alone: a turn about the body's axis i at m_i / I_i, which stays.
+// The term m_i^2 / 2 I_i of the kinetic energy alone: a rotation about the body's axis i at the constant rate
+// m_i / I_i.
 template <int i>
 void turn(Quat& q, Vec3& m, const Vec3& inertia, double h) {
     constexpr int j = (i + 1) % 3, k = (i + 2) % 3;

@@ -1,4 +1,4 @@
-// The state as a point of R^13 and its rate of change: what general methods for dy/dt = f(y) need to know.
+// The state as a point of R^13 and its rate of change: the interface of general methods for dy/dt = f(y).
 #pragma once
 
 #include "sim/dynamics/integrators/rigid_state.h"
@@ -8,7 +8,7 @@ namespace tumble {
 using StateVector = Eigen::Matrix<double, 13, 1>;   // x, q (x, y, z, w), P, L
 
 StateVector vector_of(const RigidState& state);
-/// With its quaternion made one of length 1 again.
+/// The state with its quaternion normalized.
 RigidState state_of(const StateVector& y);
 
 /// dx/dt = P/M, dq/dt = omega q / 2, dP/dt = F, dL/dt = tau (notes eq. 7 and section 3.1), omega = R I^-1 R^T L.
