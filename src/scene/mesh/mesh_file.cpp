@@ -56,7 +56,7 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
 
 void MeshFile::add_position(const Vec3& position) {
     constexpr double farthest = 1e30;
-    if (!(position.cwiseAbs().maxCoeff() <= farthest)) {   // false for NaN
+    if (!(position.array().abs() <= farthest).all()) {   // false for NaN, which maxCoeff() may pass over
         throw MeshError("holds a coordinate that is not a finite number, or beyond 1e30");
     }
     check_more_positions(1);
