@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <array>
+#include <limits>
 #include <random>
 #include <utility>
 #include <vector>
@@ -146,6 +148,19 @@ TEST_F(HostileMesh, Stl) {
                  "not a number, in line 5");
     expect_error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid x\n",
                  "a facet of 1 corners");
+}
+
+// A maximum of three numbers may pass over one that is not a number: each place counts.
+TEST_F(HostileMesh, CoordinatesThatAreNotNumbers) {
+    for (std::size_t place = 0; place < 9; ++place)
+        for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
+                                  std::numeric_limits<float>::infinity(), 2e30f}) {
+            std::array<float, 12> facet{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};   // normal, then three corners
+            facet[3 + place] = wrong;
+            std::string bytes(80, ' ');
+            bytes += std::string("\1\0\0\0", 4) + std::string(reinterpret_cast<const char*>(facet.data()), sizeof facet) + std::string(2, '\0');
+            expect_error("a.stl", bytes, "holds a coordinate that is not a finite number");
+        }
 }
 
 TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {
