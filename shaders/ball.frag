@@ -4,7 +4,7 @@
 in vec3 v_local;                    // m, from the ball's middle
 flat in vec4 v_tile;                // its tile's middle in the occlusion atlas, and half its width and height
 #ifndef PATTERNED
-flat in vec4 v_octants;             // what every other octant has more of diffuse colour, and less of all
+flat in vec4 v_octants;             // what every other octant has more of diffuse color, and less of all
 #endif
 
 // 1 on every other octant, 0 on the rest, filtered over the pixel: shows how the ball turns.

@@ -36,7 +36,7 @@ flat out vec2 v_pattern;
 #ifdef BOX
 out vec2 v_on_face;                 // m, from the face's middle along its axes
 flat out vec4 v_face;               // m: half the face's size; that without the bevel's width
-flat out vec4 v_tile;               // place of the face's middle in the occlusion atlas, and of a metre along its axes
+flat out vec4 v_tile;               // place of the face's middle in the occlusion atlas, and of a meter along its axes
 flat out vec3 v_edges;              // m: bevel, how far from the edge the groove is, half its width
 #else
 out vec3 v_local;                   // m, body axes
@@ -44,7 +44,7 @@ out vec3 v_local;                   // m, body axes
 #ifdef BALL
 flat out vec4 v_tile;               // its tile's middle in the occlusion atlas, and half its width and height
 #ifndef PATTERNED
-flat out vec4 v_octants;            // what every other octant has more of diffuse colour, and less of all
+flat out vec4 v_octants;            // what every other octant has more of diffuse color, and less of all
 #endif
 #endif
 #ifdef MESH
@@ -103,7 +103,7 @@ void main() {
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
     vec2 half_size = vec2(dot(size, unit_a), dot(size, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
-    // A tile has a texel's centre at each corner of its face, less a thousandth: no share of the next tile's by rounding.
+    // A tile has a texel's center at each corner of its face, less a thousandth: no share of the next tile's by rounding.
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
     float span = max(instance_tile.x - 1.002, 0.0);
     vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * (instance_tile.x - 1.0) : vec2(0.5);

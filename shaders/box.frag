@@ -3,7 +3,7 @@
 
 in vec2 v_on_face;                  // m, from the face's middle along its axes
 flat in vec4 v_face;                // m: half the face's size; that without the bevel's width
-flat in vec4 v_tile;                // place of the face's middle in the occlusion atlas, and of a metre along its axes
+flat in vec4 v_tile;                // place of the face's middle in the occlusion atlas, and of a meter along its axes
 flat in vec3 v_edges;               // m: bevel, how far from the edge the groove is, half its width
 
 #ifndef PATTERNED

@@ -1,7 +1,7 @@
-// The look: every constant of light and colour that was chosen by eye, in one place.
+// The look: every constant of light and color that was chosen by eye, in one place.
 // Light is linear and relative: 1 on a white surface is paper white on the screen.
 
-// Sun and sky give a face turned to the sun about 1, so that its colour on the screen is the scene file's.
+// Sun and sky give a face turned to the sun about 1, so that its color on the screen is the scene file's.
 const vec3 sun_light = vec3(0.80, 0.745, 0.655);          // what a surface facing the sun receives: a warm late morning
 const vec3 sky_light = vec3(0.325, 0.365, 0.435);         // from straight above, without the sun
 const vec3 bounce_light = vec3(0.195, 0.185, 0.170);      // from below: the sunlit ground, seen dimly
@@ -13,12 +13,12 @@ const float sky_haze = 5.0;                               // how fast the horizo
 const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky around the sun
 
 const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone
-const float veil_of_rough = 0.2;                          // what is left of the mirrored sky on chalk: colours stay rich
+const float veil_of_rough = 0.2;                          // what is left of the mirrored sky on chalk: colors stay rich
 
 const float corner_darkness = 0.5;                        // sky light lost where two planes meet
 const float occlusion_of_sun = 0.25;                      // share of that loss which sunlight feels
 
-const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's colour
+const float brightest_highlight = 16.0;                   // of the sun, before its light and the surface's color
 const float bevel_blur = 0.25;                            // of the spread that linear light has on bevels: light is averaged
                                                           // as it is shown, where highlights weigh less
 const float flat_box = 4.0;                               // pixels: thinner boxes have no rounded edges,

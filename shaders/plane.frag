@@ -76,7 +76,7 @@ float openness(vec2 cells, float far) {
 }
 
 void main() {
-    // Where the ray meets the plane: exact for every pixel, however far. The sample may lie past the pixel's centre.
+    // Where the ray meets the plane: exact for every pixel, however far. The sample may lie past the pixel's center.
     float fall = max(here(v_fall), 1.0 / farthest);
     float far = v_length_x.w / fall;
     float squared = v_length_x.x + gl_FragCoord.x * (v_length_x.y + gl_FragCoord.x * v_length_x.z) +

@@ -66,7 +66,7 @@ float sun_visible(vec3 in_near, vec3 in_far) {
     vec3 at = mix(in_far + vec3(1.0, 0.0, 0.0), in_near, near);
     vec3 place = vec3(at.xy * SHADOW_TEXELS - 0.5, at.z);
 #ifdef PIXEL_SHADOWS
-    // Steps within one map, on both sides of the near one's rim. In the far map they are as long at most, in metres.
+    // Steps within one map, on both sides of the near one's rim. In the far map they are as long at most, in meters.
     vec3 scale = vec3(SHADOW_TEXELS, SHADOW_TEXELS, 1.0);
     vec3 right = scale * mix(dFdx(in_far), dFdx(in_near), near), down = scale * mix(dFdy(in_far), dFdy(in_near), near);
     float far_part = length(dFdx(in_far.xy)) / max(length(dFdx(in_near.xy)), 1e-12);

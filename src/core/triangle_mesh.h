@@ -10,7 +10,7 @@
 namespace tumble {
 
 /// Vertices (m, in the mesh's own frame) and triangles as counter-clockwise vertex indices.
-/// Loaders weld equal positions first, so that neighbours share vertices and edges can be matched.
+/// Loaders weld equal positions first, so that neighbors share vertices and edges can be matched.
 struct TriangleMesh {
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;

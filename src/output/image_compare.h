@@ -86,7 +86,7 @@ private:
 /// The same of pictures in memory. Throws InputError where the sizes differ (nothing can be said then).
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// A row of the first picture dimmed to grey, with differences in red (beyond the tolerance) and blue (within it, magnified).
+/// A row of the first picture dimmed to gray, with differences in red (beyond the tolerance) and blue (within it, magnified).
 void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance, std::span<std::uint8_t> to);
 
 /// The same of pictures in memory.

@@ -101,7 +101,7 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
     if (format.pixels == PixelForm::yuv420)
-        // What yuv420.h makes; without the tags players would show other colours.
+        // What yuv420.h makes; without the tags players would show other colors.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});
     append(arguments, codec_arguments(format.kind, options));

@@ -2,7 +2,7 @@
 //
 // .mp4 .mov .mkv   H.264 (x264), 4:2:0, BT.709: plays everywhere
 // .webm            VP9, 4:2:0, BT.709
-// .gif             256 colours chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
+// .gif             256 colors chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
 #pragma once
 
 #include <cstddef>
@@ -68,7 +68,7 @@ VideoFormat video_format(const std::filesystem::path& clip, double fps);
 constexpr const char* clip_to_standard_output = "/dev/stdout";
 
 /// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`.
-/// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colours are known only
+/// For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only
 /// when all frames are, and reading them twice keeps memory flat.
 std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
                                             const std::filesystem::path& output);

@@ -17,12 +17,12 @@ constexpr int fraction_bits = 15;
 struct Weights {
     int r, g, b;
 };
-// Rounded so that white is 235 (the first adds up to 219/255) and grey has no colour (the others to nothing).
+// Rounded so that white is 235 (the first adds up to 219/255) and gray has no color (the others to nothing).
 constexpr Weights to_y{5983, 20127, 2032}, to_cb{-3298, -11094, 14392}, to_cr{14392, -13072, -1320};
 static_assert(to_cb.r + to_cb.g + to_cb.b == 0 && to_cr.r + to_cr.g + to_cr.b == 0);
 
 constexpr int y_offset = 16, chroma_offset = 128;
-constexpr int y_shift = fraction_bits, chroma_shift = fraction_bits + 2;   // colour comes as the sum of four pixels
+constexpr int y_shift = fraction_bits, chroma_shift = fraction_bits + 2;   // color comes as the sum of four pixels
 
 /// Places the offset, and a half for rounding.
 constexpr int bias(int offset, int shift) { return (offset << shift) + (1 << (shift - 1)); }

@@ -1,4 +1,4 @@
-// From pictures to video: planes of brightness (Y) and colour differences (Cb, Cr), the latter for squares of 2 x 2
+// From pictures to video: planes of brightness (Y) and color differences (Cb, Cr), the latter for squares of 2 x 2
 // pixels (4:2:0), as ITU-R BT.709 has them, limited range, 8 bits:
 //
 //   Y  = 16 + 219 (0.2126 R + 0.7152 G + 0.0722 B) / 255

@@ -207,7 +207,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const Visibility seen = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     std::optional<Visibility> everything;
     const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.looks, s.view)) : seen;
-    // Of what is seen alone: where a tile lies in the atlas may tell in a colour's last digit.
+    // Of what is seen alone: where a tile lies in the atlas may tell in a color's last digit.
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, seen);
     DirtyTiles marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();

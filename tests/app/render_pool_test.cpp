@@ -151,7 +151,7 @@ TEST(RenderPool, AFrameIsTheSameWhicheverWasTheFirst) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
         MotionBlurFrame exposure = sharp(n);
-        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // .02 pixels are .9e-3 m
+        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // 0.02 pixels are 0.9e-3 m
         return exposure;
     };
     for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping), std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {

@@ -120,7 +120,7 @@ bool is_gone(pid_t id) {
     return false;
 }
 
-// What a program starts and leaves behind may hold its pipes open for ever.
+// What a program starts and leaves behind may hold its pipes open forever.
 TEST(Process, ItsEndIsNotThatOfAllThatItStarted) {
     const TestFolder folder;
     const std::string leave_behind = "sleep 1000 & echo $! > \"$0\"; ";

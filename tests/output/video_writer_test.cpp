@@ -147,7 +147,7 @@ TEST(VideoWriter, TheSameFramesAreTheSameBytes) {
     }
 }
 
-/// Which grey is shown at each of so many times n/fps: by the time stamps of the stored frames.
+/// Which gray is shown at each of so many times n/fps: by the time stamps of the stored frames.
 std::vector<int> shown(const std::filesystem::path& clip, double fps, int frames) {
     const std::filesystem::path raw = clip.string() + ".grey";
     output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-fps_mode", "passthrough", "-f", "rawvideo",

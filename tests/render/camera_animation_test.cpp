@@ -298,7 +298,7 @@ TEST(HazeDistance, LeavesWhatIsLargeInThePicture) {
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, -190.5), 0.5), 50.0);      // a dot
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 400.0);    // its near side is 200 m away
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 50.0);      // behind the eye
-    EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // what the others stand on: a metre below the eye
+    EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // what the others stand on: a meter below the eye
     scene.camera.orbit = 10.0;
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);     // in view later
     scene.camera.orbit = 0.0;

@@ -189,7 +189,7 @@ TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     EXPECT_LT(silhouettes.error(scene, false, inside), 0.06);   // the ball is drawn as a mesh within 0.15 pixels
 }
 
-// One colour inside and out: only the outline of the ring can be seen, with its hole.
+// One color inside and out: only the outline of the ring can be seen, with its hole.
 TEST(SmoothEdges, OfAMeshHaveManyShades) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
@@ -214,7 +214,7 @@ TEST(SmoothEdges, OfAMeshHaveManyShades) {
     EXPECT_LT(smooth, silhouettes.error(scene, true, inside) + 0.02);
 }
 
-// The far rim of its hole, which the near tube hides, took colour from beyond the ring: grey holes in small ones.
+// The far rim of its hole, which the near tube hides, took color from beyond the ring: gray holes in small ones.
 TEST(SmoothEdges, ThatAMeshHidesItselfAreNotSeen) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();

@@ -71,7 +71,7 @@ TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
     box.half_size = {0.5f, 0.5f, 0.5f};
     box.reach = 0.5f;
     SurfacePoints points;
-    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbour of the same height
+    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbor of the same height
     points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());   // turned away
     darken(points, box, 0.5f);
     EXPECT_NEAR(points.open[0], 1.0f, 0.01f);

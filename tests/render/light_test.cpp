@@ -1,4 +1,4 @@
-// Light: colours come out as they were given, shadows lie where geometry puts them, contact is dark.
+// Light: colors come out as they were given, shadows lie where geometry puts them, contact is dark.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -32,7 +32,7 @@ std::vector<double> levels_taken(const SceneDescription& scene, const std::vecto
     return levels;
 }
 
-// With the shading left out, what is on the screen is the scene file's colour: decoded and encoded exactly once.
+// With the shading left out, what is on the screen is the scene file's color: decoded and encoded exactly once.
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_diffuse), 1.0); // ");
@@ -159,7 +159,7 @@ TEST(Light, AFlyingBodyKeepsItsShadow) {
     EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
 }
 
-// One shadow map around bodies hundreds of metres apart had texels of a metre: those near the eye threw no shadows.
+// One shadow map around bodies hundreds of meters apart had texels of a meter: those near the eye threw no shadows.
 TEST(Light, BodiesNearTheEyeKeepTheirShadowsWhereOthersAreFar) {
     SceneDescription scene = shadow_scene();
     scene.camera.target = Vec3(0.0, 0.5, -4.0);
@@ -232,7 +232,7 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     }
     scene.bodies = {mesh_body(Vec3::Zero(), sheet, {190, 190, 190})};
     const Image image = drawn(scene);
-    int specks = 0;   // darker than all four neighbours, by 15 levels on average
+    int specks = 0;   // darker than all four neighbors, by 15 levels on average
     for (int y = 1; y < image.height - 1; ++y)
         for (int x = 1; x < image.width - 1; ++x) {
             const double most = 2.0 * brightness(image, {x, y}) + 30.0;
@@ -401,7 +401,7 @@ TEST(Light, ContactIsNotDarkFarAway) {
         }
 }
 
-// A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
+// A body kilometers away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
 // darkness and the haze of the one that is left are the same without it.
 TEST(Light, ALostBodyChangesNothingAroundTheRest) {
     SceneDescription scene = shadow_scene();

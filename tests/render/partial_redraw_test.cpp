@@ -161,7 +161,7 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
 }
 
 // What was drawn before must not tell: the window of the ground's darkening was wide, then long, then both, and what had never been
-// sent of it showed as grey slabs on the ground.
+// sent of it showed as gray slabs on the ground.
 TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
     SceneDescription scene = empty_scene();
     scene.output.width = 232;

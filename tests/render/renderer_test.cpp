@@ -80,7 +80,7 @@ TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
     }
 }
 
-// Each part where the body's pose puts it, in its own colour, and as if it were a body of its own.
+// Each part where the body's pose puts it, in its own color, and as if it were a body of its own.
 TEST(Renderer, DrawsAllPartsOfABody) {
     SceneDescription scene = empty_scene();
     const Quat quarter(Eigen::AngleAxisd(0.5 * EIGEN_PI, Vec3::UnitZ()));

@@ -79,7 +79,7 @@ Edges shadow_edges(int width, int height, bool on_box) {
     return edges;
 }
 
-// All or nothing would be off by .29. The map's own filter, of less than a pixel, left .22 to .25.
+// All or nothing would be off by 0.29. The map's own filter, of less than a pixel, left 0.22 to 0.25.
 TEST(Shadows, EdgesOfSmallPicturesHaveTheirShare) {
     for (const bool on_box : {false, true})
         for (const int height : {60, 90, 180}) {

@@ -53,7 +53,7 @@ TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
 }
 
 TEST_F(AssimpImport, NoOtherFileIsOpened) {
-    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // an open would wait for ever
+    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // an open would wait forever
     const std::string scene = "<?xml version=\"1.0\"?><irr_scene><node type=\"mesh\"><attributes>"
                               "<string name=\"Mesh\" value=\"fifo.obj\"/></attributes></node></irr_scene>";
     EXPECT_NE(error_of("scene.irr", scene), "no error");

@@ -18,7 +18,7 @@ struct ReferenceBody {
     Vector gravity{0, 0, 0};
     Vector wind{0, 0, 0};
     Real drag = 0;                      // F = drag |u| u
-    Vector point{0, 0, 0};              // body frame, from the centre of mass
+    Vector point{0, 0, 0};              // body frame, from the center of mass
     Vector force{0, 0, 0};              // at the point
     bool force_turns = false;           // with the body
     std::array<Real, 13> y{};           // x, q (w, x, y, z), v, L

@@ -2,7 +2,7 @@
 // users are told of it stands in docs/reference/aovs.md.
 //
 //   depth, normal, segmentation, motion, albedo   rows x columns (x channels), as AovFrame has them
-//   intrinsics        3 x 3: column = fx x / z + cx, row = fy y / z + cy; pixels' centres are whole numbers
+//   intrinsics        3 x 3: column = fx x / z + cx, row = fy y / z + cy; pixels' centers are whole numbers
 //   camera_to_world   4 x 4: from the camera's frame (x right, y down, z forward, m) to the world's
 #pragma once
 

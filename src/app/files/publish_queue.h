@@ -22,10 +22,10 @@ public:
 
     PublishQueue() : files_(waiting_files) {}
 
-    /// Hands on a file that is written. False: the queue was cancelled, and the file is dropped. By one thread.
+    /// Hands on a file that is written. False: the queue was canceled, and the file is dropped. By one thread.
     bool put(std::unique_ptr<TemporaryFile> file);
 
-    /// The work of each of the threads, until the queue is closed and empty, or cancelled. Throws RunError.
+    /// The work of each of the threads, until the queue is closed and empty, or canceled. Throws RunError.
     void run(StageTime& time);
 
     void close() { files_.close(); }

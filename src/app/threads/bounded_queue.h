@@ -16,7 +16,7 @@ class BoundedQueue {
 public:
     explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-    /// Waits for room. False: the queue was cancelled, and the value is dropped.
+    /// Waits for room. False: the queue was canceled, and the value is dropped.
     bool push(T value) {
         std::unique_lock lock(mutex_);
         has_room_.wait(lock, [&] { return cancelled_ || values_.size() < capacity_; });
@@ -27,7 +27,7 @@ public:
         return true;
     }
 
-    /// Waits for a value. Nothing: the queue was closed and is empty, or was cancelled.
+    /// Waits for a value. Nothing: the queue was closed and is empty, or was canceled.
     std::optional<T> pop() {
         std::unique_lock lock(mutex_);
         has_value_.wait(lock, [&] { return cancelled_ || closed_ || !values_.empty(); });

@@ -32,7 +32,7 @@ public:
     SharedFrames(const SharedFrames&) = delete;
     SharedFrames& operator=(const SharedFrames&) = delete;
 
-    /// Of one moment of the frame to draw next: its time, origins and orientations, and the centre of mass of the body that
+    /// Of one moment of the frame to draw next: its time, origins and orientations, and the center of mass of the body that
     /// the camera follows, which is all that drawing needs. There is room for one frame's.
     void write_poses(std::size_t moment, const Snapshot& snapshot);
     void read_poses(std::size_t moment, Snapshot& snapshot) const;

@@ -1,4 +1,4 @@
-// The tiles of the occlusion atlas: how the sky's light reaches a body past its neighbours and the planes near it.
+// The tiles of the occlusion atlas: how the sky's light reaches a body past its neighbors and the planes near it.
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"
@@ -30,7 +30,7 @@ public:
     /// `detail`: from 0, a value a face, a few for a ball or mesh, to 1, all texels.
     explicit BodyOcclusion(const RenderScene& looks) : looks_(&looks) {}
 
-    /// Makes the wanted faces (bits as in Visibility), tiles in the order of make_box()'s faces, with a texel's centre at
+    /// Makes the wanted faces (bits as in Visibility), tiles in the order of make_box()'s faces, with a texel's center at
     /// each corner of a face. Returns those that changed.
     std::uint8_t make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                           const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);

@@ -40,9 +40,9 @@ private:
                std::size_t(c[0]);
     }
 
-    // Where the line along x through the cells' centres enters and leaves the mesh: inside after an odd number.
+    // Where the line along x through the cells' centers enters and leaves the mesh: inside after an odd number.
     void fill_row(const TriangleMesh& mesh, int y, int z) {
-        // Slightly off the centres, by a fraction that no lattice of vertices shares: the line meets no edge.
+        // Slightly off the centers, by a fraction that no lattice of vertices shares: the line meets no edge.
         const double line_y = bounds_.min.y() + (y + 0.5000317) * size_.y();
         const double line_z = bounds_.min.z() + (z + 0.5000731) * size_.z();
         std::vector<double> crossings;

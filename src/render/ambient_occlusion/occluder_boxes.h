@@ -8,7 +8,7 @@ namespace tumble {
 
 /// At most 16 disjoint boxes inside the mesh, the largest first; none for an open mesh, which has no inside.
 /// The mesh's bounds are cut into a lattice of about 12 cells along the longest edge; a cell counts as inside when its
-/// centre is, and full cells are joined greedily into boxes.
+/// center is, and full cells are joined greedily into boxes.
 std::vector<OccluderBox> make_mesh_occluders(const TriangleMesh& mesh);
 
 }  // namespace tumble

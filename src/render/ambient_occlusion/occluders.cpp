@@ -12,7 +12,7 @@ constexpr float cell_of_influence = 2.0f;
 
 float influence(const Occluder& o) { return o.bound_radius + 2.0f * o.reach; }
 
-// Neighbours along x are neighbours in the table. The factors are primes; cells that share a bucket cost a comparison.
+// Neighbors along x are neighbors in the table. The factors are primes; cells that share a bucket cost a comparison.
 std::uint32_t bucket(std::int32_t x, std::int32_t y, std::int32_t z) {
     return std::uint32_t(x) + std::uint32_t(y) * 73856093u + std::uint32_t(z) * 83492791u;
 }

@@ -27,7 +27,7 @@ void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& 
                    std::vector<Occluder>& occluders);
 
 /// Finds what is near a place: a lattice of cells for each power of two of the occluders' sizes, each occluder in the one
-/// cell that holds its centre. Building takes time in proportion to their number, a search to what is near.
+/// cell that holds its center. Building takes time in proportion to their number, a search to what is near.
 class OccluderFinder {
 public:
     explicit OccluderFinder(const std::vector<Occluder>& occluders);
@@ -45,7 +45,7 @@ private:
     };
     struct Level {
         float cell = 1.0f, largest = 0.0f;   // m: of a cell, and the largest influence
-        Eigen::Array3f low, high;            // m: of the centres
+        Eigen::Array3f low, high;            // m: of the centers
         std::uint32_t mask = 0;              // of the table's buckets, a power of two of them
         std::vector<std::uint32_t> starts;   // of each bucket, and the end
         std::vector<Entry> entries;          // bucket by bucket

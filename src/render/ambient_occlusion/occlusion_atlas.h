@@ -2,7 +2,7 @@
 // for each ball (octahedral), a run of texels for a mesh's vertices, and a window on each plane around the bodies.
 // Sky light changes slowly, so a few texels a face look like a value for every pixel, at a twentieth of the cost.
 // Large meshes and balls that stand still have texels all over (fine_surface.h).
-// A body's place is the same in every frame, and its texels are worked out anew only when it or a neighbour has moved.
+// A body's place is the same in every frame, and its texels are worked out anew only when it or a neighbor has moved.
 // Where there are many bodies, what is small in the picture gets a single value a face (a few for a ball, some tens for
 // a mesh); in between the two are mixed, by the size alone, so that nothing jumps. So the work is bounded by the
 // picture's pixels, not by the bodies.

@@ -27,7 +27,7 @@ constexpr double least_half = 1e-6;
 double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
 
 // A surface that shows so far beyond its own edge, or something else so far within it, hides that edge (a ring's near side
-// the far rim): more than a ball's mesh (.15) and the polygon for its outline (.03) are off.
+// the far rim): more than a ball's mesh (0.15) and the polygon for its outline (0.03) are off.
 constexpr double hidden = 0.2;   // pixels
 
 // The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
@@ -83,7 +83,7 @@ private:
         double middle;          // the height of its line, drawn on, in the middle of that width
     };
 
-    // A share of the pixel's colour comes from the neighbour over the edge, or the one behind it where the edge runs
+    // A share of the pixel's color comes from the neighbor over the edge, or the one behind it where the edge runs
     // aslant. An edge that something hides meets other surfaces.
     void pixel(int m, int n, const Crossing& here) {
         const auto inside = [this](std::uint8_t id) { return whole_box ? of_same_box(id, inner_, face_) : id == inner_; };
@@ -112,7 +112,7 @@ private:
         for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
     }
 
-    // The colour of the edge's own face, where it shows in a pixel beside these two: a narrow one does not everywhere.
+    // The color of the edge's own face, where it shows in a pixel beside these two: a narrow one does not everywhere.
     const std::uint8_t* of_face_beside(int m, int n, int step, const std::uint8_t* otherwise) const {
         for (const int beside : {m - 1, m + 1, m - 2, m + 2})
             for (const int at : {n, n + step}) {

@@ -1,5 +1,5 @@
 // Smooth edges for one sample a pixel. Where an edge is, is known (screen_edges.h), and so is the share of each pixel
-// that lies beyond it; that share of the colour is taken from the neighbour over the edge. After Persson 2011, Geometric
+// that lies beyond it; that share of the color is taken from the neighbor over the edge. After Persson 2011, Geometric
 // Post-process Anti-Aliasing, with exact areas, and with the surfaces' numbers in alpha telling which edges are in sight.
 // Costs a hundredth of four samples, and straight edges have all shades instead of five.
 #pragma once

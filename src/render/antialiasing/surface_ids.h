@@ -1,5 +1,5 @@
 // Which surface a pixel shows, written into its alpha while the picture is drawn: smooth edges need to know. Eight bits
-// are few, so surfaces share numbers, but hardly neighbours; where two do, an edge between them stays as it is drawn.
+// are few, so surfaces share numbers, but hardly neighbors; where two do, an edge between them stays as it is drawn.
 #pragma once
 
 #include <cstddef>

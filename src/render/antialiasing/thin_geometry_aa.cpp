@@ -13,7 +13,7 @@ namespace {
 // A rod drawn a pixel wide and aslant shows in two pixels of a column at most: so far is something else to be found.
 constexpr int search = 3;
 
-// Pixels to both sides along the rod that its colour is the mean of: its sides take turns at pixels' middles.
+// Pixels to both sides along the rod that its color is the mean of: its sides take turns at pixels' middles.
 constexpr int along = 2;
 
 struct Mean {

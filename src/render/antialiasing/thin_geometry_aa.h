@@ -1,5 +1,5 @@
 // Boxes thinner than a pixel. Pixels' middles miss them here and hit them there: drawn as they are they were dashes that flicker.
-// They are drawn about a pixel wide (body.vert), so that their colour is known all along, and then each pixel gets the
+// They are drawn about a pixel wide (body.vert), so that their color is known all along, and then each pixel gets the
 // share of it that they truly cover, and the rest from beside them.
 #pragma once
 

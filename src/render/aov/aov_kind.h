@@ -1,4 +1,4 @@
-// What a frame can hold beside its colours: "arbitrary output variables", one value a pixel. docs/reference/aovs.md tells users
+// What a frame can hold beside its colors: "arbitrary output variables", one value a pixel. docs/reference/aovs.md tells users
 // their units, frames and signs.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace tumble {
 
 /// depth: m along the view axis, infinity: nothing. normal: unit, world frame, 0: nothing. segmentation: 0: nothing,
 /// then bodies from 1 in scene order, then cords. motion: pixels to where the surface's point is in the next frame.
-/// albedo: the material's colour, sRGB, 0: nothing.
+/// albedo: the material's color, sRGB, 0: nothing.
 enum class Aov { depth, normal, segmentation, motion, albedo };
 
 inline constexpr std::array all_aovs = {Aov::depth, Aov::normal, Aov::segmentation, Aov::motion, Aov::albedo};

@@ -1,4 +1,4 @@
-// From poses to the values of a frame beside its colours (aov_kind.h), exact for each pixel's centre: no smooth edges. On
+// From poses to the values of a frame beside its colors (aov_kind.h), exact for each pixel's center: no smooth edges. On
 // the CPU, in double precision, from the shapes themselves; needs no OpenGL. The poses are the true ones, not those that
 // are drawn (drawn_poses.h): a body that trembles by a hundredth of a pixel does so here.
 #pragma once

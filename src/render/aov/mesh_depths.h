@@ -1,4 +1,4 @@
-// Triangles under the rays of pixels. Neighbours in a mesh leave no gap: the two sides of an edge are told apart by the
+// Triangles under the rays of pixels. Neighbors in a mesh leave no gap: the two sides of an edge are told apart by the
 // same number, with the other sign.
 #pragma once
 

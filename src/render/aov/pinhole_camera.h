@@ -1,6 +1,6 @@
 // The camera as computer vision writes it (and OpenCV): x to the right, y down, z forward, all in m from the eye; and
 //   column = focal x / z + center_x,   row = focal y / z + center_y
-// where a pixel's centre has whole numbers, and (0, 0) is the top left pixel.
+// where a pixel's center has whole numbers, and (0, 0) is the top left pixel.
 #pragma once
 
 #include "core/vector.h"
@@ -17,7 +17,7 @@ struct PinholeCamera {
     Mat3 axes;                    // columns: the camera's x, y and z in the world
     Vec3 eye;                     // m, world
 
-    /// The ray through a pixel's centre is (x, y, 1).
+    /// The ray through a pixel's center is (x, y, 1).
     double ray_x(int column) const { return (column - center_x) / focal; }
     double ray_y(int row) const { return (row - center_y) / focal; }
 

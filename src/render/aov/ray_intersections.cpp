@@ -45,7 +45,7 @@ struct Round {
     Vec3 center;             // of the cylinder: its axis's nearest point to the eye
     Vec3 axis;               // unit; zero: a ball
     double radius_squared;
-    double outside;          // squared distance to the centre, less that of the radius
+    double outside;          // squared distance to the center, less that of the radius
 };
 
 TUMBLE_WIDE void round_depths(const Round& shape, const double* xs, double ray_y, std::size_t count, double* depths) {
@@ -55,7 +55,7 @@ TUMBLE_WIDE void round_depths(const Round& shape, const double* xs, double ray_y
     for (std::size_t i = 0; i < count; ++i) {
         const double along = ax * xs[i] + ay * ray_y + az;
         const double x = xs[i] - along * ax, y = ray_y - along * ay, z = 1.0 - along * az;
-        // Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection: the centre's distance from the ray
+        // Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection: the center's distance from the ray
         // itself, not the difference of large squares; and the quotient that does not cancel.
         const double squared = x * x + y * y + z * z;
         const double towards = cx * x + cy * y + cz * z;

@@ -23,7 +23,7 @@ public:
     bool rests(std::uint32_t surface) const { return rests_[surface] != 0; }
     bool background_rests() const { return camera_rests_; }
 
-    /// Of a surface's point under a pixel: columns and rows from this pixel's centre to its place in the next frame. NaN
+    /// Of a surface's point under a pixel: columns and rows from this pixel's center to its place in the next frame. NaN
     /// where it is then behind the eye.
     Eigen::Vector2d of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const;
 

@@ -1,4 +1,4 @@
-// The nearest surface under each pixel's centre: what all values of a frame are worked out from. Found by rays in double
+// The nearest surface under each pixel's center: what all values of a frame are worked out from. Found by rays in double
 // precision, shape by shape, so that a ball is round, a box's edge is where it is to 1e-13 of a pixel, and nothing depends
 // on OpenGL.
 #pragma once

@@ -53,7 +53,7 @@ Vec3 CameraAnimation::up_at(double time) const {
 Vec3 CameraAnimation::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
     const BodyState& body = snapshot.bodies.at(*camera_.follow);
-    // The scene does not know where the centre of mass is; but the body is rigid, so it is where it was, body frame.
+    // The scene does not know where the center of mass is; but the body is rigid, so it is where it was, body frame.
     const Vec3 center = body.orientation.conjugate() * (body.center_of_mass - body.origin);
     return body.center_of_mass - (camera_.follow_start + camera_.follow_start_rotation * center);
 }

@@ -1,6 +1,6 @@
 // Where a moving camera is: a function of the scene and one snapshot alone, so that every process that draws finds the
 // same place. Three movements, one after the other: along the keyframes; in a circle about the target, by
-// orbit * t around `up`; along with a body, eye and target by the way that its centre of mass has gone (a body that tumbles
+// orbit * t around `up`; along with a body, eye and target by the way that its center of mass has gone (a body that tumbles
 // turns around that, and its origin swings). Straight above or below its target, where `up` does not tell how the picture is
 // turned, it is turned as just before.
 #pragma once

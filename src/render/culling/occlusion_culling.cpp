@@ -14,7 +14,7 @@ namespace {
 
 using Point = ScreenPoint;
 
-// Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
+// Rasterization rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
 constexpr double cell_margin = 1.0;  // pixels
 
 struct Projected {

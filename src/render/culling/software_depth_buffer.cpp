@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-// Rasterisation rounds corners to 1/256 pixel.
+// Rasterization rounds corners to 1/256 pixel.
 constexpr double rounding_margin = 0.02;   // pixels
 
 // Depths that differ by less may come out in either order: 24 bits, with the near plane far before what is many and small.

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-// One pixel for where rasterisation may round to, one for the neighbours that a smooth edge looks at, and one to spare.
+// One pixel for where rasterization may round to, one for the neighbors that a smooth edge looks at, and one to spare.
 constexpr double tile_margin = 3.0;   // pixels
 
 enum class ScreenArea { before, beside, behind };   // of points, as the eye sees them

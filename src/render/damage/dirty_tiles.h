@@ -20,7 +20,7 @@ public:
     void mark_all();
 
     /// Marks what the convex hull of the points (relative to the eye), and all within `around` (m) of it, may touch on the
-    /// screen, and some pixels more for rasterisation and smooth edges. Points beside the eye may land anywhere: then
+    /// screen, and some pixels more for rasterization and smooth edges. Points beside the eye may land anywhere: then
     /// everything is marked.
     void mark_hull(std::span<const Vec3> points, double around = 0.0);
 

@@ -94,7 +94,7 @@ void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
 void Framebuffer::begin_all(const Target& target, double depth) const {
     bind(target);
     gl_->ClearDepth(depth);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // color is covered by the sky at the latest
 }
 
 void Framebuffer::begin_background() { begin_all(background_, 1.0); }

@@ -1,5 +1,5 @@
-// The picture's own framebuffers: colour and depth with several samples a pixel, the background that is put back where
-// something has moved, and the single-sample colour that the samples are averaged into. The shaders write sRGB
+// The picture's own framebuffers: color and depth with several samples a pixel, the background that is put back where
+// something has moved, and the single-sample color that the samples are averaged into. The shaders write sRGB
 // themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a frame), and edges are averaged as they are
 // displayed, which keeps a bright edge before a dark ground from growing a staircase.
 #pragma once
@@ -28,7 +28,7 @@ public:
     void begin_whole();
 
     /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
-    /// colours and depths; everywhere else depth is nearest. `closing`: what could be drawn to before and cannot now, at
+    /// colors and depths; everywhere else depth is nearest. `closing`: what could be drawn to before and cannot now, at
     /// least.
     void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing);
 

@@ -141,7 +141,7 @@ private:
                 if (const double out = t.outside(a, b); out <= around) see(a, b, out);
     }
 
-    // A chart from this triangle on, over its neighbours. Where the surface comes to lie above itself, as a spiral does, the
+    // A chart from this triangle on, over its neighbors. Where the surface comes to lie above itself, as a spiral does, the
     // chart ends.
     void grow(std::size_t first) {
         const int chart = int(sides_.size()), side = triangles_[first].side, axis = side / 2;

@@ -45,7 +45,7 @@ public:
     explicit MeshLods(const RenderScene& looks);
 
     /// Level 1 or beyond, made now if it was not yet. Every vertex of the mesh lies within deviation_of_level() of it, and
-    /// its triangles' corners, middles of sides and centres within as much of the mesh. Where that cannot be had with fewer
+    /// its triangles' corners, middles of sides and centers within as much of the mesh. Where that cannot be had with fewer
     /// triangles it has more, all at worst. A few megabytes a level at most.
     const MeshLod& at(std::size_t mesh, std::size_t level);
 
@@ -54,7 +54,7 @@ private:
     std::vector<std::optional<MeshLod>> details_;   // mesh by mesh
 };
 
-/// Exposed for tests: as `at`, of a mesh by itself, with a deviation of so many metres.
+/// Exposed for tests: as `at`, of a mesh by itself, with a deviation of so many meters.
 MeshLod simplify(const RenderMesh& mesh, double deviation);
 
 }  // namespace tumble

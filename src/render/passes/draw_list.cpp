@@ -15,7 +15,7 @@ namespace {
 // A ball's outline may leave the true circle by this much.
 constexpr double outline_error = 0.15;  // pixels, or texels of a shadow map
 
-// The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
+// The angle between neighboring vertices of the icosahedron itself; each level of splitting halves it.
 constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
 
 constexpr float cord_roughness = 0.7f;

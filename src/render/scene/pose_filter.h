@@ -26,7 +26,7 @@ class PoseFilter {
 public:
     explicit PoseFilter(const SceneDescription& scene);
 
-    /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when
+    /// Replaces the poses by those to draw (origin, orientation and center of mass; the rest is left as it is). False when
     /// they are those of the call before: the picture is the same to the last byte; never when the camera has moved. The
     /// first call says true.
     bool follow(Snapshot& snapshot);

@@ -25,7 +25,7 @@ struct RenderBody {
     Vec3 half_size = Vec3::Ones();     // scale of the unit box or ball, m; 1 for meshes
     Vec3 bound_center = Vec3::Zero();  // of a ball around the body, body frame from its origin, m
     double bound_radius = 0.0;         // m
-    double reach = 0.0;                // how far it darkens its neighbours, and they it, m
+    double reach = 0.0;                // how far it darkens its neighbors, and they it, m
     double bevel = 0.0;                // m
     double pattern_cell = 1.0;         // m; a plane's follows the view instead
     PlaneShape plane;                  // planes only
@@ -38,7 +38,7 @@ struct RenderBody {
     std::ptrdiff_t fine_surface = -1;  // of RenderScene::fine_surfaces; -1: none. A mesh that has one has charts
 };
 
-/// A box inside a mesh that stands for it where neighbours are darkened; body frame.
+/// A box inside a mesh that stands for it where neighbors are darkened; body frame.
 struct OccluderBox {
     Vec3 center;     // m
     Vec3 half_size;  // m

@@ -8,7 +8,7 @@ namespace tumble {
 namespace {
 
 constexpr int cell = 4;                  // texels: boxes of a large heap are some thirty across
-constexpr double texel_margin = 0.5;           // texels; rasterisation rounds to 1/256, of a far texel at most a quarter
+constexpr double texel_margin = 0.5;           // texels; rasterization rounds to 1/256, of a far texel at most a quarter
 constexpr double depth_margin = 5e-4;    // of the depths' range; interpolation on steep faces is off by less
 constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
 

@@ -16,7 +16,7 @@ namespace tumble {
 /// How a point looks into a map (shaders/shadow.glsl). Lengths in texels.
 struct ShadowFilter {
     bool by_pixel;     // is a texel smaller than a pixel, so that the pixel's width is what is averaged over?
-    double along;      // nearer are the texels' centres that are looked at, on each axis,
+    double along;      // nearer are the texels' centers that are looked at, on each axis,
     double across;     // and on both
     double offset;     // along the normal, first of all: no acne, and contact stays closed
     double reach;      // both and some to spare: so far from a shadow's outline a point may see it
@@ -37,7 +37,7 @@ struct ShadowCascades {
     bool has_far = false;
     glm::vec4 far{1.0f, 0.0f, 0.0f, 0.0f};     // near map -> far map: scale, offset x, offset y; w: 1 with a far map
     double near_texel = 0.0, far_texel = 0.0;  // m
-    /// filter.along in the far map where pixels look into both: steps are no longer there, in metres.
+    /// filter.along in the far map where pixels look into both: steps are no longer there, in meters.
     double far_along() const;
     /// Is a ball (relative to the eye) within the near map, so that nothing of it has to look into the far one?
     bool near_holds(const Vec3& center, double radius) const;

@@ -158,7 +158,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
 
     // A point p is in view from the eye e when |(p - e).right| <= tangent_x (p - e).forward, and so for up: four half
-    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and centre it.
+    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and center it.
     double right = -1e300, left = -1e300, top = -1e300, bottom = -1e300;
     double nearest = 1e300, farthest = -1e300;
     for (const Vec3& p : points) {

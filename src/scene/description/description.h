@@ -1,6 +1,6 @@
 // A scene as plain values: what the file says, checked, with every default filled in and every mesh loaded.
 // Made by load_scene() and immutable from there on. The simulation reads its bodies, the renderer its looks.
-// SI units, world frame unless said otherwise, y up; colours sRGB.
+// SI units, world frame unless said otherwise, y up; colors sRGB.
 #pragma once
 
 #include "core/color.h"
@@ -75,7 +75,7 @@ struct LightDescription {
     bool shadows = true;
 };
 
-/// A uniform wind and the air it moves: F = 1/2 density drag A |w - v| (w - v) at the centre of mass, where A is the
+/// A uniform wind and the air it moves: F = 1/2 density drag A |w - v| (w - v) at the center of mass, where A is the
 /// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). No wind table: no air.
 struct WindDescription {
     Vec3 velocity = Vec3::Zero();   // m/s
@@ -90,7 +90,7 @@ struct ForceDescription {
     Vec3 force = Vec3::Zero();        // N
     bool body_frame = false;          // the force turns with the body; else it is a world vector
     double start = 0.0;
-    double end = 0.0;                 // infinity: for ever
+    double end = 0.0;                 // infinity: forever
 };
 
 enum class BodyType { dynamic, fixed, kinematic };
@@ -164,7 +164,7 @@ struct BodyDescription {
     double friction = 0.0;        // >= 0; a pair uses sqrt(a b)
     Vec3 position = Vec3::Zero(); // of the body's origin
     Quat rotation = Quat::Identity();
-    Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
+    Vec3 velocity = Vec3::Zero();         // m/s, of the center of mass
     Vec3 angular_velocity = Vec3::Zero(); // rad/s
     std::optional<IntegratorKind> integrator;   // in place of the simulation's, for showing two side by side
     std::vector<Keyframe> keyframes;      // kinematic bodies only; empty: it stands still

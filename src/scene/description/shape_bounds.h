@@ -16,7 +16,7 @@ const void* shared_data(const Shape& shape);
 /// The smallest axis-aligned box around the shape; empty for a plane.
 Bounds local_bounds(const Shape& shape);
 
-/// A sphere around the shape, exact for boxes and spheres; about the centre of its bounds for meshes and compounds. Not for planes.
+/// A sphere around the shape, exact for boxes and spheres; about the center of its bounds for meshes and compounds. Not for planes.
 BoundingSphere bounding_sphere(const Shape& shape);
 
 }  // namespace tumble

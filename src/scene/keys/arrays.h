@@ -15,7 +15,7 @@ namespace tumble {
 
 struct GridRequest {
     std::array<int, 3> count{1, 1, 1};   // along x, y, z
-    Vec3 spacing = Vec3::Zero();         // m between neighbours' origins
+    Vec3 spacing = Vec3::Zero();         // m between neighbors' origins
     Vec3 jitter = Vec3::Zero();          // m: each copy is moved by up to this either way
     double tilt = 0.0;                   // degrees: each copy is turned by up to this about a random axis
 };

@@ -15,7 +15,7 @@ constexpr Choice<Pattern> patterns[] = {
 };
 
 constexpr Color default_color{0xcf, 0x9a, 0x5b};         // light wood: stands out from ground and sky
-constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light grey, on which shadows and grid lines show
+constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light gray, on which shadows and grid lines show
 
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace tumble {
 namespace {
 
 /// The placed spheres by cell of a lattice as wide as the largest reach, so that only the 27 cells around a place can
-/// hold neighbours. Only looked up, never walked through.
+/// hold neighbors. Only looked up, never walked through.
 class NeighborBoxes {
 public:
     NeighborBoxes(const std::vector<BoundingSphere>& spheres, double clearance)

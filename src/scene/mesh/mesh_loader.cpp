@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-constexpr double weld_tolerance = 1e-9;   // of the mesh's size: rounding of a transform, far below any modelled detail
+constexpr double weld_tolerance = 1e-9;   // of the mesh's size: rounding of a transform, far below any modeled detail
 constexpr double flat = 1e-14;            // of longest edge squared: below, a triangle's area is nothing but rounding
 
 using Corners = std::array<MeshFile::Corner, 3>;

@@ -125,7 +125,7 @@ private:
 };
 
 /// Cuts ears in the order in which a walk around the polygon comes upon them. Corners that are none are not looked at again
-/// until a neighbour or the point that lies in their triangle is gone.
+/// until a neighbor or the point that lies in their triangle is gone.
 class EarCutter {
 public:
     explicit EarCutter(const std::vector<Point>& points)

@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b
+/// Number of insertions, deletions, replacements and swaps of neighbors that turn a into b
 /// (Damerau 1964, in the restricted form: optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);

@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// A number as a message shows it: 16, 0.5, 1e+09, and all the digits that tell it from its neighbours.
+/// A number as a message shows it: 16, 0.5, 1e+09, and all the digits that tell it from its neighbors.
 std::string number_text(double value);
 
 /// `"plain", "grid", "checker"`.

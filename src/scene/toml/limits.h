@@ -40,7 +40,7 @@ inline constexpr std::int64_t scatter_attempts = 1000;    // a place for a copy 
                                                           // at the densest packing by chance (38 % of the volume,
                                                           // Renyi 1958, Torquato 2006) it takes about that
 
-// -- Lengths. A metre has 1e-7 m of digits left at 1e9 m, which is already nothing to simulate with.
+// -- Lengths. A meter has 1e-7 m of digits left at 1e9 m, which is already nothing to simulate with.
 inline constexpr Range coordinate{-1e9, 1e9, "m"};
 inline constexpr Range size{1e-9, 1e9, "m"};
 inline constexpr Range size_or_zero{0.0, 1e9, "m"};

@@ -1,6 +1,6 @@
 // Typed reading of a TOML document in which every value knows its place, so that every complaint can point.
 // TomlTable hands out values by key and rejects keys that nobody knows; TomlValue turns into a number, a vector, a
-// colour, ... of the wanted kind and range, or throws InputError at its line and column.
+// color, ... of the wanted kind and range, or throws InputError at its line and column.
 #pragma once
 
 #include "core/color.h"

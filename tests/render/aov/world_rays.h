@@ -26,14 +26,14 @@ struct WorldView {
     }
     explicit WorldView(const SceneDescription& scene) : WorldView(scene, scene.camera) {}
 
-    /// Through the centre of a pixel.
+    /// Through the center of a pixel.
     WorldRay ray(int column, int row) const {
         const double x = tangent * width / height * (2.0 * (column + 0.5) / width - 1.0);
         const double y = tangent * (1.0 - 2.0 * (row + 0.5) / height);
         return {eye, forward + x * right + y * up};
     }
 
-    /// Where a point is seen: a pixel's centre has whole numbers.
+    /// Where a point is seen: a pixel's center has whole numbers.
     Eigen::Vector2d place(const Vec3& point) const {
         const Vec3 p = point - eye;
         const double scale = 0.5 * height / (tangent * p.dot(forward));
