@@ -18,8 +18,8 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
-constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
+constexpr std::size_t listed_bodies = 24;    // a screenful; the groups summarize all bodies
+constexpr double trial_seconds = 0.25;       // of stepping, to estimate the time of the whole run
 
 const char* type_text(BodyType type) {
     switch (type) {
@@ -30,7 +30,7 @@ const char* type_text(BodyType type) {
     return "";
 }
 
-/// The kind of shape alone, for the groups, and with its measures, for the list.
+/// The kind of shape, for the groups, and its dimensions, for the list.
 struct ShapeText {
     std::string kind, measures;
 };
@@ -118,7 +118,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     put("  hull: vertices of the convex shape that collides\n");
 }
 
-/// Steps the world for a moment, and takes that for the whole: heaps that form later cost more.
+/// Steps the world for a moment and extrapolates; heaps that form later cost more.
 std::string simulation_cost(const SceneDescription& scene, World& world) {
     const std::int64_t frames = scene.frame_count() - 1;
     if (frames <= 0) return "nothing to simulate";

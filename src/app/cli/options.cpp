@@ -22,9 +22,9 @@
 namespace tumble {
 namespace {
 
-constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder keep up with no more of them
+constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder cannot keep more busy
 
-/// "1280x720" to two numbers. Their range is the scene's affair.
+/// "1280x720" to two numbers. Their range is checked with the scene.
 void read_size(const std::string& text, SceneOverrides& overrides) {
     int width = 0, height = 0;
     const char* const last = text.data() + text.size();
@@ -55,7 +55,7 @@ AovSet read_aovs(const std::string& text) {
     return aovs;
 }
 
-/// What the user may say on the command line; each command takes what it knows.
+/// All options of the command line; each command uses those that it declares.
 struct CommandLine {
     RenderCommand render;
     SimulateCommand simulate;
@@ -66,7 +66,7 @@ struct CommandLine {
     std::string render_size, info_size, aovs;
 };
 
-// CLI::Range lets what is no number through.
+// CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most) {
     return CLI::Validator(
         [=](const std::string& text) {
@@ -77,7 +77,7 @@ CLI::Validator number_within(double least, double most) {
         "");
 }
 
-/// An option with one of a few names as its value.
+/// An option with one of a list of names as its value.
 template <class T>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, const std::vector<std::pair<std::string, T>>& choices,
                         const std::string& help) {
@@ -94,7 +94,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, 
     }, help);
 }
 
-// An empty name is what a script's unset variable leaves.
+// An empty name comes from an unset variable of a script.
 CLI::Validator some_name() {
     return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
 }
@@ -177,7 +177,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     return command;
 }
 
-// "-" is standard output, as in other programs.
+// "-" is standard output.
 CLI::Validator or_standard_output() {
     return {[](std::string& name) {
                 if (name == "-") name = "/dev/stdout";

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was written, and where the time went.
+/// Outputs of a run, and the time that its stages took.
 struct Summary {
     const SceneDescription& scene;
     const FrameRange& frames;
@@ -79,7 +79,7 @@ struct Summary {
         say("{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
     }
 
-    /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
+    /// Warns of frames of an earlier, longer clip, because `tumble encode` would append them to this one.
     void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
                      fs::path (&path)(const fs::path&, std::int64_t)) const {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
@@ -89,7 +89,7 @@ struct Summary {
     }
 };
 
-/// The folder that the AOVs go to, if any are asked for.
+/// The folder of the AOVs, if any are requested.
 std::optional<fs::path> aov_folder(const RenderCommand& command) {
     if (command.aovs.empty() && command.aov_folder)
         throw InputError("--aov-folder: --aov must say what to write there, as in --aov depth,normal");
@@ -99,7 +99,7 @@ std::optional<fs::path> aov_folder(const RenderCommand& command) {
     return command.aov_folder ? command.aov_folder : command.frames;
 }
 
-/// Throws InputError where outputs would replace each other or what is read.
+/// Throws InputError if an output would replace another one or an input.
 void check_outputs(const RenderCommand& command, const FileList& inputs, const FrameRange& frames,
                    const std::optional<fs::path>& clip, const std::optional<fs::path>& aovs_to) {
     OutputPlan plan;
@@ -119,13 +119,13 @@ void run_render(const RenderCommand& command) {
     FileList inputs;
     SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
     const double clip_fps = scene.output.fps;
-    apply_speed(scene, command.speed);   // from here on the scene's rate is that of the simulation
+    apply_speed(scene, command.speed);   // the scene's frame rate is that of the simulation after this
     const FrameRange frames = frames_from(scene, command.start);
     const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
-    // What can be wrong with the outputs is found out before anything is simulated or written.
+    // All checks of the outputs come before the simulation and before anything is written.
     PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
     const FrameOutputs& forms = work.forms;
     if (clip) {
@@ -140,11 +140,11 @@ void run_render(const RenderCommand& command) {
     if (workers < wanted_workers && !command.quiet)
         say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
-    // Before any thread. They open OpenGL while the bodies are built.
+    // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world = [&] {
-        SceneDescription in_parts = scene;   // no longer than needed: 30 MB for 100,000 bodies
+        SceneDescription in_parts = scene;   // freed as soon as possible: 30 MB for 100,000 bodies
         divide_frames(in_parts, shutter.parts);
         return World(in_parts, threads);
     }();

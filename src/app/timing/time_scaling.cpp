@@ -13,7 +13,7 @@ namespace tumble {
 
 namespace {
 
-/// Steps of at most the scene's length in a frame that lasts so many of the scene's frames.
+/// Number of steps, each at most as long as the scene's, in `frames` frames of the scene.
 double steps_in(const SceneDescription& scene, double frames) {
     return std::max(1.0, std::ceil(whole_where_meant(scene.simulation.steps_per_frame * frames)));
 }

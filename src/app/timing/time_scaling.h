@@ -1,4 +1,4 @@
-// Slow motion and speed-up: a clip at its frame rate, of a motion that passes faster or slower than in life.
+// Slow motion and speed-up: a clip at its frame rate whose motion is slower or faster than real time.
 #pragma once
 
 #include "scene/description/description.h"
@@ -7,13 +7,13 @@ namespace tumble {
 
 inline constexpr double slowest_speed = 1e-3, fastest_speed = 1e3;
 
-/// Makes the scene's frames speed / fps seconds of its motion apart, in place of 1 / fps: its own rate becomes
-/// fps / speed, while the clip keeps fps. Time stays a whole number of steps, so that nothing drifts. The step stays
-/// as it is where steps_per_frame * speed is a whole number (the motion is then the same to the last bit), else it
-/// becomes the next smaller one that divides the frame. Throws InputError where that makes too many frames.
+/// Sets the time between frames to speed / fps seconds of the scene's motion, instead of 1 / fps: the scene's rate
+/// becomes fps / speed, and the clip keeps fps. Time stays an integer number of steps. If steps_per_frame * speed is an
+/// integer, the step is unchanged (the motion is then the same to the last bit); else it becomes the next smaller one
+/// that divides the frame. Throws InputError if that makes too many frames.
 void apply_speed(SceneDescription& scene, double speed);
 
-/// Makes each frame of the scene so many (for the moments of a shutter); the step follows the same rule.
+/// Divides each frame of the scene into `parts` (the moments of a shutter); the same rule applies to the step.
 void divide_frames(SceneDescription& scene, int parts);
 
 }  // namespace tumble
