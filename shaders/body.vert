@@ -43,7 +43,7 @@ out vec3 v_local;                   // m, body axes
 #ifdef BALL
 flat out vec4 v_tile;               // center of its tile in the AO atlas, and half of the tile's width and height
 #ifndef PATTERNED
-flat out vec4 v_octants;            // diffuse color of every second octant: additional factor, and factor of all octants
+flat out vec4 v_octants;            // on every second octant: added diffuse color; w: reduction of all light
 #endif
 #endif
 #ifdef MESH

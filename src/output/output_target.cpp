@@ -78,7 +78,7 @@ OutputTarget output_target(const fs::path& name) {
         if (error) return target;   // whoever opens it meets the same error
         target.path = next.is_absolute() ? next : target.path.parent_path() / next;
     }
-    throw InputError(fmt::format("cannot write '{}': it is a link that leads in a circle", safe_path(name)));
+    throw InputError(fmt::format("cannot write '{}': its links form a loop", safe_path(name)));
 }
 
 }  // namespace tumble

@@ -103,7 +103,7 @@ void VideoWriter::finish() {
 void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
-        if (abandoned_) throw RunError(fmt::format("'{}' was given up", safe_path(clip_)));
+        if (abandoned_) throw RunError(fmt::format("'{}' was abandoned", safe_path(clip_)));
         gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())), file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();

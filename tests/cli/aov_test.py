@@ -164,15 +164,15 @@ class Aovs(program.ProgramTest):
                                24 / math.tan(math.radians(30)) * (fallen[1] - fallen[0]) / 4, delta=1e-5)
 
     def test_wrong_usage(self):
-        listed = "(there are depth, normal, segmentation, motion, albedo)"
+        listed = "(known: depth, normal, segmentation, motion, albedo)"
         for names, wrong in (("dept", "dept"), ("depth,Normal", "Normal"), ("depth,", ""), ("", ""),
                              ("depth normal", "depth normal")):
             run = self.check(2, "render", "scene.toml", "--frames", "out", "--aov", names)
-            self.assertEqual(run.stderr, f"error: --aov: there is no '{wrong}' {listed}\n")
+            self.assertEqual(run.stderr, f"error: --aov: unknown name '{wrong}' {listed}\n")
         run = self.check(2, "render", "scene.toml", "-o", "a.mp4", "--aov", "depth")
-        self.assertIn("--frames or --aov-folder must say where", run.stderr)
+        self.assertIn("needs --frames or --aov-folder", run.stderr)
         run = self.check(2, "render", "scene.toml", "--frames", "out", "--aov-folder", "values")
-        self.assertIn("--aov must say what", run.stderr)
+        self.assertIn("--aov-folder: needs --aov", run.stderr)
         self.assertEqual(self.names(), [])
 
     def test_nowhere_to_write(self):

@@ -80,7 +80,7 @@ class Encode(program.ProgramTest):
             frame.unlink()
             make()
             run = self.check(2, "encode", "in", "-o", "a.mp4", timeout=60)
-            self.assertIn("in/frame_000001.png: error: is no regular file", run.stderr)
+            self.assertIn("in/frame_000001.png: error: is not a regular file", run.stderr)
             self.assertFalse((self.folder / "a.mp4").exists())
 
     def test_other_files_do_not_matter(self):

@@ -262,7 +262,7 @@ class Memory(program.ProgramTest):
 
     def test_info_tells_what_pictures_take(self):
         text = self.check(0, "info", "scene.toml", "--size", "16384x16384").stdout
-        self.assertRegex(text, r"memory +about 9\.38 GiB for the pictures of each drawing process and 6\.25 GiB for those of ffmpeg")
+        self.assertRegex(text, r"memory +about 9\.38 GiB for the pictures of each render process and 6\.25 GiB for those of ffmpeg")
 
 
 if __name__ == "__main__":

@@ -213,7 +213,7 @@ class OneFile(program.ProgramTest):
         (self.folder / "out").mkdir()
         for name in ("a.csv", "a.mp4", "a.gif", "a.png", "out/frame_000000.png"):
             (self.folder / name).symlink_to(pathlib.Path(name).name)
-        said = "a link that leads in a circle"
+        said = "its links form a loop"
         self.refused("simulate", "scene.toml", "--energy", "a.csv", said=said)
         self.refused("render", "scene.toml", "-o", "a.mp4", said=said)
         self.refused("render", "scene.toml", "-o", "a.gif", said=said)

@@ -75,7 +75,7 @@ class Render(program.ProgramTest):
     def test_what_rests_is_drawn_once_and_shown_longer(self):
         self.write("resting.toml", self.RESTING)
         run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3", "--variable-rate")
-        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (what does not change is shown longer)", run.stderr)
+        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (unchanged pictures are shown longer)", run.stderr)
         self.assertEqual(program.probe(self.folder / "a.mp4", "duration,nb_read_frames"),
                          ["3.100000", "4"])
         self.assertIn("frames/s; 1 drawn;", run.stderr)

@@ -128,7 +128,7 @@ class Info(program.ProgramTest):
 class Doctor(program.ProgramTest):
     def test_all_there(self):
         text = self.check(0, "doctor").stdout
-        for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "Everything is there"):
+        for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "All requirements are met"):
             self.assertIn(part, text)
 
     def test_no_ffmpeg(self):

@@ -126,7 +126,7 @@ Finding try_drawing(GlBackend backend, Patience& patience) {
         Snapshot snapshot;
         Image image;
         renderer.render(snapshot, image);
-        if (image.width != 32 || image.height != 32) throw RunError("the picture has another size than asked for");
+        if (image.width != 32 || image.height != 32) throw RunError("the picture has a different size than requested");
         return renderer.driver();
     };
     return in_own_process(look, patience);
@@ -188,7 +188,7 @@ int run_doctor(const DoctorCommand& command) {
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
     const bool able = shaders.good && osmesa.good && ffmpeg.good;
-    put("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
+    put("{}\n", able ? "All requirements are met: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
 }
 

@@ -33,7 +33,7 @@ void check_regular(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-        throw InputError({path.string(), 0, 0}, "is no regular file, but a pipe or device");
+        throw InputError({path.string(), 0, 0}, "is not a regular file, but a pipe or device");
 }
 
 /// Number of frames. Precondition: they are numbered from 0 without gaps and have one size; throws InputError naming a
@@ -47,7 +47,7 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
         const fs::path path = frame_path(folder, n);
         if (numbers[i] != n)
             throw InputError({path.string(), 0, 0},
-                             fmt::format("the frame is missing (the frames must count from 0 to the last, {})",
+                             fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
                                          frame_path(folder, numbers.back()).filename().string()));
         check_regular(path);
         const PictureSize this_size = read_png_size(path);

@@ -54,13 +54,13 @@ struct Summary {
 
     std::string every_so_manieth() const {
         if (video->frames_in_clip() == frames.count()) return "";
-        return fmt::format(" (every {}. of {}: the format holds no more)",
+        return fmt::format(" (one in {} of {}: the format holds no more)",
                            video_format(*clip, clip_fps).frame_step, frames.count());
     }
 
     std::string stored() const {
         if (video->frames_stored() == video->frames_in_clip()) return "";
-        return fmt::format(", stored as {} (what does not change is shown longer)", video->frames_stored());
+        return fmt::format(", stored as {} (unchanged pictures are shown longer)", video->frames_stored());
     }
 
     void print_times() const {
@@ -92,10 +92,10 @@ struct Summary {
 /// The folder of the AOVs, if any are requested.
 std::optional<fs::path> aov_folder(const RenderCommand& command) {
     if (command.aovs.empty() && command.aov_folder)
-        throw InputError("--aov-folder: --aov must say what to write there, as in --aov depth,normal");
+        throw InputError("--aov-folder: needs --aov with the AOVs to write, as in --aov depth,normal");
     if (command.aovs.empty()) return std::nullopt;
     if (!command.aov_folder && !command.frames)
-        throw InputError("--aov: --frames or --aov-folder must say where to write it");
+        throw InputError("--aov: needs --frames or --aov-folder for the folder to write to");
     return command.aov_folder ? command.aov_folder : command.frames;
 }
 
@@ -138,7 +138,7 @@ void run_render(const RenderCommand& command) {
     const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
     const int workers = workers_that_fit(scene, work, wanted_workers);
     if (workers < wanted_workers && !command.quiet)
-        say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
+        say("note: {} render processes in place of {}, because there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);

@@ -1,8 +1,8 @@
 // The pipeline; all stages run concurrently:
 //
-// simulation ──poses──> render processes ──frames──┬──> PNG files
-// ├──> AOV files
-// └──> video (ffmpeg)
+//   simulation ──poses──> render processes ──frames──┬──> PNG files
+//                                                    ├──> AOV files
+//                                                    └──> video (ffmpeg)
 //
 // The outputs of a frame (planes for ffmpeg, a PNG file, its AOVs) are made in the render process; here they are only
 // written. Each arrow is a bounded queue: a slow stage makes earlier ones wait, so memory does not grow with the length

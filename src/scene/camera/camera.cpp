@@ -29,7 +29,7 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewK
                            : given.target ? given.target->origin()
                                           : table.origin();
     origin.fail(
-        "does not fit: the camera looks along its up direction, so there is no telling which way is up; "
+        "does not fit: the camera looks along its up direction, which leaves its roll undefined; "
         "choose another up");
 }
 

@@ -62,7 +62,7 @@ public:
             if (are_copies) bodies[i].name = fmt::format("{}.{}", bodies[i].name, i);
             if (!taken_.insert(bodies[i].name).second) {
                 given->origin().fail(
-                    fmt::format("must be unique, and another body is called so (given \"{}\")", safe_text(bodies[i].name)));
+                    fmt::format("must be unique, and another body has it (given \"{}\")", safe_text(bodies[i].name)));
             }
         }
     }

@@ -190,13 +190,13 @@ MeshFile checked_mesh(std::string_view bytes) {
     for (const auto& triangle : lists.next<std::array<MeshFile::Corner, 3>>()) {
         for (const MeshFile::Corner& corner : triangle)
             if (corner.position >= mesh.positions.size() || !corner.normal.allFinite())
-                throw MeshError("was imported with a corner that means nothing");
+                throw MeshError("was imported with a corner that has no valid position or normal");
         mesh.add_triangle(triangle);
     }
     mesh.objects = lists.next<std::size_t>();
     for (std::size_t i = 0; i < mesh.objects.size(); ++i)
         if (mesh.objects[i] > mesh.triangles.size() || (i > 0 && mesh.objects[i] <= mesh.objects[i - 1]))
-            throw MeshError("was imported with objects that mean nothing");
+            throw MeshError("was imported with invalid objects");
     return mesh;
 }
 

@@ -86,7 +86,7 @@ Color TomlValue::color() const {
     if (node_->is_string()) {
         if (const auto color = parse_color(node_->as_string()->get())) return *color;
     }
-    fail("must be a colour \"#rrggbb\"");
+    fail("must be a color \"#rrggbb\"");
 }
 
 Vec3 TomlValue::vector(const Range& range) const {
