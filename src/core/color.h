@@ -1,4 +1,4 @@
-// Colors as people write them (sRGB bytes) and as light adds up (linear).
+// Colors as people write them (sRGB bytes) and in linear light.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace tumble {
 
-/// An sRGB color, 8 bits a channel.
+/// An sRGB color, 8 bits per channel.
 struct Color {
     std::uint8_t r = 0, g = 0, b = 0;
     friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// "#rrggbb" (either case) to a color; nothing if the text is anything else.
+/// "#rrggbb" (either case) to a color; empty for other text.
 std::optional<Color> parse_color(std::string_view text);
 
 /// The "#rrggbb" text of a color.
