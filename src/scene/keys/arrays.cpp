@@ -15,7 +15,7 @@ namespace {
 
 constexpr Choice<bool> scatter_rotations[] = {{"random", true}, {"none", false}};
 
-// Meshes and compounds come in this many sizes between the two ends of `scale`: copies of one size share theirs.
+// Number of sizes of meshes and compounds between the ends of `scale`: copies of one size share their data.
 constexpr int mesh_sizes = 9;
 
 /// A number for all three axes, or one for each.
@@ -95,7 +95,7 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
 void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& place, Random& turn,
                      std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
-    std::map<const void*, BoundingSphere> known;   // found once for each mesh or compound; only looked up
+    std::map<const void*, BoundingSphere> known;   // computed once for each mesh or compound; only for lookups
     for (BodyDescription& copy : copies) {
         if (scatter.random_rotation) copy.rotation = turn.rotation();
         BoundingSphere sphere;
