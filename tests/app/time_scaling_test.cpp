@@ -1,4 +1,4 @@
-// Slow motion and speed-up against a run at the normal speed.
+// Slow motion and speed-up compared with a run at normal speed.
 #include "app/timing/motion_blur.h"
 #include "app/timing/time_scaling.h"
 #include "core/error.h"
@@ -34,7 +34,7 @@ std::vector<Snapshot> frames_of(const SceneDescription& scene) {
     return frames;
 }
 
-TEST(Speed, KeepsTheStepWhereItCan) {
+TEST(TimeScaling, KeepsTheStepIfPossible) {
     const std::vector<Snapshot> normal = frames_of(falling_box());
     for (const auto& [speed, steps] : {std::pair{0.25, 1}, {0.5, 2}, {2.0, 8}, {3.0, 12}}) {
         SceneDescription scene = falling_box();
@@ -44,7 +44,7 @@ TEST(Speed, KeepsTheStepWhereItCan) {
         EXPECT_EQ(scene.simulation.steps_per_frame, steps);
         const std::vector<Snapshot> frames = frames_of(scene);
         EXPECT_EQ(std::int64_t(frames.size()), std::int64_t(60.0 / speed) + 1);
-        // Frame n shows the moment n * speed of the normal run's frames, to the last bit where that has one.
+        // Frame n shows the time n * speed of the normal run's frames, to the last bit if that is one of its frames.
         for (std::size_t n = 0; n < frames.size(); ++n) {
             const double at = double(n) * speed;
             if (at != double(std::size_t(at))) continue;
@@ -56,7 +56,7 @@ TEST(Speed, KeepsTheStepWhereItCan) {
     }
 }
 
-TEST(Speed, NeverMakesTheStepLonger) {
+TEST(TimeScaling, NeverMakesTheStepLonger) {
     for (double speed = slowest_speed; speed <= fastest_speed; speed *= 1.37) {
         SceneDescription scene = falling_box();
         const double step = scene.step(), fps = scene.output.fps;
@@ -78,7 +78,7 @@ TEST(Shutter, OpensForTheNearestPartOfAFrame) {
     EXPECT_EQ(of(270.0, 8), (std::pair{11, 8}));   // 262 degrees
 }
 
-TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
+TEST(Shutter, PartsKeepTheStepIfPossible) {
     SceneDescription scene = falling_box();
     const double step = scene.step();
     divide_frames(scene, 4);
@@ -89,7 +89,7 @@ TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
     for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
 }
 
-TEST(Speed, TooManyFramesAreRefused) {
+TEST(TimeScaling, TooManyFramesAreRefused) {
     SceneDescription scene = falling_box();
     scene.simulation.duration = 1e6;
     EXPECT_THROW(apply_speed(scene, 1e-3), InputError);

@@ -29,7 +29,7 @@ TEST(Color, KnownValues) {   // IEC 61966-2-1
     EXPECT_DOUBLE_EQ(linear[2], 0.0);
 }
 
-TEST(Color, TextIsReadInEitherCaseAndWrittenInLower) {
+TEST(Color, TextIsReadInEitherCaseAndWrittenInLowerCase) {
     EXPECT_EQ(parse_color("#C8853c"), (Color{0xc8, 0x85, 0x3c}));
     EXPECT_EQ(to_string(Color{0xc8, 0x85, 0x3c}), "#c8853c");
     for (int level = 0; level < 256; ++level) {

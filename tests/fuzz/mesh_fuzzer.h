@@ -1,4 +1,4 @@
-// What the fuzz targets of the mesh formats share.
+// Shared by the fuzz targets of the mesh formats.
 #pragma once
 
 #include "../support/folder.h"

@@ -1,4 +1,4 @@
-// What the fuzz targets that read PNG files share.
+// Shared by the fuzz targets that read PNG files.
 #pragma once
 
 #include "output/png_reader.h"

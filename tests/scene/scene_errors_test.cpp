@@ -1,5 +1,5 @@
-// Every mistake the format forbids is answered with the place of the mistake. In the texts below an @ marks that place
-// (it is taken out before parsing), and the phrase follows the location in the message.
+// Every violation of the format is reported with its position. In the texts below an @ marks that position (it is
+// removed before parsing), and the phrase follows the location in the message.
 #include "core/error.h"
 #include "scene/load.h"
 
@@ -43,7 +43,7 @@ void expect_errors(const std::vector<Mistake>& mistakes) {
     }
 }
 
-/// A scene with one body, of whose table these are further lines.
+/// A scene with one body whose table contains these lines.
 std::string body(const std::string& lines) {
     return "format = 1\n[materials.wood]\n[materials.steel]\n[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\n" +
            lines;
