@@ -1,4 +1,4 @@
-"""More than colour: what `tumble render --aov` writes, read as a user would (np.load without NumPy), against closed forms."""
+"""AOVs: files of `tumble render --aov`, read as a user would (np.load without NumPy), compared with closed forms."""
 
 import ast
 import io
@@ -151,7 +151,7 @@ class Aovs(program.ProgramTest):
     def test_blur_and_slow_motion(self):
         self.check(0, "render", "scene.toml", "--frames", "sharp", "--aov", "depth,motion")
         self.check(0, "render", "scene.toml", "--frames", "blurred", "--aov", "depth,motion", "--shutter", "180")
-        for frame in range(4):   # the values are those of the moment when the shutter opens
+        for frame in range(4):   # values at the time when the shutter opens
             sharp, blurred = self.loaded("sharp", frame), self.loaded("blurred", frame)
             self.assertEqual(sharp["depth"].values, blurred["depth"].values)
             for a, b in zip(sharp["motion"].values, blurred["motion"].values):

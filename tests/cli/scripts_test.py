@@ -1,4 +1,4 @@
-"""The scripts: --help tells how to call each, and an option that a script does not know ends it before it does anything."""
+"""The scripts: --help shows the usage of each, and an unknown option ends a script before it has any effect."""
 
 import os
 import pathlib
@@ -9,12 +9,12 @@ import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 SCRIPTS = sorted(p.name for p in FOLDER.iterdir() if p.is_file() and os.access(p, os.X_OK))
-# What would install, build or run something. Each leaves a file behind in place of that.
+# Replaced programs that would install, build or run something; each leaves a file as evidence.
 OTHER_PROGRAMS = ("apt-get", "cmake", "ctest", "dpkg-query", "ffmpeg", "ninja", "sudo")
 
 
 class Scripts(unittest.TestCase):
-    """Each script runs as a copy in a tree of its own, which must stay as it is."""
+    """Each script runs as a copy in a temporary tree, which must stay unchanged."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tumble-scripts-"))

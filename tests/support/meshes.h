@@ -1,4 +1,4 @@
-// Meshes made in the test, with known volumes and tensors.
+// Meshes built in code, with known volumes and inertia tensors.
 #pragma once
 
 #include "scene/description/description.h"

@@ -94,7 +94,7 @@ void print_groups(const SceneDescription& scene, const World& world) {
     put("\n{} bodies\n", scene.bodies.size());
     for (const auto& [key, group] : groups) {
         put("  {:>7} {} {}", group.count, type_text(key.first), key.second);
-        if (key.first == BodyType::dynamic) put(", total {:.6g} kg", group.mass);
+        if (key.first == BodyType::dynamic) put(", {:.6g} kg in total", group.mass);
         put("\n");
     }
 }
