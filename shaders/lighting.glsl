@@ -25,8 +25,8 @@ struct Surface {
 };
 
 float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
-    // Walter et al. 2007, Microfacet Models for Refraction: the GGX distribution, with Hammon 2017, PBR Diffuse Lighting
-    // for GGX+Smith: its visibility term without the roots
+    // Walter et al. 2007, Microfacet Models for Refraction: the GGX distribution, with Hammon 2017, PBR Diffuse
+    // Lighting for GGX+Smith: its visibility term without the roots
     float a = roughness * roughness;
     float a2 = a * a;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;

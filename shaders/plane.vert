@@ -1,8 +1,8 @@
 #version 410 core
 // The part of the screen that an infinite plane covers, as a polygon in clip space (render/scene/plane_patch.h), with
-// the constants of the plane. Values that vary linearly or quadratically over the screen are given by their coefficients
-// of (1, x, y in pixels). With six other planes these are 89 components: OpenGL guarantees 60, llvmpipe and GPU drivers
-// offer 124 and more.
+// the constants of the plane. Values that vary linearly or quadratically over the screen are given by their
+// coefficients of (1, x, y in pixels). With six other planes these are 89 components: OpenGL guarantees 60, llvmpipe
+// and GPU drivers offer 124 and more.
 #include "frame.glsl"
 #include "look.glsl"
 #include "material.glsl"

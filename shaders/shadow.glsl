@@ -12,8 +12,8 @@ float bilinear_shadow(vec3 at) {
     return mix(rows.x, rows.y, f.y);
 }
 
-// Step to the next pixel on the surface, limited by the margins of the map and at least as long as the texels' own blur;
-// in depth never farther than the surface moves in a pixel, because it may turn towards the sun.
+// Step to the next pixel on the surface, limited by the margins of the map and at least as long as the texels' own
+// blur; in depth never farther than the surface moves in a pixel, because it may turn towards the sun.
 vec3 pixel_step(vec3 way, float most) {
     float texels = max(length(way.xy), 1e-6);
     float scale = clamp(texels, LEAST_STEP, most) / texels;
@@ -67,8 +67,8 @@ float sun_visible(vec3 in_near, vec3 in_far) {
     vec3 at = mix(in_far + vec3(1.0, 0.0, 0.0), in_near, near);
     vec3 place = vec3(at.xy * SHADOW_TEXELS - 0.5, at.z);
 #ifdef PIXEL_SHADOWS
-    // Steps within one map, on both sides of the near one's border. In the far map they have at most the same length, in
-    // meters.
+    // Steps within one map, on both sides of the near one's border. In the far map they have at most the same length,
+    // in meters.
     vec3 scale = vec3(SHADOW_TEXELS, SHADOW_TEXELS, 1.0);
     vec3 right = scale * mix(dFdx(in_far), dFdx(in_near), near), down = scale * mix(dFdy(in_far), dFdy(in_near), near);
     float far_part = length(dFdx(in_far.xy)) / max(length(dFdx(in_near.xy)), 1e-12);

@@ -20,7 +20,8 @@ struct MemoryFiles {
 };
 
 /// For all processes together, the smaller of: the memory that the machine has free or can free (MemAvailable and free
-/// swap), and the memory that the limits of the process's control groups leave. A value that cannot be read is no bound.
+/// swap), and the memory that the limits of the process's control groups leave. A value that cannot be read is no
+/// bound.
 AvailableMemory shared_memory(const MemoryFiles& files = {});
 
 /// For this process: the same, also bounded by its limits of address space and data (ulimit -v, -d).

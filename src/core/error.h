@@ -14,7 +14,8 @@ struct SourceLocation {
     int column = 0;
 };
 
-/// The input or the usage is wrong: exit code 2, and no output was written. what() is "FILE:LINE:COLUMN: error: message"
+/// The input or the usage is wrong: exit code 2, and no output was written. what() is "FILE:LINE:COLUMN: error:
+/// message"
 /// with a known place, else "error: message".
 class InputError : public std::runtime_error {
 public:

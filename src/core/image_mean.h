@@ -1,5 +1,5 @@
-// Mean of images in linear light: sRGB values are decoded, summed, divided, and encoded. A pixel that is the same in all
-// of them is unchanged, to the bit.
+// Mean of images in linear light: sRGB values are decoded, summed, divided, and encoded. A pixel that is the same in
+// all of them is unchanged, to the bit.
 #pragma once
 
 #include "core/image.h"

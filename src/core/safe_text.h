@@ -1,6 +1,6 @@
-// Makes foreign text (names, titles, keys, file names, output of other programs) safe for a message: no cursor movement,
-// no change of the terminal's state, no reversal of the reading direction, no line break, and a bounded length. Every
-// such text passes through here on its way to standard output or standard error.
+// Makes foreign text (names, titles, keys, file names, output of other programs) safe for a message: no cursor
+// movement, no change of the terminal's state, no reversal of the reading direction, no line break, and a bounded
+// length. Every such text passes through here on its way to standard output or standard error.
 #pragma once
 
 #include <cstddef>

@@ -28,8 +28,8 @@ Arguments h264(const ClipOptions& options) {
             return x264("veryfast", {"-qp", "22"}, false, "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8");
         // A still background costs few bits at any quality, and a lookahead of 40 frames detects it. The first frame of
         // each two seconds gets a much higher quality (ipratio). Small residuals are coded instead of dropped (no-dct-
-        // decimate), because they are the specks. Colors get an offset because a level of chroma is two levels of red or
-        // blue.
+        // decimate), because they are the specks. Colors get an offset because a level of chroma is two levels of red
+        // or blue.
         case VideoQuality::normal:
             return x264("veryfast", {"-crf", "17"}, two_way,
                         "keyint=120:rc-lookahead=40:ipratio=3:no-dct-decimate=1:chroma-qp-offset=-3");

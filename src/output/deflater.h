@@ -10,8 +10,8 @@ namespace tumble {
 
 class Deflater {
 public:
-    /// last: the stream ends. whole_byte: it ends at a byte boundary without a last block, and later data does not refer
-    /// to it, so such pieces can be concatenated.
+    /// last: the stream ends. whole_byte: it ends at a byte boundary without a last block, and later data does not
+    /// refer to it, so such pieces can be concatenated.
     enum class End { last, whole_byte };
 
     Deflater();

@@ -1,6 +1,6 @@
 // An unfinished file under a hidden name beside its final one: ".clip.mp4.tumble.part-1b2c3d4e". It is locked while its
-// process lives. A later run can therefore recognize the file of a killed one, independent of process numbers and of the
-// machine that the other process runs on.
+// process lives. A later run can therefore recognize the file of a killed one, independent of process numbers and of
+// the machine that the other process runs on.
 #pragma once
 
 #include <filesystem>

@@ -140,8 +140,8 @@ bool read_waiting(int pipe, std::string& text) {
     return true;
 }
 
-/// Waits until the child has ended, without reaping it, so that its number stays reserved. True also if there is no such
-/// child.
+/// Waits until the child has ended, without reaping it, so that its number stays reserved. True also if there is no
+/// such child.
 bool is_ended(pid_t id, int how) {
     siginfo_t info{};
     int result = 0;

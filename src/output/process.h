@@ -54,12 +54,12 @@ public:
     bool write(std::span<const std::byte> bytes);
 
     /// The same, but passes memory pages into the pipe instead of copies, if the pipe's capacity is smaller.
-    /// Precondition: they do not change while the pointer is held, which is until the program has read them with read().
-    /// (A program that passes pages on with splice() may still hold them.)
+    /// Precondition: they do not change while the pointer is held, which is until the program has read them with
+    /// read(). (A program that passes pages on with splice() may still hold them.)
     bool lend(std::shared_ptr<const std::byte> memory, std::size_t size);
 
-    /// Closes its input and waits for its end. If it stopped reading before that, it is killed after a second. Processes
-    /// that it started are not waited for.
+    /// Closes its input and waits for its end. If it stopped reading before that, it is killed after a second.
+    /// Processes that it started are not waited for.
     ProcessEnd finish();
 
     /// Kills it at once, with all processes of its group; finish() then returns its end. May be called from another
@@ -86,8 +86,8 @@ struct ProgramOutput {
     bool stopped = false;   // it was killed, because `stop` returned true
 };
 
-/// Reads a child's output from a pipe until the child ends. `stop` is called every few milliseconds; if it returns true,
-/// the child's process group is killed.
+/// Reads a child's output from a pipe until the child ends. `stop` is called every few milliseconds; if it returns
+/// true, the child's process group is killed.
 ProgramOutput listen_to(pid_t id, int pipe, const std::function<bool()>& stop);
 
 /// Runs a program in its own process group, without input, and reads its standard output. Throws RunError if it cannot

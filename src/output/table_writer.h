@@ -12,8 +12,8 @@
 namespace tumble {
 
 /// Numbers have 17 significant digits, which restores every double to the bit; the decimal sign is a point in every
-/// locale. Text with a comma, a quote or a line break is quoted (RFC 4180). The file appears under its name at finish(),
-/// or never.
+/// locale. Text with a comma, a quote or a line break is quoted (RFC 4180). The file appears under its name at
+/// finish(), or never.
 class TableWriter {
 public:
     /// `header`: the first row, verbatim. All members throw RunError if the file cannot be written.

@@ -68,8 +68,8 @@ VideoFormat video_format(const std::filesystem::path& clip, double fps);
 constexpr const char* clip_to_standard_output = "/dev/stdout";
 
 /// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`. For a GIF
-/// that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only when all frames
-/// are, and reading them twice keeps memory constant.
+/// that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only when all
+/// frames are, and reading them twice keeps memory constant.
 std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
                                             const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);

@@ -5,7 +5,8 @@
 //   Cb = 128 + 224 (B - (Y - 16) 255 / 219) / 1.8556 / 255,   Cr the same with R and 1.5748
 //
 // of the encoded values R, G, B; Cb and Cr of the mean of the four pixels, so that they are sited at the center of the
-// square. Computed in integers (15 fractional bits): the same bytes on every processor, within one level of the formula.
+// square. Computed in integers (15 fractional bits): the same bytes on every processor, within one level of the
+// formula.
 #pragma once
 
 #include "core/image.h"

@@ -260,8 +260,8 @@ TEST(MovingCamera, StandsStillWithAJitteringBody) {
     EXPECT_TRUE(poses.follow(snapshot));
 }
 
-// Fog and grids fit the bodies' distance: the target may be anywhere along the view axis, also in front of or behind the
-// bodies.
+// Fog and grids fit the bodies' distance: the target may be anywhere along the view axis, also in front of or behind
+// the bodies.
 TEST(FogReferenceDistance, IsTheDistanceOfTheBodiesInView) {
     SceneDescription scene = empty_scene();
     for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));

@@ -176,7 +176,8 @@ TEST(GroundRedraw, HasTheBytesOfAFullRedrawOnMeshesAndBalls) {
     EXPECT_LT(draw_partly(30, Ground::curved), 0.6) << "of the pictures: the test must have something to leave out";
 }
 
-// A small movement on a large floor redraws no more than on a plane, for any bounding ball and far corners of the floor.
+// A small movement on a large floor redraws no more than on a plane, for any bounding ball and far corners of the
+// floor.
 TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
     const auto redrawn = [](const BodyDescription& ground) {
         SceneDescription scene = empty_scene();

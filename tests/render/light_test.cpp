@@ -61,8 +61,8 @@ TEST(Light, AFaceInTheSunLooksLikeItsColor) {
     EXPECT_NEAR(pixel[2], 0x3c, 32);
 }
 
-// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) maps a point at height y to x - y / 2. Its shadow on
-// the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
+// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) maps a point at height y to x - y / 2. Its shadow
+// on the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
 TEST(Light, AShadowLiesWhereGeometryPutsIt) {
     const SceneDescription scene = shadow_scene();
     const Image image = drawn(scene);
@@ -244,9 +244,9 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     EXPECT_EQ(specks, 0);
 }
 
-// Highlights on rounded edges of metal must not be dots that change from frame to frame. In images displaced by parts of
-// a pixel, few pixels are much brighter in one than on average. Those that are so on wood as well are excluded, because
-// a surface ends there.
+// Highlights on rounded edges of metal must not be dots that change from frame to frame. In images displaced by parts
+// of a pixel, few pixels are much brighter in one than on average. Those that are so on wood as well are excluded,
+// because a surface ends there.
 TEST(Light, MetalEdgesDoNotGlitter) {
     SceneDescription scene = shadow_scene();
     scene.bodies.clear();

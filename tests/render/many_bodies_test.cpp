@@ -16,8 +16,8 @@
 namespace tumble {
 namespace {
 
-/// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall made of a
-/// box.
+/// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall made of
+/// a box.
 SceneDescription crowded_scene() {
     Random random(3);
     SceneDescription scene = empty_scene();
@@ -169,8 +169,8 @@ TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
     EXPECT_LT(last, asset->indices.size() / 8);
 }
 
-// At any place on the screen, a point of a mesh that deviates as much as its level allows is within a quarter of a pixel
-// of its true place.
+// At any place on the screen, a point of a mesh that deviates as much as its level allows is within a quarter of a
+// pixel of its true place.
 TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), torus_asset(1.0, 0.3), {1, 2, 3})};

@@ -160,8 +160,8 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
     }
 }
 
-// Earlier frames have no influence, for example if the ground's AO tile was wide, then long, then both: texels that were
-// never uploaded must not be read.
+// Earlier frames have no influence, for example if the ground's AO tile was wide, then long, then both: texels that
+// were never uploaded must not be read.
 TEST(PartialRedraw, EarlierFramesHaveNoInfluence) {
     SceneDescription scene = empty_scene();
     scene.output.width = 232;

@@ -237,8 +237,8 @@ TEST_F(MeshLoader, NodesOfAGltfMoveTurnAndMirrorTheirMeshes) {
 }
 
 TEST_F(MeshLoader, AMirroredSheetKeepsItsFrontSide) {
-    // One triangle in x and y, seen from +z; mirrored in y its corners are in reverse order, and its face is oriented as
-    // before.
+    // One triangle in x and y, seen from +z; mirrored in y its corners are in reverse order, and its face is oriented
+    // as before.
     const auto sheet = [](const char* scale) {
         return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
             "nodes":[{{"mesh":0,"scale":{}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],

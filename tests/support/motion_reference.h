@@ -1,5 +1,5 @@
-// One body under gravity, drag and a force at a point, in extended precision: the classical Runge-Kutta method in steps so
-// small that its error is far below a double's rounding. Shares no code with the simulation.
+// One body under gravity, drag and a force at a point, in extended precision: the classical Runge-Kutta method in steps
+// so small that its error is far below a double's rounding. Shares no code with the simulation.
 #pragma once
 
 #include "core/vector.h"

@@ -1,5 +1,5 @@
-// The AOVs of one frame as a file: an .npz archive with an array for each requested AOV, and the camera. The description
-// for users is docs/reference/aovs.md.
+// The AOVs of one frame as a file: an .npz archive with an array for each requested AOV, and the camera. The
+// description for users is docs/reference/aovs.md.
 //
 //   depth, normal, segmentation, motion, albedo   rows x columns (x channels), as in AovFrame
 //   intrinsics        3 x 3: column = fx x / z + cx, row = fy y / z + cy; pixel centers are integers

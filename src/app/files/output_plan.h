@@ -1,5 +1,5 @@
-// Inputs and outputs of a run, compared before anything is written. No output may be an input, and no two outputs may be
-// one file, for any spelling of their names and through any links.
+// Inputs and outputs of a run, compared before anything is written. No output may be an input, and no two outputs may
+// be one file, for any spelling of their names and through any links.
 #pragma once
 
 #include <sys/types.h>

@@ -6,8 +6,8 @@
 namespace tumble {
 
 /// During its lifetime, SIGINT, SIGTERM and SIGHUP are blocked in this thread and in those it starts, until pending()
-/// takes one. A signal that is pending at its end is dropped, because the work is over and its result or error has to be
-/// reported. A signal that was ignored at construction (nohup) stays ignored.
+/// takes one. A signal that is pending at its end is dropped, because the work is over and its result or error has to
+/// be reported. A signal that was ignored at construction (nohup) stays ignored.
 class Interrupt {
 public:
     Interrupt();

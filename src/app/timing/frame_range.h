@@ -1,5 +1,5 @@
-// The frames of a scene that are drawn: all, or those from a time on. Earlier frames are simulated, so that frame n does
-// not depend on the first drawn frame.
+// The frames of a scene that are drawn: all, or those from a time on. Earlier frames are simulated, so that frame n
+// does not depend on the first drawn frame.
 #pragma once
 
 #include "scene/description/description.h"

@@ -10,8 +10,8 @@
 
 namespace tumble {
 
-/// Content of one frame: its moments in order; a single one without motion blur. Moments that are not requested, or that
-/// equal those of the last frame, are omitted.
+/// Content of one frame: its moments in order; a single one without motion blur. Moments that are not requested, or
+/// that equal those of the last frame, are omitted.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
     std::vector<Snapshot> moments;

@@ -1,6 +1,6 @@
-// Lower bound of the memory of frames, known before drawing. A run that cannot fit is refused, instead of a machine that
-// swaps or a process that the system ends. Memory that depends on the content of the frames (compressed sizes) and on
-// the bodies is not included.
+// Lower bound of the memory of frames, known before drawing. A run that cannot fit is refused, instead of a machine
+// that swaps or a process that the system ends. Memory that depends on the content of the frames (compressed sizes) and
+// on the bodies is not included.
 #pragma once
 
 #include "app/workers/shared_frames.h"

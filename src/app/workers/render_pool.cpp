@@ -121,8 +121,8 @@ bool RenderPool::follow(MotionBlurFrame& exposure, bool anew) {
     return !exposure.moments.empty() || exposure.aovs;
 }
 
-/// Selects the poses to draw of the picture; false: it equals that of the last frame. If nothing moves while the shutter
-/// is open, one moment is left.
+/// Selects the poses to draw of the picture; false: it equals that of the last frame. If nothing moves while the
+/// shutter is open, one moment is left.
 bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
     bool first = false, later = false;
     for (std::size_t i = 0; i < exposure.moments.size(); ++i)

@@ -1,6 +1,6 @@
-// Takes poses and delivers finished frames in order; the pipeline's only interface to drawing. It has one render process
-// per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of processes:
-// every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
+// Takes poses and delivers finished frames in order; the pipeline's only interface to drawing. It has one render
+// process per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of
+// processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
 // A frame in which nothing drawn has moved is not drawn: it repeats the last one. AOVs (aov_renderer.h) use the true
 // poses: if only those have moved, the picture is repeated, but not the AOVs.
@@ -51,8 +51,8 @@ public:
     ~RenderPool();
 
     /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
-    /// `hand_on` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies look
-    /// as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
+    /// `hand_on` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
+    /// look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
              std::int64_t first = 0);
 

@@ -149,8 +149,8 @@ std::string reason(const std::exception& error) {
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    // Keeps freed memory for the next frame: returned to the system, it would come back as hundreds of new pages. Larger
-    // blocks are returned.
+    // Keeps freed memory for the next frame: returned to the system, it would come back as hundreds of new pages.
+    // Larger blocks are returned.
     ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
     ::mallopt(M_TRIM_THRESHOLD, kept_memory);
     ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: one core per worker

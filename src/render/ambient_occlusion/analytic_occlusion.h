@@ -3,8 +3,8 @@
 // samples are taken at the distances h_k = 0.22 h and h (h: the AO radius). Without an occluder d(p + n h_k) >= h_k; in
 // a gap it is less:
 //   open = product over bodies of (1 - strength * mean over k of clamp(1 - d(p + n h_k) / h_k, 0, 1))
-// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. There is no noise, and bodies outside
-// the view occlude as well, so nothing flickers as the camera moves.
+// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. There is no noise, and bodies
+// outside the view occlude as well, so nothing flickers as the camera moves.
 #pragma once
 
 #include "render/ambient_occlusion/occluders.h"
@@ -39,7 +39,8 @@ void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float pl
 float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
                  float plane_height, float reach);
 
-/// Share of a point's sky light that a closed gap takes, and the distance of the first sample in parts of the AO radius.
+/// Share of a point's sky light that a closed gap takes, and the distance of the first sample in parts of the AO
+/// radius.
 inline constexpr float occlusion_strength = 0.72f;
 inline constexpr float near_probe = 0.22f;
 

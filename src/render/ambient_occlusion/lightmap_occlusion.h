@@ -1,5 +1,5 @@
-// Occlusion of the bodies that have a lightmap, updated block by block where an occluder is near or was near at the last
-// update.
+// Occlusion of the bodies that have a lightmap, updated block by block where an occluder is near or was near at the
+// last update.
 #pragma once
 
 #include "render/lightmap/occlusion_lightmap.h"

@@ -13,7 +13,8 @@ namespace {
 // many times as large as their AO radius.
 constexpr double large_of_reach = 4.0;   // ratio of the body's radius to the AO radius
 
-// for all lightmaps together; 28 bytes each, and five in the atlas. A field of 60 x 60 m under crates of 1 m has 230,000
+// for all lightmaps together; 28 bytes each, and five in the atlas. A field of 60 x 60 m under crates of 1 m has
+// 230,000
 constexpr std::size_t most_texels = 1'200'000;
 
 // Coarser texels would resolve no more than vertices do.

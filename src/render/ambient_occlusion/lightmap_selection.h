@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Gives lightmaps to fixed meshes and balls that are large relative to moving bodies. AO radii and large receivers must
-/// be set before.
+/// Gives lightmaps to fixed meshes and balls that are large relative to moving bodies. AO radii and large receivers
+/// must be set before.
 void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks);
 
 }  // namespace tumble

@@ -43,7 +43,8 @@ private:
     // Crossings of the mesh with the line along x through the cells' centers; a point is inside after an odd number of
     // them.
     void fill_row(const TriangleMesh& mesh, int y, int z) {
-        // Offset from the centers by a fraction that no regular grid of vertices shares, so that the line meets no edge.
+        // Offset from the centers by a fraction that no regular grid of vertices shares, so that the line meets no
+        // edge.
         const double line_y = bounds_.min.y() + (y + 0.5000317) * size_.y();
         const double line_z = bounds_.min.z() + (z + 0.5000731) * size_.z();
         std::vector<double> crossings;

@@ -1,7 +1,7 @@
 // One small image with the sky visibility of every visible surface: a tile for each face of a box, an octahedral tile
 // for each ball, a run of texels for the vertices of a mesh, and a tile on each plane around the bodies. Sky light
-// varies slowly, so a few texels per face are close to a value per pixel, at a twentieth of the cost. Large fixed meshes
-// and balls have lightmaps (occlusion_lightmap.h).
+// varies slowly, so a few texels per face are close to a value per pixel, at a twentieth of the cost. Large fixed
+// meshes and balls have lightmaps (occlusion_lightmap.h).
 // A body has the same place in every frame. Its texels are recomputed only when it or a neighbor has moved. In a scene
 // of many bodies, those that are small on the screen get a single value per face (a few for a ball, some tens for a
 // mesh). Between both levels of detail values are blended by size, so that they do not jump. The work is bounded by the

@@ -1,7 +1,7 @@
-// Heights of fixed surfaces above a plane. Occlusion is a product over bodies and ignores surfaces in between: a body in a
-// bowl or on a table would darken the floor below through it. So the lowest fixed surface above each texel of a plane
-// tile is stored, and a moving body occludes the plane by the share of its footprint that has no such surface below the
-// body.
+// Heights of fixed surfaces above a plane. Occlusion is a product over bodies and ignores surfaces in between: a body
+// in a bowl or on a table would darken the floor below through it. So the lowest fixed surface above each texel of a
+// plane tile is stored, and a moving body occludes the plane by the share of its footprint that has no such surface
+// below the body.
 #pragma once
 
 #include "render/scene/render_scene.h"

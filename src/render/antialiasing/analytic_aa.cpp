@@ -84,8 +84,8 @@ private:
         double middle;          // height of its extended line at the middle of that width
     };
 
-    // A share of the pixel's color comes from the neighbor across the edge, or from the next one if the edge is oblique.
-    // At a hidden edge the pixels have other surfaces.
+    // A share of the pixel's color comes from the neighbor across the edge, or from the next one if the edge is
+    // oblique. At a hidden edge the pixels have other surfaces.
     void pixel(int m, int n, const Crossing& here) {
         const auto inside = [this](std::uint8_t id) { return whole_box ? of_same_box(id, inner_, face_) : id == inner_; };
         const std::ptrdiff_t at = m * step_m_ + n * step_n_;

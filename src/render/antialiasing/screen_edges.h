@@ -1,5 +1,5 @@
-// The visible edges of a frame, where one surface ends in front of another. They are computed from the shapes: edges and
-// outlines of boxes, circles of balls, outlines and creases of meshes, intersections of planes.
+// The visible edges of a frame, where one surface ends in front of another. They are computed from the shapes: edges
+// and outlines of boxes, circles of balls, outlines and creases of meshes, intersections of planes.
 #pragma once
 
 #include "render/scene/drawable_bounds.h"
@@ -54,8 +54,8 @@ private:
     void add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item);
     void add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges);
     void add_corner(const PlanePatch& a, const PlanePatch& b);
-    /// Adds the part in front of the eye of the edge from a to b of a body beside the eye, all relative to the eye; c is
-    /// on the inner side.
+    /// Adds the part in front of the eye of the edge from a to b of a body beside the eye, all relative to the eye; c
+    /// is on the inner side.
     void add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer);
 
     const RenderScene* looks_;

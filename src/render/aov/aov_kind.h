@@ -11,8 +11,8 @@
 namespace tumble {
 
 /// depth: m along the view axis, infinity for the background. normal: unit, world frame, 0 for the background.
-/// segmentation: 0 for the background, then bodies from 1 in scene order, then cords. motion: pixels to the place of the
-/// surface point in the next frame. albedo: the material's color, sRGB, 0 for the background.
+/// segmentation: 0 for the background, then bodies from 1 in scene order, then cords. motion: pixels to the place of
+/// the surface point in the next frame. albedo: the material's color, sRGB, 0 for the background.
 enum class Aov { depth, normal, segmentation, motion, albedo };
 
 inline constexpr std::array all_aovs = {Aov::depth, Aov::normal, Aov::segmentation, Aov::motion, Aov::albedo};

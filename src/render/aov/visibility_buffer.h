@@ -1,6 +1,6 @@
-// The visibility buffer: the nearest surface under each pixel center, from which all AOVs of a frame are computed. It is
-// found by intersecting rays in double precision, shape by shape: balls are exact, edges of boxes are accurate to 1e-13
-// pixels, and OpenGL has no influence.
+// The visibility buffer: the nearest surface under each pixel center, from which all AOVs of a frame are computed. It
+// is found by intersecting rays in double precision, shape by shape: balls are exact, edges of boxes are accurate to
+// 1e-13 pixels, and OpenGL has no influence.
 #pragma once
 
 #include "render/aov/pinhole_camera.h"

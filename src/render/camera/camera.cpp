@@ -24,8 +24,8 @@ Camera::Camera(const CameraDescription& camera, int width, int height, const Eig
     forward_ = to_target.norm() > 0.0 ? Vec3(to_target / target_distance_) : Vec3(0.0, 0.0, -1.0);
     right_ = forward_.cross(camera.up);
     viewing_distance_ = target_distance_;
-    // An up vector parallel to the view (a camera straight from above) leaves the roll undefined: any perpendicular axis
-    // is valid.
+    // An up vector parallel to the view (a camera straight from above) leaves the roll undefined: any perpendicular
+    // axis is valid.
     if (!(right_.norm() > 1e-9 * camera.up.norm())) right_ = forward_.cross(most_across(forward_));
     right_.normalize();
     up_ = right_.cross(forward_);

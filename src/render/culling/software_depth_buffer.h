@@ -23,7 +23,8 @@ public:
         double inverse_depth;
     };
 
-    /// Adds a convex face and the pixels that it certainly covers. Returns true if it may have been visible before that.
+    /// Adds a convex face and the pixels that it certainly covers. Returns true if it may have been visible before
+    /// that.
     bool add(const std::array<Corner, 4>& face);
 
     /// True if a rectangle of the screen is hidden for bodies at `depth`, m, or farther.

@@ -10,7 +10,8 @@ namespace {
 // Margin for the texels to either side that the filter reads.
 constexpr double spare_texels = 0.5;
 
-// Texels at the border of the near map within which a pixel may use the far one: 5 (shadow.glsl), and the normal offset.
+// Texels at the border of the near map within which a pixel may use the far one: 5 (shadow.glsl), and the normal
+// offset.
 constexpr double rim_texels = 8.0;
 
 Vec3 row_of(const glm::vec4& row) { return {double(row.x), double(row.y), double(row.z)}; }

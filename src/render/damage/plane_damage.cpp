@@ -73,8 +73,8 @@ bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach
         return at.x() + around >= part.x && at.x() - around <= part.x + part.width && at.y() + around >= part.y &&
                at.y() - around <= part.y + part.height;
     };
-    // The corners of a ball's box are 1.74 radii from its center; a rectangle around them extends 1.42 times as far, and
-    // an oblique shadow twice as far, over the sine of the elevation.
+    // The corners of a ball's box are 1.74 radii from its center; a rectangle around them extends 1.42 times as far,
+    // and an oblique shadow twice as far, over the sine of the elevation.
     if (meets(item.center - plane.normal * height, 2.5 * (item.radius + reach + blur))) return true;
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0) return false;

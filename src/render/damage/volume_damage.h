@@ -1,4 +1,5 @@
-// Damage by a body's shadow on a large fixed mesh or ball: where the shadow passes through the boxes around its surface.
+// Damage by a body's shadow on a large fixed mesh or ball: where the shadow passes through the boxes around its
+// surface.
 #pragma once
 
 #include "render/damage/plane_damage.h"

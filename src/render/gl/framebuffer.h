@@ -1,5 +1,5 @@
-// The framebuffers of a frame: color and depth with several samples per pixel, the stored background that is restored in
-// dirty regions, and the single-sample color that the samples are averaged into. Shaders encode sRGB themselves:
+// The framebuffers of a frame: color and depth with several samples per pixel, the stored background that is restored
+// in dirty regions, and the single-sample color that the samples are averaged into. Shaders encode sRGB themselves:
 // GL_FRAMEBUFFER_SRGB would encode each sample again (4 % of a frame). Edges are averaged as encoded values, which
 // avoids a staircase on a bright edge before a dark background.
 #pragma once

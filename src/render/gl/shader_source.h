@@ -1,4 +1,5 @@
-// Shader text from files, with `#include "file"` lines resolved and the origin of every line kept for compiler messages.
+// Shader text from files, with `#include "file"` lines resolved and the origin of every line kept for compiler
+// messages.
 #pragma once
 
 #include <cstddef>

@@ -17,8 +17,8 @@ constexpr double most_along = 1000.0;
 // 2.
 constexpr double rim = 1.5;
 
-// A texel shades points within one texel of it, plus a tenth for rounding; there the surface rises by as much across and
-// along.
+// A texel shades points within one texel of it, plus a tenth for rounding; there the surface rises by as much across
+// and along.
 constexpr double most_rise = 2.2;   // texels
 
 // Height difference above which two surfaces of one chart at one place are two floors. Two that meet at an edge differ

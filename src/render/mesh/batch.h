@@ -9,8 +9,8 @@
 
 namespace tumble {
 
-/// Mesh indices: half a box (its sides towards the sun), one face of a box, the balls from coarse to fine, the cylinder,
-/// then the meshes of the scene, each with its levels of detail.
+/// Mesh indices: half a box (its sides towards the sun), one face of a box, the balls from coarse to fine, the
+/// cylinder, then the meshes of the scene, each with its levels of detail.
 inline constexpr std::size_t half_box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
 

@@ -1,7 +1,7 @@
 // Level of detail: a mesh with as few triangles as its size on the screen needs. Level 0 is the mesh itself; each
 // further level allows twice the deviation from the true surface. The level depends on the distance only: the deviation
-// stays below a quarter of a pixel (of a texel in a shadow map), so that a change of level is invisible. Levels are made
-// when they are first needed. A scene whose meshes have few triangles in total is drawn at level 0.
+// stays below a quarter of a pixel (of a texel in a shadow map), so that a change of level is invisible. Levels are
+// made when they are first needed. A scene whose meshes have few triangles in total is drawn at level 0.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -46,8 +46,8 @@ public:
 
     /// Level 1 or above; made on first use. Postcondition: every vertex of the mesh is within deviation_of_level() of
     /// the level's surface, and the corners, edge midpoints and centers of the level's triangles are within that
-    /// distance of the mesh. A level that cannot satisfy this has more triangles, all in the worst case. A level takes a
-    /// few megabytes at most.
+    /// distance of the mesh. A level that cannot satisfy this has more triangles, all in the worst case. A level takes
+    /// a few megabytes at most.
     const MeshLod& at(std::size_t mesh, std::size_t level);
 
 private:

@@ -15,7 +15,8 @@ constexpr double about_there = 2.0;
 // Distance at which fog is half of the light, in reference distances: the ground fades out, the bodies stay clear.
 constexpr double half_fog = 5.0;
 
-// A body counts as large on the screen from this part of the image height on (7 pixels of 720). Lost bodies are smaller.
+// A body counts as large on the screen from this part of the image height on (7 pixels of 720). Lost bodies are
+// smaller.
 constexpr double large_part = 0.01;
 
 // Lower limit of the half-fog distance, in distances of the near side of such a body: 6 % of its light is fog.

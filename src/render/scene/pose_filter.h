@@ -2,8 +2,8 @@
 // true one when some point of the body has moved by more than
 //   |dp| + 2 r |dq| > drawn_tolerance pixels at its distance
 // where dp is the displacement of its origin, r the radius around the origin that contains the body, and dq the
-// difference of the unit quaternions (the smaller of both signs; a rotation by a moves a point at r by at most 2 r sin(a
-// / 2) <= 2 r |dq|).
+// difference of the unit quaternions (the smaller of both signs; a rotation by a moves a point at r by at most 2 r
+// sin(a / 2) <= 2 r |dq|).
 //
 // While the camera moves, every drawn pose is the true one. The pose of a body that the camera follows is filtered as
 // well, and the camera stands still with it.

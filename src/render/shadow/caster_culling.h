@@ -1,5 +1,5 @@
-// Culling of shadow casters that are entirely in the shadow of others and so change no texel of the shadow map. The near
-// map is divided into small cells. Each cell stores the largest depth of the fronts of the boxes that cover it
+// Culling of shadow casters that are entirely in the shadow of others and so change no texel of the shadow map. The
+// near map is divided into small cells. Each cell stores the largest depth of the fronts of the boxes that cover it
 // completely; a caster that is deeper in all of its cells is hidden from the sun, in the far map as well. The test is
 // conservative: the maps are the same to the bit.
 #pragma once

@@ -27,8 +27,8 @@ constexpr double filtered_by_pixel = 0.9, finest_pixels = 0.2;
 // below the second value.
 constexpr double lost_pixels = 8.0, fine_pixels = 3.0;
 
-// A ball wider than this part of the near map that extends beyond it has sharp shadows inside and coarse ones outside. A
-// smaller one uses the far map as a whole, so that bodies that leave need no other shader.
+// A ball wider than this part of the near map that extends beyond it has sharp shadows inside and coarse ones outside.
+// A smaller one uses the far map as a whole, so that bodies that leave need no other shader.
 constexpr double least_span = 0.5;
 
 // Largest ratio of the far map to the near one, so that lost bodies do not blur the other shadows.

@@ -1,9 +1,9 @@
-// The regions of the shadow maps. Two square maps (cascades) are perpendicular to the light. The near one is fixed for a
-// clip, around the bodies' initial and estimated landing places as far as they are visible, so that resting shadows are
-// the same in every frame. With a rotating camera all bodies count as visible; with a camera that follows a body, the
-// map moves with it. The far one appears around it when a body or its shadow leaves it, with the near size times a power
-// of two; a body outside the far map casts no shadow. The maps' texels are aligned to one grid in the world, so that
-// shadows do not flicker. Everything depends on the scene and the one snapshot only, not on earlier frames.
+// The regions of the shadow maps. Two square maps (cascades) are perpendicular to the light. The near one is fixed for
+// a clip, around the bodies' initial and estimated landing places as far as they are visible, so that resting shadows
+// are the same in every frame. With a rotating camera all bodies count as visible; with a camera that follows a body,
+// the map moves with it. The far one appears around it when a body or its shadow leaves it, with the near size times a
+// power of two; a body outside the far map casts no shadow. The maps' texels are aligned to one grid in the world, so
+// that shadows do not flicker. Everything depends on the scene and the one snapshot only, not on earlier frames.
 #pragma once
 
 #include "render/scene/render_scene.h"

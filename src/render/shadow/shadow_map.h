@@ -16,8 +16,8 @@ class ShadowMap {
 public:
     ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block);
 
-    /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map and
-    /// the far one, if there is one.
+    /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map
+    /// and the far one, if there is one.
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& casters, const std::vector<Rectangle>& parts,
               bool with_far) const;
 

@@ -13,8 +13,8 @@ constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of
 constexpr std::size_t most_pieces = 20'000;       // as above this number of fixed shapes
 
 
-/// Entry of a line into a box at the origin (the slabs of Kay and Kajiya 1986), as a multiple of `way`; infinity without
-/// a hit.
+/// Entry of a line into a box at the origin (the slabs of Kay and Kajiya 1986), as a multiple of `way`; infinity
+/// without a hit.
 double hit_box(const Vec3& half, const Vec3& from, const Vec3& way) {
     double enter = -infinity, leave = infinity;
     for (int k = 0; k < 3; ++k) {

@@ -157,8 +157,8 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
     const double tangent_y = used_part * half.sin / half.cos;
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
 
-    // A point p is in view of the eye e if |(p - e).right| <= tangent_x (p - e).forward, and likewise for up: four half-
-    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and center it.
+    // A point p is in view of the eye e if |(p - e).right| <= tangent_x (p - e).forward, and likewise for up: four
+    // half- spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and center it.
     double right = -1e300, left = -1e300, top = -1e300, bottom = -1e300;
     double nearest = 1e300, farthest = -1e300;
     for (const Vec3& p : points) {

@@ -6,7 +6,8 @@
 namespace tumble {
 namespace {
 
-/// Maps neighboring seeds to unrelated ones (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
+/// Maps neighboring seeds to unrelated ones (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+/// generators").
 std::uint64_t mixed(std::uint64_t z) {
     z += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -157,7 +157,8 @@ int steps_in_a_frame(const TimeRequest& time, double fps) {
 void check_frame_count(const TimeRequest& time, double duration, double fps) {
     const double frames = std::floor(duration * fps) + 1.0;
     if (frames <= static_cast<double>(limits::frames)) return;
-    // The defaults alone satisfy the limit, so one of the two was given; the error names an option rather than the file.
+    // The defaults alone satisfy the limit, so one of the two was given; the error names an option rather than the
+    // file.
     const bool blame_fps =
         !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
     (blame_fps ? time.fps : time.duration)->origin.fail(

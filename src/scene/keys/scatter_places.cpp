@@ -7,8 +7,8 @@
 namespace tumble {
 namespace {
 
-/// The placed spheres in a grid with cells as wide as the largest diameter, so that only the 27 cells around a place can
-/// contain neighbors. Only for lookups, never iterated over.
+/// The placed spheres in a grid with cells as wide as the largest diameter, so that only the 27 cells around a place
+/// can contain neighbors. Only for lookups, never iterated over.
 class NeighborBoxes {
 public:
     NeighborBoxes(const std::vector<BoundingSphere>& spheres, double clearance)

@@ -13,8 +13,8 @@ namespace tumble {
 /// True if assimp reads files of that ending (".dae", lower case).
 bool assimp_reads(const std::string& extension);
 
-/// Imports the bytes of a file; no other file is opened. Throws MeshError if they cannot be read, if the import crashes,
-/// or if it takes more memory or time than a mesh within limits.h needs.
+/// Imports the bytes of a file; no other file is opened. Throws MeshError if they cannot be read, if the import
+/// crashes, or if it takes more memory or time than a mesh within limits.h needs.
 MeshFile import_with_assimp(std::string_view bytes, const std::string& extension);
 
 }  // namespace tumble

@@ -151,7 +151,8 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         result.closedness.signed_volume = -result.closedness.signed_volume;
     }
 
-    // A sliver without area may close a gap, so it counts for closedness; it has no normal, so it is dropped after that.
+    // A sliver without area may close a gap, so it counts for closedness; it has no normal, so it is dropped after
+    // that.
     std::vector<std::array<std::uint32_t, 3>> kept;
     std::vector<Corners> kept_corners;
     for (std::size_t t = 0; t < corners.size(); ++t) {

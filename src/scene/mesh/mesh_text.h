@@ -27,9 +27,9 @@ private:
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// A decimal number with a point or a comma, `nan` or `inf`. Integer part, fraction and power of ten are each rounded to
-/// a float, as in assimp, so that coordinates equal those of assimp. Throws MeshError, which names the line, if the word
-/// is not a number.
+/// A decimal number with a point or a comma, `nan` or `inf`. Integer part, fraction and power of ten are each rounded
+/// to a float, as in assimp, so that coordinates equal those of assimp. Throws MeshError, which names the line, if the
+/// word is not a number.
 float mesh_number(std::string_view word, std::size_t line);
 
 }  // namespace tumble

@@ -125,8 +125,8 @@ private:
     std::size_t side_ = 1;
 };
 
-/// Ear clipping in the order of a walk around the polygon. A corner that is no ear is not tested again until a neighbor,
-/// or the point in its triangle, is removed.
+/// Ear clipping in the order of a walk around the polygon. A corner that is no ear is not tested again until a
+/// neighbor, or the point in its triangle, is removed.
 class EarCutter {
 public:
     explicit EarCutter(const std::vector<Point>& points)

@@ -13,8 +13,8 @@ struct TomlAmounts {
     std::size_t items = 0;   // of arrays, and inline tables
 };
 
-/// Throws InputError at a key with too many parts, because each part is a table within the one before (the parser itself
-/// limits the depth of arrays and inline tables), and RunError if the tree takes more memory than is available.
+/// Throws InputError at a key with too many parts, because each part is a table within the one before (the parser
+/// itself limits the depth of arrays and inline tables), and RunError if the tree takes more memory than is available.
 void check_toml_amounts(std::string_view text, const std::string& file);
 
 /// The same count without errors.
