@@ -19,9 +19,9 @@ namespace tumble {
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
-    /// The whole file, valid until the next call. `changed`: the regions that may differ from the last picture; a first
-    /// picture, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the picture is
-    /// empty or memory runs out.
+    /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous picture; a
+    /// first picture, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the picture
+    /// is empty or memory runs out.
     std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
     std::span<const std::byte> encode(const Image& image);
 
@@ -35,7 +35,7 @@ private:
     void make_head();
 
     Deflater deflater_;
-    int width_ = 0, height_ = 0;      // of the last picture
+    int width_ = 0, height_ = 0;      // of the previous picture
     std::vector<Band> bands_;
     std::vector<std::uint8_t> rows_;  // of one band, filtered
     std::vector<std::byte> head_, file_;

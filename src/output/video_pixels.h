@@ -17,7 +17,8 @@ public:
     /// `width`, `height`: of the images; for 4:2:0 an odd last column or row is duplicated.
     VideoPixels(PixelForm form, int width, int height);
 
-    /// Converts the regions of the image that may differ from the last one; in the first call that must be all of it.
+    /// Converts the regions of the image that may differ from the previous one; in the first call that must be all of
+    /// it.
     void update(const Image& image, std::span<const Rectangle> changed);
 
     std::span<const std::byte> bytes() const { return std::as_bytes(std::span(bytes_)); }

@@ -39,7 +39,7 @@ public:
     void write(const Image& picture);
     /// The next frame, as the bytes of a VideoPixels; held until the frame after it.
     void write(std::shared_ptr<const std::byte> pixels);
-    /// The next frame equals the last one.
+    /// The next frame equals the previous one.
     void repeat();
 
     /// Waits for ffmpeg, checks that the clip is complete (clip_check.h) and renames it to its final name. Throws

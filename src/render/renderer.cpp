@@ -151,7 +151,7 @@ struct Renderer::State {
     RenderScene looks;
     bool sun_up;
     CameraAnimation path;
-    CameraDescription camera;   // of the last frame
+    CameraDescription camera;   // of the previous frame
     Camera view;
     CascadeFitter stage;
     AmbientOcclusion occlusion;
@@ -172,7 +172,7 @@ struct Renderer::State {
     BodyPass programs;
     PlanePass planes;
     bool background_kept = false;
-    std::vector<Rectangle> changed, closing;   // redrawn regions; regions drawn in the last frame and not in this one
+    std::vector<Rectangle> changed, closing;   // redrawn regions; regions drawn in the previous frame and not in this one
     bool full_redraw, draw_hidden;
     PassTimes* times;
     ShaderCompileSchedule* turns;   // until its shaders are compiled

@@ -74,8 +74,8 @@ TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
 }
 
 TEST(ReorderBuffer, UnchangedRefersToTheWorkersOwnFrame) {
-    // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. A frame that is "unchanged" since the worker's own last frame is
-    // a repetition only if that is also the last picture of the clip.
+    // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. A frame that is "unchanged" since the worker's own previous frame
+    // is a repetition only if that is also the previous picture of the clip.
     ReorderBuffer order(2);
     const auto add = [&](std::int64_t n, std::size_t worker, bool unchanged) { order.add(numbered(n), worker, unchanged); };
     add(0, 0, false);

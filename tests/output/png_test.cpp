@@ -72,7 +72,7 @@ TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
     PngEncoder encoder;
     for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
         Image image = colorful(width, height);
-        encoder.encode(image, {});   // of another size than the last one: a full conversion, for any changed regions
+        encoder.encode(image, {});   // of another size than the previous one: a full conversion, for any changed regions
         const std::vector<Rectangle> changes[] = {
             {{3, 0, 1, 1}}, {{0, height - 1, width, 1}}, {}, {{1, 5, 4, 20}, {5, 25, 2, 6}}, {{0, 0, width, height}}};
         int value = 0;

@@ -11,7 +11,7 @@
 namespace tumble {
 
 /// Content of one frame: its moments in order; a single one without motion blur. Moments that are not requested, or
-/// that equal those of the last frame, are omitted.
+/// that equal those of the previous frame, are omitted.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
     std::vector<Snapshot> moments;

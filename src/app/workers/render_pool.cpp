@@ -114,14 +114,15 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
     stop();
 }
 
-/// Selects the poses to draw; false: the frame equals the last one, which is not allowed for the first frame (`anew`).
+/// Selects the poses to draw; false: the frame equals the previous one, which is not allowed for the first frame
+/// (`anew`).
 bool RenderPool::follow(MotionBlurFrame& exposure, bool anew) {
     if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
     if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
     return !exposure.moments.empty() || exposure.aovs;
 }
 
-/// Selects the poses to draw of the picture; false: it equals that of the last frame. If nothing moves while the
+/// Selects the poses to draw of the picture; false: it equals that of the previous frame. If nothing moves while the
 /// shutter is open, one moment is left.
 bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
     bool first = false, later = false;

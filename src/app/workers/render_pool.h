@@ -2,8 +2,8 @@
 // process per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of
 // processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
-// A frame in which nothing drawn has moved is not drawn: it repeats the last one. AOVs (aov_renderer.h) use the true
-// poses: if only those have moved, the picture is repeated, but not the AOVs.
+// A frame in which nothing drawn has moved is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
+// true poses: if only those have moved, the picture is repeated, but not the AOVs.
 #pragma once
 
 #include "app/threads/bounded_queue.h"
@@ -28,7 +28,7 @@ namespace tumble {
 /// One finished frame of the clip with all its outputs, shared by their writers.
 struct Frame {
     std::int64_t number = 0;
-    bool repeated = false;                   // the same picture as the last frame
+    bool repeated = false;                   // the same picture as the previous frame
     std::shared_ptr<const std::byte> video;  // in the form of VideoPixels; null if not requested
     std::span<const std::byte> png;          // the file; valid as long as `slot`
     std::shared_ptr<const void> slot;
@@ -78,7 +78,7 @@ private:
     PoseFilter drawn_poses_;
     AovChanges aov_changes_;
     FrameOutputs forms_;
-    bool moves_ = false;                          // whether bodies moved while the shutter was open for the last frame
+    bool moves_ = false;                          // whether bodies moved while the shutter was open for the previous frame
     std::int64_t drawn_ = 0;
 };
 

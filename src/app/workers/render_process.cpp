@@ -65,7 +65,7 @@ WorkTime timed(const Work& work) {
     return {time.wall.load(), time.cpu.load()};
 }
 
-/// The child process: its OpenGL context, and its last frame with all outputs.
+/// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
     FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, SharedFrames& memory)
@@ -93,7 +93,7 @@ public:
 private:
     void make_picture(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { expose(job); });
-        const bool partly = !blurred_before_ && job.moments == 1;   // otherwise the last picture was a different one
+        const bool partly = !blurred_before_ && job.moments == 1;   // otherwise the previous picture was a different one
         const std::vector<Rectangle> changed =
             partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
         const Image& picture = job.moments == 1 ? image_ : blurred_;

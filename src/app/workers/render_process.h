@@ -27,7 +27,7 @@ struct WorkTime {
 struct DrawnFrame {
     std::int64_t frame = 0;
     bool failed = false;           // the reason is in the shared memory
-    bool unchanged = false;        // the same picture as the last frame of this worker
+    bool unchanged = false;        // the same picture as the previous frame of this worker
     std::size_t png_bytes = 0, aov_bytes = 0;   // of the files in the slot
     WorkTime drawing, conversion, png, aovs;
 };

@@ -67,7 +67,7 @@ std::optional<Frame> ReorderBuffer::next() {
     return told_apart(std::move(waiting));
 }
 
-/// Frames arrive here in order, so the last frame of the worker is known.
+/// Frames arrive here in order, so the previous frame of the worker is known.
 Frame ReorderBuffer::told_apart(Waiting waiting) {
     Frame& frame = waiting.frame;
     TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);

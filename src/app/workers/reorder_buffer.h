@@ -18,13 +18,13 @@ public:
     /// `workers`: their number; `first`: the first frame, which must have all outputs.
     explicit ReorderBuffer(std::size_t workers, std::int64_t first = 0);
 
-    /// Adds a drawn frame; `unchanged`: it is the same picture as the last frame of this worker.
+    /// Adds a drawn frame; `unchanged`: it is the same picture as the previous frame of this worker.
     void add(Frame frame, std::size_t worker, bool unchanged);
 
-    /// Adds a frame with its own AOVs and the picture of the last frame (empty if no pictures are drawn).
+    /// Adds a frame with its own AOVs and the picture of the previous frame (empty if no pictures are drawn).
     void add_with_last_picture(Frame frame);
 
-    /// Adds a frame that equals the last one. Waits while too many are ahead. False: the buffer was stopped.
+    /// Adds a frame that equals the previous one. Waits while too many are ahead. False: the buffer was stopped.
     bool add_repeated(std::int64_t number);
 
     /// A worker will add no more.

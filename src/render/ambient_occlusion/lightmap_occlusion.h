@@ -1,5 +1,5 @@
 // Occlusion of the bodies that have a lightmap, updated block by block where an occluder is near or was near at the
-// last update.
+// previous update.
 #pragma once
 
 #include "render/lightmap/occlusion_lightmap.h"
@@ -29,8 +29,8 @@ public:
     /// Stores visibilities of a block's texels, row after row.
     using Store = std::function<void(const OcclusionLightmap::Block& block, const float* open)>;
 
-    /// Updates all blocks. `moved`: finds the occluders that moved since the last update, at both poses; null: any may
-    /// have moved. `near`: finds all.
+    /// Updates all blocks. `moved`: finds the occluders that moved since the previous update, at both poses; null: any
+    /// may have moved. `near`: finds all.
     void update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
                 const std::vector<PlaneInView>& planes, const Store& store);
 

@@ -70,7 +70,7 @@ struct AmbientOcclusion::State {
     OcclusionAtlas atlas;
     int body_rows = 1;                       // of the atlas; plane tiles are below them
     OcclusionChanges changes;
-    std::vector<Pose> poses;                 // of the last update
+    std::vector<Pose> poses;                 // of the previous update
     std::vector<Occluder> occluders, moved;  // of all bodies; of those that moved, at both poses
     std::vector<std::uint32_t> first;        // first occluder of each body, and the end
     OccluderFinder finder{{}};

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// A rectangle is placed to the right of the last one if it fits below the shelf's height, else on a new shelf.
+/// A rectangle is placed to the right of the previous one if it fits below the shelf's height, else on a new shelf.
 class ShelfPacker {
 public:
     ShelfPacker(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}

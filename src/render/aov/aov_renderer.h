@@ -57,8 +57,8 @@ class AovChanges {
 public:
     explicit AovChanges(const SceneDescription& scene) : path_(scene.camera) {}
 
-    /// Call it for every frame, in order. Returns false if since the last call neither a body nor the camera has moved,
-    /// in this frame or to the next.
+    /// Call it for every frame, in order. Returns false if since the previous call neither a body nor the camera has
+    /// moved, in this frame or to the next.
     bool follow(const AovPoses& poses);
 
 private:

@@ -1,4 +1,4 @@
-// Damage: the tiles of the frame that movements since the last frame may have changed. A moved body damages:
+// Damage: the tiles of the frame that movements since the previous frame may have changed. A moved body damages:
 // - the tiles at its old and new pose;
 // - the planes in its old and new shadow and within its AO radius;
 // - every body behind it as seen from the sun;
@@ -34,16 +34,16 @@ class DamageTracker {
 public:
     DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view);
 
-    /// True if all poses equal those of the last find(); the frame is then the same.
+    /// True if all poses equal those of the previous find(); the frame is then the same.
     bool unmoved(const Snapshot& snapshot) const;
 
     /// Makes the next find() report everything as changed, as the first one does; for a changed view.
     void forget() { first_ = true; }
 
-    /// Compares with the state of the last call, and stores this one.
+    /// Compares with the state of the previous call, and stores this one.
     DirtyTiles find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
-    /// Parts of the shadow maps that changed in the last find().
+    /// Parts of the shadow maps that changed in the previous find().
     const ShadowDirtyTiles& shadow_marks() const { return shadow_marks_; }
     /// True if the planes or the depth range changed.
     bool background_changed() const { return background_changed_; }

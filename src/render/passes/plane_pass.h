@@ -23,8 +23,8 @@ public:
     /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
     void draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const;
 
-    /// Draws all planes without shadows and occlusion by bodies, where no nearer surface has been drawn. Bodies and
-    /// dirty regions may be drawn before or after.
+    /// Draws all planes without shadows and occlusion by bodies, where no surface at the same or a smaller depth has
+    /// been drawn. Bodies and dirty regions may be drawn before or after.
     void draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const;
 
     /// Draws planes[i] in areas[i], with shadows and occlusion.

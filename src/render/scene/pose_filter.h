@@ -5,8 +5,8 @@
 // difference of the unit quaternions (the smaller of both signs; a rotation by a moves a point at r by at most 2 r
 // sin(a / 2) <= 2 r |dq|).
 //
-// While the camera moves, every drawn pose is the true one. The pose of a body that the camera follows is filtered as
-// well, and the camera stands still with it.
+// While the camera moves, every drawn pose is the true one. So is that of a body that the camera follows, unless the
+// body only jitters: then both stand still.
 //
 // Every frame of a clip passes through one PoseFilter, in order, before any is drawn, so that all workers and a full
 // redraw see the same poses. Needs no OpenGL.
@@ -28,8 +28,8 @@ public:
     explicit PoseFilter(const SceneDescription& scene);
 
     /// Replaces the poses by those to draw (origin, orientation and center of mass; the rest is unchanged). Returns
-    /// false if they equal those of the last call, so that the frame is the same to the last byte; returns true on the
-    /// first call and when the camera has moved.
+    /// false if they equal those of the previous call, so that the frame is the same to the last byte; returns true on
+    /// the first call and when the camera has moved.
     bool follow(Snapshot& snapshot);
 
 private:
