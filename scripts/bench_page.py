@@ -1,11 +1,11 @@
-"""The parts that the pages of docs/results share: rows, runs, colors, markers. For scripts/plot-* and bench-render."""
+"""Shared parts of the pages of docs/results: rows, runs, colors, markers. For scripts/plot-* and bench-render."""
 
 import csv
 import datetime
 import subprocess
 from pathlib import Path
 
-# Okabe and Ito's palette, distinct in all kinds of color vision. A program keeps its colour in every plot.
+# Okabe and Ito's palette, distinct in all kinds of color vision. A program has the same color in every plot.
 COLORS = {"Tumble": "#0072B2", "Bullet": "#E69F00", "ODE": "#009E73", "MuJoCo": "#CC79A7", "DART": "#6B6B6B"}
 
 
@@ -66,7 +66,7 @@ def merged(results, new, key, command):
 
 
 def in_order(items, order):
-    """Without repetition, in the order given; what is not named there comes last."""
+    """Without repetition, in the given order; other items come last."""
     found = list(dict.fromkeys(items))
     return sorted(found, key=lambda i: order.index(i) if i in order else len(order))
 

@@ -1,20 +1,20 @@
 #version 410 core
 #include "body.glsl"
 
-in vec3 v_local;                    // m, from the ball's middle
-flat in vec4 v_tile;                // its tile's middle in the occlusion atlas, and half its width and height
+in vec3 v_local;                    // m, from the ball's center
+flat in vec4 v_tile;                // center of its tile in the AO atlas, and half of the tile's width and height
 #ifndef PATTERNED
-flat in vec4 v_octants;             // what every other octant has more of diffuse colour, and less of all
+flat in vec4 v_octants;             // on every second octant: added diffuse color; w: reduction of all light
 #endif
 
-// 1 on every other octant, 0 on the rest, filtered over the pixel: shows how the ball turns.
+// 1 on every second octant, 0 on the others, filtered over the pixel: shows the ball's rotation.
 float octant(vec3 direction) {
     vec3 side = clamp(direction / max(fwidth(direction), vec3(1e-6)), -1.0, 1.0);
     return 0.5 + 0.5 * side.x * side.y * side.z;
 }
 
 vec2 octahedral(vec3 n) {
-    // Meyer et al. 2010, On Floating-Point Normal Vectors: the sphere unfolded onto a square
+    // Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
     return n.z >= 0.0 ? p : folded;

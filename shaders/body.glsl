@@ -1,5 +1,5 @@
-// The fragment's side of body.vert, shared by all kinds of bodies. Directions and places are in the body's own axes (of
-// a box, its face's: two along it and one outward), where the sun and the eye are the same for all its pixels.
+// Fragment counterpart of body.vert, shared by all kinds of bodies. Directions and positions are in the body's axes (of
+// a box, those of its face: two along it and one outward), where the sun and the eye are constant over a body.
 in vec3 v_air;
 #ifdef SUNLIT
 flat in vec3 v_to_light;
@@ -12,13 +12,13 @@ in vec3 v_in_far;
 in vec4 v_shadow;
 #endif
 #endif
-flat in vec4 v_eye;             // the eye's place; haze_share()'s per_half
+flat in vec4 v_eye;             // position of the eye; per_half of haze_share()
 flat in vec3 v_up;
 flat in vec3 v_diffuse;
 flat in vec3 v_f0;
-flat in vec4 v_rough;           // surface_roughness(), surface_veil(), the surface's number as alpha
+flat in vec4 v_rough;           // surface_roughness(), surface_veil(), surface id as alpha
 #ifdef PATTERNED
-flat in vec2 v_pattern;         // its kind; a cell's size, m
+flat in vec2 v_pattern;         // kind of pattern; size of a cell, m
 #endif
 
 layout(location = 0) out vec4 pixel;
@@ -26,14 +26,14 @@ layout(location = 0) out vec4 pixel;
 #include "lighting.glsl"
 #include "pattern.glsl"
 
-// The share of the sky's light at a place in the atlas, in texture coordinates.
+// Sky visibility at texture coordinates of the AO atlas.
 uniform sampler2D occlusion_atlas;
 
-// `paint`: what a pattern leaves of all its light; `spread`: see bevel_lobe(), unused elsewhere.
+// `paint`: factor of the pattern on all light; `spread`: see bevel_lobe(), unused elsewhere.
 vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, vec2 spread) {
     vec3 to_eye = v_eye.xyz - place;
     float squared = max(dot(to_eye, to_eye), 1e-30);
-    float air = haze_share(squared, v_eye.w);   // here: a large face's corners are far away
+    float air = haze_share(squared, v_eye.w);   // per pixel, because the corners of a large face are far away
     to_eye *= inversesqrt(squared);
     Surface surface;
     surface.n_v = dot(normal, to_eye);

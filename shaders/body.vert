@@ -1,7 +1,6 @@
 #version 410 core
-// Compiled for each kind of body: BOX, BALL or MESH is defined, with CHARTED for meshes that are darkened by the pixel;
-// SUNLIT where it may be turned to the sun, and SHADOWED where shadows may fall on it, with WIDE where it is too large to
-// look into one shadow map only.
+// Compiled for each kind of body. Defines: BOX, BALL or MESH; CHARTED for meshes with a lightmap; SUNLIT for surfaces
+// that may face the sun; SHADOWED for surfaces that may receive shadows; WIDE for bodies that span cascades.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "look.glsl"
@@ -13,7 +12,7 @@
 uniform sampler2D occlusion_atlas;
 #endif
 
-out vec3 v_air;                     // light of the sky behind it
+out vec3 v_air;                     // light of the sky behind the body
 #ifdef SUNLIT
 flat out vec3 v_to_light;
 #endif
@@ -34,36 +33,36 @@ flat out vec4 v_rough;
 flat out vec2 v_pattern;
 #endif
 #ifdef BOX
-out vec2 v_on_face;                 // m, from the face's middle along its axes
-flat out vec4 v_face;               // m: half the face's size; that without the bevel's width
-flat out vec4 v_tile;               // place of the face's middle in the occlusion atlas, and of a metre along its axes
-flat out vec3 v_edges;              // m: bevel, how far from the edge the groove is, half its width
+out vec2 v_on_face;                 // m, from the center of the face along its axes
+flat out vec4 v_face;               // m: half the size of the face; the same without the bevel's width
+flat out vec4 v_tile;               // place of the face's center in the AO atlas, and the scale per meter along its axes
+flat out vec3 v_edges;              // m: bevel, distance of the groove from the edge, half width of the groove
 #else
 out vec3 v_local;                   // m, body axes
 #endif
 #ifdef BALL
-flat out vec4 v_tile;               // its tile's middle in the occlusion atlas, and half its width and height
+flat out vec4 v_tile;               // center of its tile in the AO atlas, and half of the tile's width and height
 #ifndef PATTERNED
-flat out vec4 v_octants;            // what every other octant has more of diffuse colour, and less of all
+flat out vec4 v_octants;            // on every second octant: added diffuse color; w: reduction of all light
 #endif
 #endif
 #ifdef MESH
 out vec3 v_normal;                  // body axes
 #ifdef CHARTED
-out vec2 v_texel;                   // place in the occlusion atlas
+out vec2 v_texel;                   // place in the AO atlas
 #else
-out float v_open;                   // share of the sky's light
+out float v_open;                   // sky visibility
 #endif
 #endif
 
 void main() {
 #ifdef BOX
-    // The square goes to one face of the cube; faces come in the order -x, +x, -y, ... and have u x v = outward.
+    // The square is mapped to one face of the cube; faces are in the order -x, +x, -y, ... with u x v = outward.
     int face = int(instance_tile.y);
     float side = float(face % 2 * 2 - 1);
     vec2 corner = vec2(mesh_position.x, mesh_position.y * side);
     vec3 on_cube = face < 2 ? vec3(side, corner) : face < 4 ? vec3(corner.y, side, corner.x) : vec3(corner, side);
-    // Its axes a and b are the box's next two.
+    // Its axes a and b are the next two of the box.
     int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
     vec3 unit_a = vec3(a == 0, a == 1, a == 2), unit_b = vec3(b == 0, b == 1, b == 2);
     vec3 outward = side * vec3(axis == 0, axis == 1, axis == 2);
@@ -72,7 +71,7 @@ void main() {
 #endif
     vec3 size = instance_scale.xyz;
 #ifdef BOX
-    // Thinner than a pixel in two directions: see render/rod_blender.h.
+    // Thinner than a pixel in two directions: see render/antialiasing/thin_geometry_aa.h.
     vec2 rod = haze.zw * length(instance_position.xyz);
     float longest = max(max(size.x, size.y), size.z);
     if (max(min(size.x, size.y), min(max(size.x, size.y), size.z)) < rod.x && longest > 5.0 * rod.x) size = max(size, vec3(rod.y));
@@ -97,22 +96,23 @@ void main() {
     v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
     vec3 light = rotate_back(instance_orientation, to_light.xyz);
 #ifdef BOX
-    eye -= outward * abs(dot(outward, size));   // from the face's middle
+    eye -= outward * abs(dot(outward, size));   // from the center of the face
     eye = vec3(dot(eye, unit_a), dot(eye, unit_b), dot(eye, outward));
     v_up = vec3(dot(v_up, unit_a), dot(v_up, unit_b), dot(v_up, outward));
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
     vec2 half_size = vec2(dot(size, unit_a), dot(size, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
-    // A tile has a texel's centre at each corner of its face, less a thousandth: no share of the next tile's by rounding.
+    // A tile has the center of a texel at each corner of its face. It is a thousandth smaller, so that rounding never
+    // reads the next tile.
     vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
     float span = max(instance_tile.x - 1.002, 0.0);
     vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * (instance_tile.x - 1.0) : vec2(0.5);
     v_tile = vec4(middle, 0.5 * span / half_size) * atlas.xyxy;
-    // A bevel narrower than a pixel would glitter: it grows with the distance instead.
+    // A bevel narrower than a pixel would flicker, so it grows with the distance.
     float pixel = haze.y * length(instance_position.xyz);
     float thinnest = min(size.x, min(size.y, size.z));
     float bevel = min(max(instance_position.w, pixel), 0.5 * thinnest);
-    // The sides of a box of a few pixels would be all bevel, seen here and there at pixels' middles: beads. They are flat.
+    // A box of a few pixels would consist of bevels, hit irregularly by pixel centers. Its sides are flat instead.
     bevel *= max(smoothstep(flat_box * pixel, round_box * pixel, thinnest), 1e-3);
     v_face = vec4(half_size, half_size - bevel);
     v_edges = vec3(bevel, vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest));
@@ -121,7 +121,7 @@ void main() {
     v_local = local;
 #endif
 #ifdef BALL
-    float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as boxes have it
+    float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as for boxes
     v_tile = vec4(instance_tile.x > 0.0 ? instance_look.zw + 0.5 * instance_tile.x : vec2(0.5), vec2(half_span)) * atlas.xyxy;
 #ifndef PATTERNED
     // Paler paint; metal has none.
@@ -140,7 +140,8 @@ void main() {
 #ifdef MESH
     v_normal = normalize(mesh_normal / instance_scale.xyz);
     vec3 lift = rotate(instance_orientation, v_normal);
-    // An open mesh is lit from both sides, and off the one in the sun: else the other would lie in its own shadow.
+    // An open mesh is lit on both sides. The offset points to the sun's side, because otherwise a side would shadow
+    // itself.
     if (instance_tile.y > 0.0 && dot(v_normal, light) < 0.0) lift = -lift;
 #endif
     v_eye = vec4(eye, haze.x);

@@ -1,13 +1,13 @@
 #version 410 core
 #include "body.glsl"
 
-in vec2 v_on_face;                  // m, from the face's middle along its axes
-flat in vec4 v_face;                // m: half the face's size; that without the bevel's width
-flat in vec4 v_tile;                // place of the face's middle in the occlusion atlas, and of a metre along its axes
-flat in vec3 v_edges;               // m: bevel, how far from the edge the groove is, half its width
+in vec2 v_on_face;                  // m, from the center of the face along its axes
+flat in vec4 v_face;                // m: half the size of the face; the same without the bevel's width
+flat in vec4 v_tile;                // place of the face's center in the AO atlas, and the scale per meter along its axes
+flat in vec3 v_edges;               // m: bevel, distance of the groove from the edge, half width of the groove
 
 #ifndef PATTERNED
-// How much of the pixel lies in the groove between a crate's frame and its panel.
+// Share of the pixel in the groove between the frame and the panel of a box.
 float groove(vec2 on_face) {
     vec2 to_edges = v_face.xy - abs(on_face);
     float edge = min(to_edges.x, to_edges.y);
@@ -18,14 +18,14 @@ float groove(vec2 on_face) {
 #endif
 
 void main() {
-    // OpenGL moves corners by parts of a pixel, and a pixel's middle may lie beside the face that shows there (with several
-    // samples always): many widths away from a thin one, on another face's tile. Back onto the box.
+    // OpenGL rounds corners to parts of a pixel, and with several samples the pixel center may be outside the face: for
+    // a thin face by many times its width, on the tile of another face. Clamp to the box.
     vec2 on_face = clamp(v_on_face, -v_face.xy, v_face.xy);
-    // A rounded box's normal: away from the box that is smaller by the bevel.
+    // Normal of a rounded box: direction away from the box that is smaller by the bevel.
     vec3 normal = vec3(max(on_face - v_face.zw, 0.0) + min(on_face + v_face.zw, 0.0), v_edges.x);
     vec2 spread = vec2(0.0);
 #ifdef FILTERED
-    // Variance of how far the normal is bent, over the pixel: the mean of its square less the square of its mean. GGX's squared
+    // Variance of the normal's tilt over the pixel: the mean of the square less the square of the mean. GGX's squared
     // width is twice the variance of slopes.
     vec2 footprint = 0.5 * max(fwidth(v_on_face), 1e-4 * v_edges.xx), bent = abs(on_face) - v_face.zw;
     vec2 low = max(bent - footprint, 0.0), high = max(bent + footprint, 0.0);

@@ -1,6 +1,6 @@
-// From a surface point to the light it sends to the eye, and from light to the bytes of the screen.
-// llvmpipe reads a uniform in a fragment shader lane by lane, forty instructions each: what is constant comes as a flat
-// output of the vertex shader instead, and directions only as the cosines that the light needs.
+// From a surface point to the light that it sends to the eye, and from light to the bytes of the screen. In a fragment
+// shader, llvmpipe reads a uniform lane by lane, with forty instructions each. Constants come as flat outputs of the
+// vertex shader instead, and directions only as the cosines that lighting needs.
 #include "look.glsl"
 #include "sky.glsl"
 #ifdef SHADOWED
@@ -8,35 +8,36 @@
 #endif
 
 struct Surface {
-    float n_v;          // cosines: of the normal (bent at bevels) and the way to the eye,
-    float n_l;          // the normal and the way to the sun,
-    float l_v;          // the ways to the sun and to the eye
-    float up;           // how far the normal points upward
-    float eye_up;       // and the way to the eye
+    float n_v;          // cosines: of the normal (bent at bevels) and the direction to the eye,
+    float n_l;          // the normal and the direction to the sun,
+    float l_v;          // the directions to the sun and to the eye
+    float up;           // upward component of the normal
+    float eye_up;       // and of the direction to the eye
     vec3 diffuse;       // linear
-    vec3 f0;            // what it reflects when looked at straight
+    vec3 f0;            // reflectance at normal incidence
     vec2 rough;         // see surface_roughness() of material.glsl
     float veil;
-    float open;         // share of the sky's light that other bodies leave
-    float sun;          // share of the sun's light that shadows leave
+    float open;         // sky visibility past other bodies
+    float sun;          // share of sunlight that is not in shadow
 #ifdef FILTERED
     float lobe;         // see bevel_lobe()
 #endif
 };
 
 float specular_lobe(float roughness, float n_h, float n_l, float n_v) {
-    // Walter et al. 2007, Microfacet Models for Refraction: the GGX distribution, with
-    // Hammon 2017, PBR Diffuse Lighting for GGX+Smith: its visibility term without the roots
+    // Walter et al. 2007, Microfacet Models for Refraction: the GGX distribution, with Hammon 2017, PBR Diffuse
+    // Lighting for GGX+Smith: its visibility term without the roots
     float a = roughness * roughness;
     float a2 = a * a;
     float d = n_h * n_h * (a2 - 1.0) + 1.0;
-    // D V without 1/pi: the sun's light here is irradiance over pi
+    // D V without 1/pi: the sun's light is given as irradiance over pi
     return 0.5 * a2 / (d * d * mix(2.0 * n_l * n_v, n_l + n_v, a));
 }
 
 #ifdef FILTERED
-// The same where the normal turns within the pixel, of a box's face: `to_half` the way between sun and eye, `spread` what that
-// adds to the lobe's squared width along both axes.
+// The same for a face of a box whose normal varies within the pixel. `to_half`: half vector between sun and eye;
+// Tokuyoshi and Kaplanyan 2019, Improved Geometric Specular Antialiasing: the lobe (GGX with two widths) is widened by
+// the spread
 float bevel_lobe(float roughness, vec3 normal, vec3 to_half, vec2 spread, float n_l, float n_v) {
     // Tokuyoshi and Kaplanyan 2019, Improved Geometric Specular Antialiasing: the lobe (GGX with two widths) is as much wider
     float a = roughness * roughness, a2 = a * a;
@@ -45,7 +46,7 @@ float bevel_lobe(float roughness, vec3 normal, vec3 to_half, vec2 spread, float 
     vec2 shares = across * across / wide;
     float n_h = dot(normal, to_half);
     float q = shares.x + shares.y + n_h * n_h;
-    // What was cut off at the brightest was no wider than this; spread out, it is as much darker.
+    // The part above the brightest highlight was at most this wide; spread out, it is darker by the same factor.
     float cut = max(a2, 0.5 * a / sqrt(brightest_highlight));
     vec2 kept = cut / (cut + spread);
     float left = kept.x * kept.y;
@@ -61,16 +62,16 @@ vec2 environment_scale(float roughness, float n_v) {
 }
 
 vec3 displayed(vec3 light) {
-    // Minimax fit in s = sqrt(light), to 0.8 levels of 255, of two steps at once:
-    // IEC 61966-2-1 (1999), the sRGB transfer curve, of light itself up to 0.62 and of a shoulder above it,
-    // 1 - 0.38 exp(-(light - 0.62) / 0.38), that never reaches white. One root and one quotient, no powers.
+    // Minimax fit in s = sqrt(light), to 0.8 levels of 255, of two steps at once: IEC 61966-2-1 (1999), the sRGB
+    // transfer curve, of light itself up to 0.62 and of a shoulder above it, 1 - 0.38 exp(-(light - 0.62) / 0.38), that
+    // never reaches white. One root and one quotient, no powers.
     vec3 s = sqrt(max(light, 0.0));
     vec3 rise = s * s * (21.217153 + s * (-35.617540 + s * 32.353397));
     return rise / (1.0 + s * (7.989843 + s * (8.709465 + s * (-30.195670 + s * 31.746583))));
 }
 
-// For gradients so flat that a step of one level (1/255) is seen as a band: adds -0.5 to 0.5 level by the pixel's place alone,
-// so that the nearest level, taken afterwards, has the right mean and is the same in every frame.
+// For gradients so flat that a step of one level (1/255) is visible as a band: adds -0.5 to 0.5 levels as a function of
+// the pixel's place only. The nearest level, taken afterwards, has the right mean and is the same in every frame.
 vec3 dithered(vec3 shown) {
     // Bayer 1973, An Optimum Method for Two-Level Rendition of Continuous-Tone Pictures: thresholds of an 8 x 8 square
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -87,7 +88,7 @@ vec3 shade(Surface s) {
     float per_half = inversesqrt(max(2.0 + 2.0 * s.l_v, 1e-6));      // 1 / |sun + eye|
     float n_h = clamp((s.n_l + s.n_v) * per_half, 0.0, 1.0);
     float grazing = 1.0 - clamp((1.0 + s.l_v) * per_half, 0.0, 1.0);
-    float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel's rise
+    float grazing2 = grazing * grazing;         // Schlick 1994, An Inexpensive BRDF Model: Fresnel term
     vec3 fresnel = s.f0 + (1.0 - s.f0) * (grazing2 * grazing2 * grazing);
     float sun = n_l * (1.0 - occlusion_of_sun + occlusion_of_sun * s.open) * s.sun;
 #ifdef FILTERED

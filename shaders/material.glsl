@@ -1,12 +1,12 @@
-// What of a body's look the vertex shader works out once for lighting.glsl.
+// Material terms that the vertex shader computes once for lighting.glsl.
 
-// 1: the roughness that counts; 2: how fast the blurred horizon changes with height.
+// 1: the effective roughness; 2: slope of the blurred horizon over the height.
 vec2 surface_roughness(float roughness) {
-    float r = max(roughness, 0.06);   // below, the sun's highlight is smaller than a pixel and flickers
+    float r = max(roughness, 0.06);   // below it, the sun's highlight is smaller than a pixel and flickers
     return vec2(r, 0.5 / (0.15 + r));
 }
 
-// What is left of the mirrored sky.
+// Share of the mirrored sky that is left.
 float surface_veil(float roughness, float metallic) {
     return mix(1.0, mix(veil_of_rough, 1.0, metallic), max(roughness, 0.06));
 }

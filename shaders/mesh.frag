@@ -11,7 +11,7 @@ in float v_open;
 
 void main() {
     vec3 normal = normalize(v_normal);
-    normal = gl_FrontFacing ? normal : -normal;   // an open mesh shows its inside too
+    normal = gl_FrontFacing ? normal : -normal;   // the inside of an open mesh is visible
     float paint = 1.0;
 #ifdef PATTERNED
     paint = triplanar_paint(v_pattern, v_local, normal);
@@ -21,6 +21,6 @@ void main() {
 #else
     float open = v_open;
 #endif
-    open = gl_FrontFacing ? open : 1.0;           // what is near the other side says nothing of this one
+    open = gl_FrontFacing ? open : 1.0;           // occluders near the outer side do not apply to the inner side
     pixel = body_pixel(v_local, normal, v_diffuse, paint, open, vec2(0.0));
 }

@@ -1,4 +1,4 @@
-// Grid and checker patterns, averaged over the pixel in closed form: no jagged and no crawling lines.
+// Grid and checker patterns, averaged over the pixel in closed form: lines neither jagged nor flickering.
 
 float checker(vec2 p, vec2 width) {
     // Quilez 2017, Box-filtered checkerboard: the product of two filtered square waves of period 2
@@ -16,14 +16,14 @@ float grid(vec2 p, vec2 width, float line) {
     return 1.0 - (1.0 - i.x) * (1.0 - i.y);
 }
 
-// What a body's pattern of this kind (look.pattern: 1 grid, 2 checker) leaves of its colour.
+// Factor of a body's pattern of this kind (look.pattern: 1 grid, 2 checker) on its color.
 float pattern_paint(float kind, vec2 p, vec2 width) {
     return kind > 1.5 ? 1.0 - 2.0 * ground_contrast * checker(p, width)
                       : 1.0 - grid_line_contrast * grid(p, width, 2.0 * grid_line_width);
 }
 
 float triplanar_paint(vec2 pattern, vec3 local, vec3 local_normal) {
-    // On the two axes that its face is turned to least, unblended.
+    // On the two axes most nearly in the plane of its face, without blending.
     vec3 a = abs(local_normal);
     bool along_x = a.x > a.y && a.x > a.z, along_y = a.y > a.z;
     vec3 spread = fwidth(local);

@@ -1,6 +1,6 @@
 #version 410 core
-// An infinite plane. Compiled with GRID, CHECKER or neither; TOUCHED where bodies' darkening may reach, SHADOWED
-// where shadows may as well, with FAR_MAP where the far map is in use; OTHER_PLANES gives the number of those that it may meet.
+// An infinite plane. Defines: GRID, CHECKER or neither; TOUCHED within the AO radius of bodies; SHADOWED where shadows
+// may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
 #define SUNLIT
 #include "lighting.glsl"
 #include "pattern.glsl"
@@ -45,7 +45,7 @@ float here(vec3 coefficients) {
 }
 
 #ifdef SHADOWED
-// `far`: how far the ray goes to the plane, in lengths of the view ray.
+// `far`: distance of the plane along the ray, in lengths of the view ray.
 float sun_of_plane(float far) {
     vec3 at = vec3(here(v_shadow_x), here(v_shadow_y), here(v_shadow_z)) * far + v_shadow_eye;
 #ifdef FAR_MAP
@@ -61,7 +61,7 @@ float sun_of_plane(float far) {
 }
 #endif
 
-// What the bodies, and in a corner the other planes, leave of the sky's light.
+// Sky visibility past the bodies and, in a corner, past the other planes.
 float openness(vec2 cells, float far) {
     float open = 1.0;
 #ifdef TOUCHED
@@ -76,7 +76,8 @@ float openness(vec2 cells, float far) {
 }
 
 void main() {
-    // Where the ray meets the plane: exact for every pixel, however far. The sample may lie past the pixel's centre.
+    // Intersection of the ray with the plane: exact for every pixel at any distance. The sample may be off the pixel's
+    // center.
     float fall = max(here(v_fall), 1.0 / farthest);
     float far = v_length_x.w / fall;
     float squared = v_length_x.x + gl_FragCoord.x * (v_length_x.y + gl_FragCoord.x * v_length_x.z) +
@@ -85,7 +86,7 @@ void main() {
 
     vec2 cells = vec2(here(v_along_u), here(v_along_v)) * far + v_length_y.zw;
     vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));              // the pixel's footprint
-    float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);     // a box filter still ripples far out
+    float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);     // a box filter still shows moire far out
     float paint = 1.0;
 #ifdef CHECKER
     paint = 1.0 - 2.0 * ground_contrast * mix(0.5, checker(cells, width), distinct);

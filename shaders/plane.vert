@@ -1,7 +1,8 @@
 #version 410 core
-// The part of the screen that an infinite plane covers, as a polygon in clip space (render/plane_patch.h), and what is
-// the same for all its pixels: of what changes over the screen, the coefficients (1, x, y in pixels). With six other
-// planes these are 89 components: OpenGL promises 60, llvmpipe and the makers of GPUs give 124 and more.
+// The part of the screen that an infinite plane covers, as a polygon in clip space (render/scene/plane_patch.h), with
+// the constants of the plane. Values that vary linearly or quadratically over the screen are given by their
+// coefficients of (1, x, y in pixels). With six other planes these are 89 components: OpenGL guarantees 60, llvmpipe
+// and GPU drivers offer 124 and more.
 #include "frame.glsl"
 #include "look.glsl"
 #include "material.glsl"
@@ -12,45 +13,46 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic, the surface's number as alpha
+uniform vec4 plane_look;        // metallic, surface id as alpha
 #ifdef TOUCHED
-uniform vec4 window_u;          // the same as plane_u, in texels of the plane's window in the occlusion atlas
+uniform vec4 window_u;          // the same as plane_u, in texels of the plane's tile in the AO atlas
 uniform vec4 window_v;
-uniform vec4 window_rim;        // its first and last texels, which are open
+uniform vec4 window_rim;        // its first and last texels, which are unoccluded
 #endif
 #ifdef OTHER_PLANES
 uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height above it
 uniform float other_reach;                 // m
 #endif
 
-flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: how steeply it meets the plane,
-flat out vec3 v_along_u;        // how far it goes along the plane's axes,
+flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: slope towards the plane,
+flat out vec3 v_along_u;        // displacement along the plane's axes,
 flat out vec3 v_along_v;
 flat out vec3 v_rise;           // upward,
 flat out vec3 v_sunward;        // to the sun
 flat out vec4 v_length_x;       // its squared length: 1, x, x^2; w: the eye's height above the plane
-flat out vec4 v_length_y;       // y, y^2; z, w: of the pattern at the eye's foot
-flat out vec4 v_facing;         // how far the plane faces the sun, and upward; distance haze; the surface's number
+flat out vec4 v_length_y;       // y, y^2; z, w: pattern coordinates at the eye's foot
+flat out vec4 v_facing;         // cosines of the plane to the sun and upward; fog; surface id
 flat out vec3 v_diffuse;
-flat out vec4 v_f0;             // w: how metallic
+flat out vec4 v_f0;             // w: metallic
 flat out vec3 v_rough;          // surface_roughness(), surface_veil()
 #ifdef TOUCHED
-flat out vec3 v_window;         // texels of the atlas a cell of the pattern, and at the eye's foot; see plane.frag
-flat out vec4 v_rim;         // its first and last texels, which are open
-flat out vec2 v_texel;        // a texel's size in texture coordinates
+flat out vec3 v_window;         // texels of the atlas per cell of the pattern, and at the eye's foot; see plane.frag
+flat out vec4 v_rim;         // its first and last texels, which are unoccluded
+flat out vec2 v_texel;        // size of a texel in texture coordinates
 #endif
 #ifdef SHADOWED
 flat out vec3 v_shadow_x;       // of the view ray in the near shadow map
 flat out vec3 v_shadow_y;
 flat out vec3 v_shadow_z;
-flat out vec3 v_shadow_eye;     // the eye in it, lifted off the plane
+flat out vec3 v_shadow_eye;     // the eye in it, with the normal offset of the plane
 #ifdef FAR_MAP
 flat out vec4 v_far;            // the near map in the far one: scale, offset
-flat out vec3 v_far_lift;       // farther off the plane, in the near map
+flat out vec3 v_far_lift;       // additional normal offset, in the near map
 #endif
 #endif
 #ifdef OTHER_PLANES
-flat out vec4 v_others[OTHER_PLANES];   // over the reach: rising of the view ray, height of the eye less the plane's own
+// over the AO radius: slope of the view ray, height of the eye less the height of the plane
+flat out vec4 v_others[OTHER_PLANES];
 #endif
 
 vec3 over_screen(vec3 direction) {

@@ -1,7 +1,7 @@
 #version 410 core
 #include "lighting.glsl"
 
-flat in vec3 v_ray_x;           // the view ray's parts over the screen: 1, x, y in pixels
+flat in vec3 v_ray_x;           // coefficients of the view ray over the screen: 1, x, y in pixels
 flat in vec3 v_ray_y;
 flat in vec3 v_ray_z;
 flat in vec3 v_to_light;

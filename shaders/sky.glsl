@@ -1,4 +1,4 @@
-// The backdrop: what a ray that meets nothing sees.
+// The background: radiance of the sky along a ray that hits no surface.
 
 // `toward_sun`: cosine of the angle to the sun.
 vec3 sky(float height, float toward_sun) {
@@ -11,7 +11,7 @@ vec3 sky(float height, float toward_sun) {
     return mix(mix(sky_horizon, sky_zenith, above), sky_nadir, below) + sun_glow * (toward_sun * toward_sun);
 }
 
-// What a surface of this roughness mirrors: the same, with the horizon's edge blurred away.
+// The sky mirrored by a surface of this roughness: the same with a blurred horizon.
 vec3 blurred_sky(float height, vec2 rough) {
     float above = clamp(0.5 + height * rough.y, 0.0, 1.0);
     above = above * above * (3.0 - 2.0 * above);
@@ -19,9 +19,9 @@ vec3 blurred_sky(float height, vec2 rough) {
     return mix(sky_nadir * 0.6, upper, above);
 }
 
-// Distance haze: the share of light from `squared` (distance squared) that the air has replaced by the sky's.
+// Fog: the share of light from the squared distance `squared` that is replaced by that of the sky.
 float haze_share(float squared, float per_half) {
     float relative = squared * per_half;
-    relative *= relative;   // the fourth power of the distance: what one looks at stays clear
+    relative *= relative;   // the fourth power of the distance keeps nearby bodies clear
     return relative / (1.0 + relative);
 }

@@ -33,7 +33,7 @@ std::map<std::string, std::uint64_t> table_of(const fs::path& path) {
     return table;
 }
 
-/// The one number in a file; nothing: there is no file, or it says "max".
+/// The number in a file; empty if the file is missing or contains "max".
 std::optional<std::uint64_t> number_in(const fs::path& path) {
     std::ifstream text(path);
     std::uint64_t number = 0;
@@ -51,14 +51,14 @@ std::uint64_t machine(const MemoryFiles& files) {
     return unit * (available->second + (swap != table.end() ? swap->second : 0));
 }
 
-/// The names of files in a control group, of version 1 or 2 (Linux: admin-guide/cgroup-v1/memory, admin-guide/cgroup-v2).
+/// File names of a control group, version 1 or 2 (Linux: admin-guide/cgroup-v1/memory, admin-guide/cgroup-v2).
 struct GroupFiles {
     const char *limit, *used, *inactive, *active;
 };
 constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file", "total_active_file"};
 constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", "active_file"};
 
-/// What a group's limit leaves; the pages of files count as used there, but are given up when memory is needed.
+/// Memory left by a group's limit. Cached pages of files count as used there, but are freed when memory is needed.
 std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& names) {
     const auto limit = number_in(folder / names.limit), used = number_in(folder / names.used);
     if (!limit || !used) return unbounded;
@@ -66,7 +66,7 @@ std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& names) {
     return left(*limit, left(*used, table[names.inactive] + table[names.active]));
 }
 
-/// Over the process's group and all those around it. In a container the group's own folder may be the root.
+/// The smallest value over the process's group and its parents. In a container the group's own folder may be the root.
 std::uint64_t groups(const MemoryFiles& files) {
     std::uint64_t least = unbounded;
     std::ifstream text(files.proc / "self" / "cgroup");
@@ -86,7 +86,7 @@ std::uint64_t groups(const MemoryFiles& files) {
     return least;
 }
 
-/// What a limit of the process leaves; `used` names the figure that it bounds.
+/// Memory left by a limit of the process; `used` names the value that it bounds.
 std::uint64_t left_of_limit(__rlimit_resource which, const char* used, const MemoryFiles& files) {
     rlimit limit{};
     if (getrlimit(which, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unbounded;

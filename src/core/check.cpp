@@ -6,7 +6,7 @@
 namespace tumble {
 
 void contract_broken(const char* file, int line, const std::string& text) {
-    // The one print outside app/: the process is about to abort and nobody else can say why.
+    // The only print outside app/: the process aborts next, so no caller can report the reason.
     std::fprintf(stderr, "%s:%d: broken contract: %s\n", file, line, text.c_str());
     std::abort();
 }

@@ -1,5 +1,5 @@
-// Contracts between our own functions. A broken one is a bug of Tumble, never of the user's input:
-// the program stops with the place and both values. Kept in release builds; put none in inner loops.
+// Contracts between functions of Tumble. A broken one is a bug, never an error of the user's input: the program stops
+// with the place and both values. They stay in release builds, so none belongs in an inner loop.
 #pragma once
 
 #include <fmt/format.h>

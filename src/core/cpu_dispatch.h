@@ -1,5 +1,5 @@
-// Functions compiled once more for AVX2, chosen at the program's start: more lanes where the processor has them, with the
-// same bits, since nothing is fused. Sanitizers do without: they cannot look into the choosing.
+// Functions compiled a second time for AVX2 and selected at program start: more lanes with the same bits, because no
+// operations are fused. Disabled with sanitizers, which do not support the selection.
 #pragma once
 
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

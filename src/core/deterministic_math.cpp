@@ -13,16 +13,16 @@ constexpr double half_pi_2 = 0x1.4442dp-24;
 constexpr double half_pi_3 = 0x1.846988p-48;
 constexpr double half_pi_4 = 0x1.8cc51701b839ap-72;
 
-// The nearest whole number of |x| < 2^51 without a call: adding 3/2 * 2^52 leaves no bits for a fraction.
+// The integer nearest to x, |x| < 2^51, without a call: adding 3/2 * 2^52 leaves no bits for a fraction.
 double nearest_whole(double x) {
     constexpr double no_fraction = 0x1.8p+52;
     return (x + no_fraction) - no_fraction;
 }
 
-// The series below are summed as two polynomials in z^2, even and odd, which a processor works at side by side.
+// The series below are summed as two polynomials in z^2, even and odd, which a processor evaluates in parallel.
 
-// Taylor series to x^17 and x^18: the remainder is below 1e-17 on |x| <= pi/4. `low` is what x + low leaves of the
-// argument; its square is nothing.
+// Taylor series to x^17 and x^18: the remainder is below 1e-17 on |x| <= pi/4. `low` is the rest of the argument beyond
+// x; its square is negligible.
 double sin_series(double x, double low) {
     const double z = x * x, w = z * z;
     const double even = -1.0 / 6.0 + w * (-1.0 / 5040.0 + w * (-1.0 / 39916800.0 + w * (-1.0 / 1307674368000.0)));
@@ -36,7 +36,7 @@ double cos_series(double x, double low) {
     const double odd =
         -1.0 / 720.0 + w * (-1.0 / 3628800.0 + w * (-1.0 / 87178291200.0 + w * (-1.0 / 6402373705728000.0)));
     const double half = 0.5 * z, head = 1.0 - half;
-    return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));   // what rounding head lost comes back
+    return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));   // adds the rounding error of head
 }
 
 // Taylor series to x^17 on |x| <= 1/8: the remainder is below 1e-17 of x.
@@ -47,7 +47,7 @@ double atan_series(double x) {
     return x + x * z * (even + z * odd);
 }
 
-// atan(k/4), and what its rounding leaves.
+// atan(k/4), and its rounding error.
 struct TwoParts {
     double high, low;
 };
@@ -63,7 +63,7 @@ constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 SinCos sincos(double x) {
     if (std::fabs(x) <= 0.25 * pi) return {sin_series(x, 0.0), cos_series(x, 0.0)};
     if (!(std::fabs(x) <= 1.6e9)) {
-        x = std::remainder(x, 2.0 * pi);   // 2 pi is wrong by 4e-17 of itself, less than the rounding of x
+        x = std::remainder(x, 2.0 * pi);   // 2 pi has a relative error of 4e-17, less than the rounding of x
         if (!std::isfinite(x)) return {x, x};
     }
     const double k = nearest_whole(x * (2.0 / pi));
@@ -87,13 +87,13 @@ double arc_tangent(double x) {
         const TwoParts& at = quarters_angle[k];
         angle = at.high + (at.low + atan_series((t - c) / (1.0 + c * t)));
     } else if (t <= 0x1p+60) {
-        // The same for 1/t, whose angle is a right one less.
+        // The same for 1/t: the angle is the complement.
         const int k = static_cast<int>(4.0 / t + 0.5);
         const double c = 0.25 * k;
         const TwoParts& at = quarters_angle[k];
         angle = (right_angle.high - at.high) + ((right_angle.low - at.low) - atan_series((1.0 - c * t) / (t + c)));
     } else {
-        angle = t > 0.0 ? right_angle.high : t;   // or not a number
+        angle = t > 0.0 ? right_angle.high : t;   // or NaN
     }
     return x < 0.0 ? -angle : angle;
 }

@@ -1,6 +1,6 @@
-// Sine, cosine, arc tangent and exponential whose bytes are the same on every x86-64.
-// glibc picks fused-multiply-add variants of its own at run time, which differ in the last bit between machines;
-// whatever the simulation's trajectory depends on uses these instead. Built from + - * / and sqrt only.
+// Sine, cosine, arc tangent and exponential with the same bytes on every x86-64. glibc selects variants with fused
+// operations at run time, which differ in the last bit between machines, so the trajectory must depend on these
+// functions only. They use only + - * / and sqrt.
 #pragma once
 
 namespace tumble {

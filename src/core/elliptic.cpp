@@ -12,8 +12,8 @@ namespace {
 // distance from their mean, with coefficients below 0.1: at this distance they are below 1e-17 of the sum.
 constexpr double near = 0.01;
 
-// Arguments of any exponent a double can have are near each other after this many duplications at the latest; there is
-// no further round for numbers that are none.
+// Arguments with any exponents of doubles are close to each other after this many duplications; NaN ends the loop as
+// well.
 constexpr int most_rounds = 600;
 
 }  // namespace

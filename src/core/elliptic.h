@@ -1,7 +1,6 @@
-// Carlson's symmetric elliptic integrals of real arguments. Each argument's square root halves the distance between the
-// arguments fourfold (duplication), until a Taylor series about their mean takes over.
-// Carlson 1995, "Numerical computation of real or complex elliptic integrals", Numerical Algorithms 10; DLMF 19.16 and
-// 19.36.
+// Carlson's symmetric elliptic integrals of real arguments. Each duplication reduces the distance between the arguments
+// fourfold, until a Taylor series about their mean is accurate. Carlson 1995, "Numerical computation of real or complex
+// elliptic integrals", Numerical Algorithms 10; DLMF 19.16 and 19.36.
 #pragma once
 
 namespace tumble {

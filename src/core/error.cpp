@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-// Messages hold what users wrote: whoever threw may have forgotten to make it safe.
+// Messages contain user text that the thrower may not have made safe.
 std::string located(const SourceLocation& where, const std::string& message) {
     const std::string words = safe_text(message, message_text_bytes);
     if (where.file.empty()) return "error: " + words;
@@ -23,7 +23,7 @@ InputError::InputError(const std::string& message) : InputError(SourceLocation()
 InputError::InputError(const SourceLocation& where, const std::string& message)
     : std::runtime_error(located(where, message)) {}
 
-// Of several lines where another program's words are part of it.
+// Several lines, because the message may contain another program's output.
 RunError::RunError(const std::string& message) : std::runtime_error("error: " + safe_lines(message)) {}
 
 }  // namespace tumble

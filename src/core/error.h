@@ -1,5 +1,5 @@
-// The two kinds of failure that a user can meet; the third, a broken contract, is in check.h.
-// A library layer throws one of these and never prints or exits: `app/` turns them into text and an exit code.
+// The two kinds of failure that a user can see; the third, a broken contract, is in check.h. A library layer throws one
+// of these and never prints or exits: `app/` turns them into text and an exit code.
 #pragma once
 
 #include <stdexcept>
@@ -14,16 +14,17 @@ struct SourceLocation {
     int column = 0;
 };
 
-/// The input or the usage is wrong: exit code 2, and nothing has been written.
-/// what() reads "FILE:LINE:COLUMN: error: message" where the place is known, else "error: message".
+/// The input or the usage is wrong: exit code 2, and no output was written. what() is "FILE:LINE:COLUMN: error:
+/// message"
+/// with a known place, else "error: message".
 class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message);
     InputError(const SourceLocation& where, const std::string& message);
 };
 
-/// The run failed: the environment (a full disk, no ffmpeg) or the numbers (a body that went NaN).
-/// Exit code 1; frames that were finished before stay. what() reads "error: message".
+/// The run failed: the environment (a full disk, no ffmpeg) or the numbers (a body with a NaN). Exit code 1; finished
+/// frames stay. what() is "error: message".
 class RunError : public std::runtime_error {
 public:
     explicit RunError(const std::string& message);

@@ -1,4 +1,4 @@
-// A picture in memory: what the renderer makes and what the outputs write.
+// An image in memory: the result of the renderer and the input of the outputs.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// RGBA, 8 bits a channel, sRGB encoded, top row first, rows without padding.
+/// RGBA, 8 bits per channel, sRGB encoded, top row first, rows without padding.
 struct Image {
     int width = 0;
     int height = 0;

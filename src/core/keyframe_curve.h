@@ -1,5 +1,5 @@
-// Numbers of one kind that change with time along keyframes: still before the first and after the last. Smooth: a cubic Hermite
-// spline that overshoots nothing (smooth_slope.h), at rest at both ends. Linear: an even speed from key to key.
+// Vectors that change with time along keyframes; constant before the first and after the last. Smooth: a cubic Hermite
+// spline without overshoot (monotone_spline.h), with zero slope at both ends. Linear: constant speed between keys.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace tumble {
 
 class KeyframeCurve {
 public:
-    /// Times increase; there is at least one, and as many values, all of one length.
+    /// Precondition: times increase; there is at least one, and one value per time, all of one length.
     KeyframeCurve(std::vector<double> times, std::vector<Eigen::VectorXd> values, bool smooth);
 
     Eigen::VectorXd at(double time) const;

@@ -8,10 +8,10 @@ namespace {
 
 struct Neighbour {
     std::uint32_t triangle = MeshComponents::none;
-    bool alike = false;   // do both use the edge in opposite directions, as triangles of one side do?
+    bool alike = false;   // true if both use the edge in opposite directions, as consistently wound triangles do
 };
 
-/// Over each edge of each triangle.
+/// Neighbors over each edge of each triangle.
 std::vector<std::array<Neighbour, 3>> neighbours_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     struct Use {
         std::uint32_t low, high, triangle;

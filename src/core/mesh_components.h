@@ -1,4 +1,4 @@
-// The connected pieces of a surface, and which of their triangles are wound against the others.
+// The connected components of a triangle mesh, and the triangles in them that are wound inconsistently.
 #pragma once
 
 #include <array>
@@ -7,12 +7,13 @@
 
 namespace tumble {
 
-/// Triangles that share an edge which no third one has are of one sheet; where more meet, sheets end.
+/// Two triangles that share an edge without a third one are in one component; an edge with more triangles is a border.
 struct MeshComponents {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
-    std::vector<std::uint32_t> sheet;   // of each triangle: the first one of its sheet; none: it has one side only (Moebius)
-    std::vector<char> turned;           // is it wound against the first one?
-    std::vector<char> rim;              // does its sheet end at one of its edges?
+    // index of the first triangle of each triangle's component; none: the component is one-sided (Moebius)
+    std::vector<std::uint32_t> sheet;
+    std::vector<char> turned;           // true if wound opposite to the first triangle
+    std::vector<char> rim;              // true if an edge of its component is a border
 };
 
 MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles);

@@ -1,7 +1,7 @@
-// The slope of a smooth path at a key between two segments, from their mean slopes and their spans (s): that of the parabola through
-// the three keys (Catmull-Rom), unless a cubic with it would overshoot. It goes back along neither segment, and is no more than three
-// times the lesser (Fritsch and Carlson 1980, "Monotone piecewise cubic interpolation", section 3, along one line): between two equal
-// keys nothing moves.
+// Slope of a smooth curve at a key between two segments, from their mean slopes and their lengths (s): that of the
+// parabola through the three keys (Catmull-Rom), unless a cubic with it would overshoot. It is limited to the direction
+// of both segments and to three times the smaller slope (Fritsch and Carlson 1980, "Monotone piecewise cubic
+// interpolation", section 3, along one line): between two equal keys the curve is constant.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,13 @@
-// Rotations that are built from directions.
+// Rotations given by directions.
 #pragma once
 
 #include "core/vector.h"
 
 namespace tumble {
 
-/// The least turn that takes the direction `from` to that of `to` (lengths above zero). For opposite ones: half a turn about an
-/// axis across them. In a unit of its own, for Eigen's function brings a singular value decomposition to compile.
+/// The smallest rotation from the direction `from` to the direction `to` (of nonzero vectors). For opposite ones: half
+/// a turn about a perpendicular axis. In its own unit, because Eigen's function compiles a singular value
+/// decomposition.
 Quat turn_between(const Vec3& from, const Vec3& to);
 
 }  // namespace tumble

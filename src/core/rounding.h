@@ -1,4 +1,4 @@
-// Numbers of frames and steps out of products of decimals: 4.35 * 100 is 434.99999999999994.
+// Integer numbers of frames and steps from products of decimals: 4.35 * 100 is 434.99999999999994.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The whole number that x is within a few roundings of, else x. For x of 0 or more.
+/// The integer within a few roundings of x, else x. Precondition: x >= 0.
 inline double whole_where_meant(double x) {
     constexpr double rounding = 1e-12;   // relative; about 4500 units in the last place
     const double nearest = std::nearbyint(x);

@@ -8,7 +8,8 @@
 namespace tumble {
 namespace {
 
-/// The character at the text's start and its bytes; no bytes: it does not begin with whole, valid UTF-8 (RFC 3629).
+/// The character at the start of the text and its bytes; no bytes: the text does not start with complete, valid UTF-8
+/// (RFC 3629).
 struct Character {
     char32_t code = 0;
     std::size_t bytes = 0;
@@ -25,14 +26,14 @@ Character first_character(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};   // less would be an overlong form
+    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};   // a smaller code would be an overlong form
     const bool surrogate = code >= 0xd800 && code <= 0xdfff;
     if (code < least[bytes] || code > 0x10ffff || surrogate) return {};
     return {code, bytes};
 }
 
-/// Control characters, and of Unicode's format characters (category Cf) and separators those that cannot be seen or move
-/// others. The two joiners (200c, 200d) belong to the spelling of words and stay.
+/// Control characters, and those of Unicode's format characters (category Cf) and separators that are invisible or move
+/// other text. The two joiners (200c, 200d) belong to the spelling of words and are safe.
 bool is_unsafe(char32_t code) {
     struct Span {
         char32_t first, last;
@@ -62,7 +63,7 @@ std::string escaped(char32_t code) {
 
 std::string made_safe(std::string_view text, std::size_t longest, bool lines) {
     std::string safe;
-    std::size_t room_for_end = 0;   // bytes of `safe` that fit together with the words about the cut
+    std::size_t room_for_end = 0;   // bytes of `safe` that fit together with the note about the cut
     const std::string end = fmt::format("... ({} bytes)", text.size());
     for (std::string_view rest = text; !rest.empty();) {
         const Character next = first_character(rest);

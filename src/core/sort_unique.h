@@ -1,4 +1,4 @@
-// A list as an ascending set.
+// Turns a list into an ascending set.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A new thread, or an error that says so.
+// Starts a thread, or reports the failure as an error.
 #pragma once
 
 #include "core/error.h"
@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// A std::thread or std::jthread. Throws RunError where the system has no more threads, or no memory for the stack of one.
+/// A std::thread or std::jthread. Throws RunError if the system has no more threads or no memory for a stack.
 template <class Thread, class Work>
 Thread start_thread(Work&& work) {
     try {

@@ -1,5 +1,5 @@
-// The vectors, matrices and quaternions of everything but drawing: Eigen's, in double precision.
-// World frame unless a name says otherwise; SI units; y is up by convention of the scene files.
+// Vectors, matrices and quaternions outside drawing: Eigen's, in double precision. World frame unless a name says
+// otherwise; SI units; y is up by convention of the scene files.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,9 +13,9 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;   // w first in its constructor and in our files
+using Quat = Eigen::Quaterniond;   // w first in its constructor and in the files
 
-/// An axis-aligned box. Empty (min > max) until something is added.
+/// An axis-aligned bounding box (AABB). Empty (min > max) until a point is added.
 struct Bounds {
     Vec3 min = Vec3::Constant(infinity);
     Vec3 max = Vec3::Constant(-infinity);

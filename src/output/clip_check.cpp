@@ -19,12 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is wrong, on its way out of the parser.
+/// The fault, thrown by the parsers.
 struct Fault {
     std::string text;
 };
 
-/// A file, read here and there.
+/// A file with random access.
 class FileBytes {
 public:
     explicit FileBytes(const fs::path& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -52,7 +52,7 @@ public:
         return window_[static_cast<std::size_t>(place - window_at_)];
     }
 
-    /// Big end first.
+    /// A big-endian number.
     std::uint64_t number(std::uint64_t place, int bytes) {
         std::uint64_t value = 0;
         for (int i = 0; i < bytes; ++i) value = value << 8 | at(place + static_cast<std::uint64_t>(i));
@@ -71,7 +71,7 @@ private:
     std::array<std::uint8_t, 4096> window_;
 };
 
-/// MP4 and MOV (ISO/IEC 14496-12): boxes of boxes. Counts the samples of all tracks.
+/// MP4 and MOV (ISO/IEC 14496-12): nested boxes. Counts the samples of all tracks.
 class BoxReader {
 public:
     explicit BoxReader(FileBytes& file) : file_(file) {}
@@ -107,7 +107,7 @@ private:
     std::int64_t samples_ = 0;
 };
 
-/// Matroska and WebM (RFC 9559): elements of elements. Counts the blocks.
+/// Matroska and WebM (RFC 9559): nested elements. Counts the blocks.
 class ElementReader {
 public:
     ElementReader(FileBytes& file, std::string_view kind) : file_(file), kind_(kind) {}
@@ -121,7 +121,7 @@ public:
         while (place_ < file_.size()) {
             const std::uint64_t element = variable_number(true), size = variable_number(false);
             if (element == block_group || element == simple_block) ++blocks;
-            if (element == ebml || element == segment || element == cluster) continue;   // what is in it comes next
+            if (element == ebml || element == segment || element == cluster) continue;   // its content comes next
             if (size > file_.size() - place_) throw Fault{"the file ends too early"};
             if (element == doc_type) kind = file_.text(place_, std::min<std::uint64_t>(size, 16));
             place_ += size;
@@ -131,7 +131,8 @@ public:
     }
 
 private:
-    /// As many bytes as zeros lead the first; the first one bit belongs to the number, or only marks its length.
+    /// The number of leading zeros gives the number of further bytes. The first one bit is part of an id, and only a
+    /// marker in a length.
     std::uint64_t variable_number(bool with_mark) {
         const std::uint8_t first = file_.at(place_);
         int bytes = 1;
@@ -177,7 +178,7 @@ public:
     }
 
 private:
-    /// The flags of a table of colors, so many bytes more, and the table, if there is one.
+    /// Skips `more` bytes after the flags of a color table, and the table, if there is one.
     void skip_colors(std::uint64_t more) {
         const std::uint8_t flags = file_.at(place_);
         place_ += 1 + more;

@@ -1,4 +1,4 @@
-// Is a clip that the ffmpeg program has written whole? By its structure alone: the pictures are not decoded.
+// Checks that a clip written by the ffmpeg program is complete, by its structure: pictures are not decoded.
 #pragma once
 
 #include "output/video_format.h"
@@ -10,8 +10,9 @@
 
 namespace tumble {
 
-/// What is wrong with the file as a clip of that container ("mp4", "mov", "matroska", "webm", "gif", in ffmpeg's words) with so
-/// many stored frames; nothing where it is whole. A GIF may store fewer: equal frames one after the other become one.
+/// The fault of the file as a clip of that container ("mp4", "mov", "matroska", "webm", "gif", in ffmpeg's terms) with
+/// this many stored frames; empty if it is complete. A GIF may store fewer, because consecutive equal frames are
+/// merged.
 std::optional<std::string> fault_of_clip(const std::filesystem::path& file, const std::string& container, std::int64_t frames);
 
 }  // namespace tumble

@@ -5,16 +5,16 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// AVX-512 takes x264 5 to 8 % longer here than AVX2 (an Intel Xeon of 2023), for the same bytes.
+/// AVX-512 makes x264 5 to 8 % slower than AVX2 (an Intel Xeon of 2023), with the same bytes.
 std::string instruction_set() { return __builtin_cpu_supports("avx512bw") != 0 ? ":asm=avx2" : ""; }
 
-/// x264 as `preset` has it, but for `rate` (the option and its value) and `parameters`.
+/// x264 with `preset`, except for `rate` (the option and its value) and `parameters`.
 Arguments x264(const std::string& preset, const Arguments& rate, bool two_way, const std::string& parameters) {
     Arguments arguments = {"-c:v", "libx264", "-preset", preset, rate.at(0), rate.at(1)};
-    // B-frames save a quarter of the bytes. They are stored out of the order of their times, and then mp4 ends too early
-    // after a last frame that is shown longer.
+    // B-frames save a quarter of the bytes. They are stored out of time order, and mp4 then ends too early after a last
+    // frame with a longer duration.
     if (!two_way) arguments.insert(arguments.end(), {"-bf", "0"});
-    // The bytes depend on the number of threads: it is fixed, and two keep up with eight drawing processes.
+    // The bytes depend on the number of threads, so it is fixed; two keep up with eight render processes.
     arguments.insert(arguments.end(), {"-threads", "2", "-pix_fmt", "yuv420p", "-x264-params", parameters + instruction_set()});
     return arguments;
 }
@@ -22,13 +22,14 @@ Arguments x264(const std::string& preset, const Arguments& rate, bool two_way, c
 Arguments h264(const ClipOptions& options) {
     const bool two_way = options.times == FrameTimes::constant_rate;
     switch (options.quality) {
-        // Only what the codec needs, without a search for how to share out bits: one quantizer for all frames but the
-        // first of each group, no look ahead, no weights for fades, no search for cuts.
+        // Only the features that the codec needs, without a search for the distribution of bits: one quantizer for all
+        // frames but the first of each group, no lookahead, no weights for fades, no search for cuts.
         case VideoQuality::draft:
             return x264("veryfast", {"-qp", "22"}, false, "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8");
-        // What stays costs few bits however finely it is coded, and looking 40 frames ahead finds it. A first frame of each
-        // two seconds is made much better (ipratio), and small left-overs are coded, not dropped (no-dct-decimate): they
-        // are the specks. Colors take an offset because a level of chroma is two of red or blue.
+        // A still background costs few bits at any quality, and a lookahead of 40 frames detects it. The first frame of
+        // each two seconds gets a much higher quality (ipratio). Small residuals are coded instead of dropped (no-dct-
+        // decimate), because they are the specks. Colors get an offset because a level of chroma is two levels of red
+        // or blue.
         case VideoQuality::normal:
             return x264("veryfast", {"-crf", "17"}, two_way,
                         "keyint=120:rc-lookahead=40:ipratio=3:no-dct-decimate=1:chroma-qp-offset=-3");
@@ -39,12 +40,13 @@ Arguments h264(const ClipOptions& options) {
     return {};
 }
 
-// The good way takes twelve times as long as the real-time one (docs/explanation/output.md).
+// The "good" mode takes twelve times as long as the real-time mode (docs/explanation/output.md).
 Arguments vp9(VideoQuality quality) {
     Arguments arguments = {"-c:v", "libvpx-vp9"};
     switch (quality) {
         case VideoQuality::draft: arguments.insert(arguments.end(), {"-deadline", "realtime", "-cpu-used", "8", "-crf", "30"}); break;
-        // A whole picture every 60 frames: the real-time way leaves specks in still areas until the next one (of 720p, 46 -> 9 pixels).
+        // A key frame every 60 frames: the real-time mode leaves specks in still areas until the next one (of 720p, 46
+        // -> 9 pixels).
         case VideoQuality::normal:
             arguments.insert(arguments.end(), {"-deadline", "realtime", "-cpu-used", "6", "-crf", "16", "-g", "60"});
             break;

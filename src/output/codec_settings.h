@@ -1,4 +1,4 @@
-// How each codec is told to encode, for each quality: what is measured in docs/explanation/output.md.
+// Settings of each codec for each quality, measured in docs/explanation/output.md.
 #pragma once
 
 #include "output/video_format.h"
@@ -8,7 +8,8 @@
 
 namespace tumble {
 
-/// Arguments of the ffmpeg program, from -c:v on. Of a GIF they are those of its lossless first stage, the same for each quality.
+/// Arguments of the ffmpeg program, from -c:v on. For a GIF they are those of its lossless first stage, the same for
+/// each quality.
 std::vector<std::string> codec_arguments(VideoKind kind, const ClipOptions& options);
 
 }  // namespace tumble

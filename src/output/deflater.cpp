@@ -11,18 +11,18 @@
 namespace tumble {
 namespace {
 
-// ISA-L's level 0 and no other: at levels 1 and 2 one in a thousand streams comes out with other bytes (of the same values),
-// depending on where the stream lies in memory, and level 3 differs from processor to processor. Level 0 does neither: 12,000
-// places of memory, and Nehalem, Haswell and AVX-512 as qemu and this machine have them, give the same bytes.
-// Its code is a fixed one unless it is given another: that of the first 32 KB in every 256 KB of what is compressed.
-// Rendered 1280x720 frames of 100 boxes, one core, bands of 32 rows, filter SUB: level 0 with its own code 2.2 ms, 436 KB;
-// with the sample's 3.2 ms, 369 KB (all of it as sample 4.7 ms, 377 KB); levels 1 and 3 2.5 and 5.4 ms, 362 and 364 KB;
-// libdeflate level 1 8.1 ms, 338 KB; zlib level 1 10.8 ms, 385 KB. AOVs, in the same order (without the 4.7): 591, 460, 434,
-// 428, 413 and 433 KB an array, 1.3, 1.6, 1.2, 6, 9.5 and 16.5 ms.
+// Only level 0 of ISA-L is deterministic. At levels 1 and 2 one stream of a thousand has different bytes (with the same
+// values), depending on its memory address, and level 3 differs between processors. Level 0 gave the same bytes at
+// 12,000 addresses and on Nehalem, Haswell and AVX-512 (emulated by qemu, and real).
+// Its Huffman code is fixed unless another one is given: that of the first 32 KB in every 256 KB of the data.
+// Rendered 1280x720 frames of 100 boxes, one core, bands of 32 rows, filter SUB: level 0 with its own code 2.2 ms, 436
+// KB; with the sample's 3.2 ms, 369 KB (all of it as sample 4.7 ms, 377 KB); levels 1 and 3 2.5 and 5.4 ms, 362 and 364
+// KB; libdeflate level 1 8.1 ms, 338 KB; zlib level 1 10.8 ms, 385 KB. AOVs, in the same order (without the 4.7): 591,
+// 460, 434, 428, 413 and 433 KB per array, 1.3, 1.6, 1.2, 6, 9.5 and 16.5 ms.
 constexpr std::uint32_t compression_level = 0;
 constexpr std::size_t sample_bytes = 32 << 10, sample_distance = 256 << 10;
 
-// ISA-L's interface is not const; the input is only read.
+// ISA-L's interface is not const, although it only reads the input.
 std::uint8_t* input(std::span<const std::byte> bytes) {
     return reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(bytes.data()));
 }
@@ -39,7 +39,7 @@ Deflater::Deflater() : stream_(std::make_unique<Stream>()) {}
 
 Deflater::~Deflater() = default;
 
-/// A Huffman code made for samples of the parts.
+/// Makes a Huffman code from samples of the parts.
 void Deflater::make_code(std::initializer_list<std::span<const std::byte>> parts) {
     stream_->histogram = {};
     for (const std::span<const std::byte> part : parts)

@@ -1,4 +1,4 @@
-// Raw deflate (RFC 1951) by ISA-L, which takes a third of zlib's time. The bytes that come out depend only on those that go in.
+// Raw deflate (RFC 1951) by ISA-L, in a third of zlib's time. The output depends on the input only.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,19 @@ namespace tumble {
 
 class Deflater {
 public:
-    /// last: the stream is complete. whole_byte: it ends at a whole byte without a last block, and what is compressed next
-    /// does not refer to it: such pieces can be joined.
+    /// last: the stream ends. whole_byte: it ends at a byte boundary without a last block, and later data does not
+    /// refer to it, so such pieces can be concatenated.
     enum class End { last, whole_byte };
 
     Deflater();
     ~Deflater();
 
-    /// The parts, one behind the other, into `room`, which must be as large as bound() of all. Returns the bytes used.
+    /// Compresses the concatenated parts into `room`, whose size must be at least bound() of their total. Returns the
+    /// number of bytes.
     std::size_t compress(std::initializer_list<std::span<const std::byte>> parts, End end, std::span<std::byte> room);
 
-    /// No code has more than 15 bits a byte (RFC 1951, 3.2.7), and bytes unlike the sample may get such; and there are headers.
+    /// A code has at most 15 bits per byte (RFC 1951, 3.2.7), and bytes that are rare in the sample may get such codes;
+    /// headers are added.
     static std::size_t bound(std::size_t bytes) { return bytes + bytes / 8 * 7 + 1024; }
 
 private:

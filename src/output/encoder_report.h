@@ -1,4 +1,4 @@
-// What the ffmpeg program itself says that it has written: for a clip that goes into a pipe or device, where no one can look again.
+// ffmpeg's own report of the written frames, for a clip that goes into a pipe or device and cannot be read back.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// A file without a name, into which ffmpeg reports.
+/// A file without a name that ffmpeg writes its report to.
 class EncoderReport {
 public:
     /// Throws RunError.
@@ -20,7 +20,7 @@ public:
     /// For ffmpeg, before its other arguments.
     std::vector<std::string> arguments() const;
 
-    /// Once it has ended: what is wrong, where it does not say that it has written at least so many frames.
+    /// Call it after ffmpeg has ended: the fault if it does not report at least this many frames.
     std::optional<std::string> fault(std::int64_t frames) const;
 
 private:

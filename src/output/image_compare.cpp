@@ -12,9 +12,9 @@
 namespace tumble {
 namespace {
 
-constexpr int window = 8;           // pixels: about the smallest object worth seeing
-constexpr int stride = window / 2;  // windows overlap by half, so that no small change is cut in four
-// Two outliers side by side are seen in noise; a box moved by one pixel, however small, leaves more than four.
+constexpr int window = 8;           // pixels: about the smallest visible object
+constexpr int stride = window / 2;  // windows overlap by half, so that no small change is split over four of them
+// Two adjacent outliers occur in noise; a small box moved by one pixel gives more than four.
 constexpr int cluster_limit = 4;    // failing pixels in a window
 
 /// The largest difference over the four channels of a pixel.
@@ -24,7 +24,7 @@ int pixel_difference(const std::uint8_t* a, const std::uint8_t* b) {
     return most;
 }
 
-/// Where windows begin along one side: every stride, and one flush with the far edge.
+/// Starts of windows along one side: every stride, and one flush with the far edge.
 std::vector<int> window_starts(int size) {
     std::vector<int> starts;
     for (int i = 0; i + window < size; i += stride) starts.push_back(i);
@@ -32,16 +32,17 @@ std::vector<int> window_starts(int size) {
     return starts;
 }
 
-/// Whether windows begin at this row of so many.
+/// True if windows start at this row.
 bool is_window_start(int row, int size) {
     return row == std::max(0, size - window) || (row >= 0 && row % stride == 0 && row + window < size);
 }
 
 std::array<CompareRule, 3> rules(const Comparison& c, std::size_t pixels, const CompareOptions& options) {
-    // Pixels that the caller lets differ may lie anywhere, and differ by anything: both window limits grow by them.
+    // Pixels that the caller allows to differ may be anywhere, with any difference, so both window limits grow with
+    // them.
     const double cluster = options.cluster ? *options.cluster : cluster_limit + window * window * options.fraction;
     const double mean = options.window ? *options.window : 0.5 * options.tolerance + 255.0 * options.fraction;
-    // Rounded up: in a picture of a few thousand pixels one may still be noise.
+    // Rounded up, so that one pixel of a small picture may be noise.
     const double count = std::ceil(options.fraction * double(pixels));
     return {{{"pixels", double(c.failing_pixels), count, c.max_x, c.max_y},
              {"cluster", double(c.worst_cluster), std::floor(cluster), c.worst_cluster_x, c.worst_cluster_y},
@@ -105,7 +106,7 @@ void ImageComparer::add_row(std::span<const std::uint8_t> a, std::span<const std
     if (full && is_window_start(top, height_) && last_difference_ >= top) look_through_windows(top, row_);
 }
 
-/// Sums over the windows between two rows of the differences and of the failing pixels.
+/// Evaluates the windows between two rows: sums of differences, and failing pixels.
 void ImageComparer::look_through_windows(int top, int bottom) {
     std::fill(sums_.begin(), sums_.end(), 0);
     std::fill(failing_.begin(), failing_.end(), 0);
@@ -123,7 +124,7 @@ void ImageComparer::look_through_windows(int top, int bottom) {
             sum += sums_[std::size_t(x)];
             failing += failing_[std::size_t(x)];
         }
-        // Pictures smaller than a window are one window, with the same weight for each pixel.
+        // A picture smaller than a window is one window, with the same weight for each pixel.
         const double mean = double(sum) / (window * window);
         if (failing > found_.worst_cluster) {
             found_.worst_cluster = failing;
@@ -163,7 +164,7 @@ void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_
     for (std::size_t i = 0; i < to.size(); i += 4) {
         const int d = pixel_difference(&a[i], &b[i]);
         const int grey = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
-        const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);   // the smallest difference can be seen
+        const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);   // the smallest difference is visible
         to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : grey);
         to[i + 1] = static_cast<std::uint8_t>(grey);
         to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : grey);

@@ -8,7 +8,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Elements by their numbers in RFC 9559, with the names they have there.
+// Element numbers and names of RFC 9559.
 enum Element : std::uint32_t {
     ebml = 0x1a45dfa3, doc_type = 0x4282, doc_type_version = 0x4287, doc_type_read_version = 0x4285,
     segment = 0x18538067, info = 0x1549a966, timestamp_scale = 0x2ad7b1, muxing_app = 0x4d80, writing_app = 0x5741,
@@ -17,19 +17,20 @@ enum Element : std::uint32_t {
     pixel_height = 0xba, uncompressed_four_cc = 0x2eb524, cluster = 0x1f43b675, timestamp = 0xe7, simple_block = 0xa3,
 };
 
-constexpr std::int64_t second = 1'000'000'000;   // ns: a time stamp is never half a nanosecond off, and does not drift
+// ns: the error of a time stamp is below half a nanosecond and does not accumulate
+constexpr std::int64_t second = 1'000'000'000;
 constexpr std::uint64_t unknown_size = (std::uint64_t(1) << 56) - 1;
 constexpr std::byte only_track{0x81};            // track 1, as a number of variable length
 constexpr std::byte key_frame{0x80};
 
-/// Big end first, in so many bytes.
+/// A big-endian number of `bytes` bytes.
 void append(Bytes& to, std::uint64_t value, int bytes) {
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) to.push_back(std::byte((value >> shift) & 0xff));
 }
 
 void append_head(Bytes& to, Element element, std::uint64_t size) {
     append(to, element, (std::bit_width(std::uint32_t(element)) + 7) / 8);
-    append(to, size | std::uint64_t(1) << 56, 8);   // sizes in eight bytes: the first bit says so
+    append(to, size | std::uint64_t(1) << 56, 8);   // sizes have eight bytes, marked by the first bit
 }
 
 void append(Bytes& to, Element element, const Bytes& content) {
@@ -90,7 +91,7 @@ Bytes matroska_frame_head(std::int64_t n, const FrameRate& rate, std::size_t byt
     append_number(inside, timestamp, static_cast<std::uint64_t>(nanoseconds(n, rate)));
     append_head(inside, simple_block, bytes + 4);
     inside.push_back(only_track);
-    append(inside, 0, 2);   // after the cluster's own time
+    append(inside, 0, 2);   // relative to the cluster's time
     inside.push_back(key_frame);
     Bytes head;
     append_head(head, cluster, inside.size() + bytes);

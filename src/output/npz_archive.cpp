@@ -13,14 +13,14 @@
 namespace tumble {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);   // what the arrays' kinds say
+static_assert(std::endian::native == std::endian::little);   // the byte order in the arrays' types
 
 constexpr std::size_t npy_alignment = 64;        // bytes: the values of an .npy file start at a multiple of it
 constexpr std::size_t most_of_names = 1024;      // bytes of all headers of one array: below 300
 constexpr std::uint16_t deflated = 8, version = 20;
-constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, where zip's dates begin
+constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, the first date of the zip format
 
-/// The head of an .npy file, format 1.0.
+/// The header of an .npy file, format 1.0.
 std::string npy_head(const std::string& kind, const ArrayShape& shape) {
     std::string dimensions;
     for (const std::size_t length : shape) dimensions += fmt::format("{}, ", length);
@@ -36,7 +36,7 @@ std::string npy_head(const std::string& kind, const ArrayShape& shape) {
     return head + words;
 }
 
-/// Little-endian numbers one after the other.
+/// A sequence of little-endian numbers.
 class LittleEndianBytes {
 public:
     LittleEndianBytes& u16(std::size_t value) { return number(value, 2); }
@@ -80,7 +80,7 @@ void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<c
     add_bytes(name, "|u1", shape, std::as_bytes(values));
 }
 
-/// Behind what is there; returns the number of bytes.
+/// Appends to the file; returns the number of bytes.
 std::uint32_t NpzArchive::compress(std::span<const std::byte> head, std::span<const std::byte> values) {
     const std::size_t room = Deflater::bound(head.size() + values.size());
     if (file_.size() < used_ + room) file_.resize(used_ + room);

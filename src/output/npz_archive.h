@@ -1,6 +1,6 @@
-// Arrays of numbers as NumPy's np.load() reads them: an .npz file, which is a zip of .npy files, one an array
+// Arrays of numbers for NumPy's np.load(): an .npz file, which is a zip of .npy files, one per array
 // (numpy.org/doc/stable/reference/generated/numpy.lib.format.html). Compressed by ISA-L in a fraction of zlib's time.
-// The bytes depend on the arrays alone: there is no date in them.
+// The bytes depend on the arrays only: the file contains no date.
 #pragma once
 
 #include "output/deflater.h"
@@ -19,7 +19,7 @@ using ArrayShape = std::vector<std::size_t>;
 
 class NpzArchive {
 public:
-    /// Appends an array, in C order. Throws RunError where the values do not fit into the 4 GiB of a zip file.
+    /// Appends an array, in C order. Throws RunError if the values do not fit into the 4 GiB of a zip file.
     void add(std::string_view name, const ArrayShape& shape, std::span<const float> values);
     void add(std::string_view name, const ArrayShape& shape, std::span<const double> values);
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::int32_t> values);
@@ -28,7 +28,7 @@ public:
     /// The whole file, valid until the next call. The archive is empty again.
     std::span<const std::byte> finish();
 
-    /// The most bytes that an array takes in a file, the file's own end included.
+    /// Upper bound of the size of an array in a file, including the end of the file, bytes.
     static std::size_t bytes_bound(std::size_t bytes_of_values);
 
 private:
@@ -42,7 +42,7 @@ private:
 
     Deflater deflater_;
     std::vector<std::byte> file_;
-    std::size_t used_ = 0;    // bytes of file_ that are written
+    std::size_t used_ = 0;    // written bytes of file_
     std::vector<Member> members_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;   // in a row: Linux's own limit
+constexpr int most_links = 40;   // Linux's own limit
 
 std::optional<int> whole_number(const std::string& text) {
     int number = 0;
@@ -30,7 +30,7 @@ std::optional<int> whole_number(const std::string& text) {
 
 fs::path folder_of(const fs::path& name) { return name.has_parent_path() ? name.parent_path() : fs::path("."); }
 
-/// Is it the folder of the descriptors of this process (/proc/self/fd, also of one of its threads)?
+/// True for the folder of the descriptors of this process (/proc/self/fd, also of one of its threads).
 bool lists_our_descriptors(const fs::path& folder) {
     std::error_code error;
     const std::string self = fs::canonical("/proc/self", error).string();
@@ -39,9 +39,9 @@ bool lists_our_descriptors(const fs::path& folder) {
     return !error && there.starts_with(self + "/") && there.ends_with("/fd");
 }
 
-/// The descriptor that a name stands for by itself.
+/// The descriptor that a name stands for directly.
 std::optional<int> descriptor_named(const fs::path& name) {
-    if (name == "/dev/stdout") return STDOUT_FILENO;   // also where there is no /proc for the link to lead to
+    if (name == "/dev/stdout") return STDOUT_FILENO;   // also without /proc, which the link leads to
     if (name == "/dev/stderr") return STDERR_FILENO;
     const auto number = whole_number(name.filename().string());
     return number && lists_our_descriptors(folder_of(name)) ? number : std::nullopt;
@@ -69,16 +69,16 @@ OutputTarget output_target(const fs::path& name) {
             target.in_place = target.descriptor || is_device_or_pipe(target.path);
             return target;
         }
-        // The text of a link to another process's descriptor names the file, but the descriptor is what is meant.
+        // A link to another process's descriptor names the file, but the descriptor is meant.
         if (is_in_proc(target.path)) {
             target.in_place = true;
             return target;
         }
         const fs::path next = fs::read_symlink(target.path, error);
-        if (error) return target;   // whoever opens it meets the same error
+        if (error) return target;   // opening it will give the same error
         target.path = next.is_absolute() ? next : target.path.parent_path() / next;
     }
-    throw InputError(fmt::format("cannot write '{}': it is a link that leads in a circle", safe_path(name)));
+    throw InputError(fmt::format("cannot write '{}': its links form a loop", safe_path(name)));
 }
 
 }  // namespace tumble

@@ -23,21 +23,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view mark = ".tumble.part-";
-constexpr std::size_t digits = 8;   // of the number behind it, hexadecimal
+constexpr std::size_t digits = 8;   // of the hexadecimal number behind it
 
 fs::path folder_beside(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// The beginning of a final name that a hidden one holds: all, but of the longest names.
+/// The part of a final name that fits into a hidden one: all of it, except for the longest names.
 std::string kept_of(std::string name) {
     const std::size_t room = NAME_MAX - 1 - mark.size() - digits;
     if (name.size() <= room) return name;
     std::size_t end = room;
-    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;   // UTF-8 stays whole
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;   // UTF-8 characters stay complete
     name.resize(end);
     return name;
 }
 
-/// What a hidden name holds of its final one, if it is a part's name.
+/// The part of the final name in a hidden name, if that is the name of a part file.
 std::optional<std::string_view> final_name_in(std::string_view name) {
     if (name.size() <= 1 + mark.size() + digits || name.front() != '.') return std::nullopt;
     const std::string_view number = name.substr(name.size() - digits);
@@ -47,7 +47,7 @@ std::optional<std::string_view> final_name_in(std::string_view name) {
     return rest.substr(0, rest.size() - mark.size());
 }
 
-/// Removes a part, if its process is gone: then its lock can be taken.
+/// Removes a part file if its process has ended: its lock is then free.
 void remove_if_left(const fs::path& part) {
     const int file = ::open(part.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
     if (file < 0) return;
@@ -67,7 +67,7 @@ PartFile::PartFile(const fs::path& final_path) : final_path_(final_path) {
         file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0 && (errno == EEXIST || errno == EINTR)) continue;
         if (file_ < 0) fail(errno);
-        // Between the two calls another run may have taken it for one that was left.
+        // Between the two calls another run may have removed it as a left-over.
         if (lock_file(file_) != Lock::held && is_still_at(file_, path_)) return;
         ::close(file_);
     }
@@ -97,7 +97,7 @@ void remove_left_parts(const fs::path& final_path) {
 }
 
 void remove_left_parts(const fs::path& folder, const std::function<bool(std::string_view)>& ours) {
-    std::error_code error;   // a folder that cannot be listed is none of our business
+    std::error_code error;   // a folder that cannot be listed is ignored
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         if (const auto final_name = final_name_in(name); final_name && ours(*final_name)) remove_if_left(entry->path());

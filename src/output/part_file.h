@@ -1,6 +1,6 @@
-// A file on its way, under a hidden name beside its final one: ".clip.mp4.tumble.part-1b2c3d4e". It is locked while its
-// process lives, so that a later run can tell what a killed one left behind, whatever process numbers say and wherever
-// the other process runs.
+// An unfinished file under a hidden name beside its final one: ".clip.mp4.tumble.part-1b2c3d4e". It is locked while its
+// process lives. A later run can therefore recognize the file of a killed one, independent of process numbers and of
+// the machine that the other process runs on.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@ namespace tumble {
 
 class PartFile {
 public:
-    /// Creates it, empty. Throws RunError naming `final_path`.
+    /// Creates an empty file. Throws RunError naming `final_path`.
     explicit PartFile(const std::filesystem::path& final_path);
-    /// Removes it, unless it was moved.
+    /// Removes the file, unless it was moved.
     ~PartFile();
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
@@ -21,7 +21,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
     int descriptor() const { return file_; }
 
-    /// Gives it its final name; what stands there is replaced. Throws RunError.
+    /// Renames it to its final name, replacing an existing file. Throws RunError.
     void move_to_final_path();
 
 private:
@@ -32,10 +32,12 @@ private:
     bool moved_ = false;
 };
 
-/// Removes what runs that are gone left of this final path. What another user owns, or what cannot be locked, stays.
+/// Removes the part files of this final path whose runs have ended. Files of other users, or that cannot be locked,
+/// stay.
 void remove_left_parts(const std::filesystem::path& final_path);
 
-/// The same of all final names in a folder that are among `ours` (those that a hidden name can hold whole).
+/// The same for all final names in a folder for which `ours` is true (names short enough to be complete in the hidden
+/// name).
 void remove_left_parts(const std::filesystem::path& folder, const std::function<bool(std::string_view)>& ours);
 
 }  // namespace tumble

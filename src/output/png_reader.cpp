@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What libpng's callbacks may touch: plain values, for its longjmp passes over them.
+/// State that libpng's callbacks may change: plain values, because its longjmp skips destructors.
 struct Failure {
     char message[256] = {};
     bool out_of_memory = false;
@@ -35,7 +35,7 @@ void keep_error(png_structp png, png_const_charp message) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-// libpng words its lack of memory in many ways.
+// libpng has many messages for a lack of memory.
 void* take_memory(png_structp png, png_alloc_size_t size) {
     void* const memory = std::malloc(size);
     if (memory == nullptr) static_cast<Failure*>(png_get_mem_ptr(png))->out_of_memory = true;
@@ -55,7 +55,7 @@ OpenFile opened(const fs::path& path) {
 
 }  // namespace
 
-/// libpng reports errors by longjmp: the functions that call it hold nothing that must be destroyed.
+/// libpng reports errors by longjmp: the functions that call it have no objects with destructors.
 struct PngRows::File {
     OpenFile file;
     std::string name;
@@ -81,10 +81,10 @@ struct PngRows::File {
         throw InputError(at(), fmt::format("not a whole PNG file: {}", failure.message));
     }
 
-    /// False: `failure` says why.
+    /// False: `failure` has the reason.
     bool read_head() {
         if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
-        // Of the chunks that a picture can do without, only those that say how its numbers are meant.
+        // Of the optional chunks, only those that define the meaning of the numbers.
         static constexpr png_byte meaning[] = "bKGD\0cHRM\0gAMA\0iCCP\0sBIT\0sRGB";
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, meaning, int(sizeof meaning / 5));
@@ -95,12 +95,12 @@ struct PngRows::File {
         return true;
     }
 
-    /// As libpng's simplified reader has it: 16-bit files are sRGB like the 8-bit ones, unless they say otherwise.
+    /// Like libpng's simplified reader: 16-bit files are sRGB like the 8-bit ones, unless they contain another gamma.
     bool choose_form() {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_expand(png);
         png_set_gray_to_rgb(png);
-        png_set_alpha_mode_fixed(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);   // the file's, where it does not say, and the rows'
+        png_set_alpha_mode_fixed(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);   // default of the file, and value of the rows
         png_set_scale_16(png);
         png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
         passes = png_set_interlace_handling(png);

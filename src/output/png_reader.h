@@ -1,4 +1,4 @@
-// Any PNG file as one of our pictures, whole or row by row.
+// Reads any PNG file, whole or row by row.
 #pragma once
 
 #include "core/image.h"
@@ -18,7 +18,7 @@ struct PictureSize {
     friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
-/// The most pixels a picture may have: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
+/// Largest number of pixels of a picture: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
 inline constexpr std::int64_t max_picture_pixels = std::int64_t(1) << 28;
 
 struct CloseFile {
@@ -26,13 +26,13 @@ struct CloseFile {
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A picture from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 where the file
-/// has none). Memory is needed for two rows; for the whole picture only where the file is interlaced.
+/// A picture from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file
+/// has none). Memory: two rows, or the whole picture for an interlaced file.
 class PngRows {
 public:
-    /// Reads the head. Throws InputError naming the file where it is missing, no PNG, broken or too large.
+    /// Reads the header. Throws InputError naming the file if it is missing, not a PNG file, broken or too large.
     explicit PngRows(const std::filesystem::path& path);
-    /// The same of an open file; `name` is for messages.
+    /// The same for an open file; `name` is for messages.
     PngRows(OpenFile file, const std::string& name);
     ~PngRows();
     PngRows(const PngRows&) = delete;
@@ -41,27 +41,27 @@ public:
     PictureSize size() const;
     bool interlaced() const;
 
-    /// The next row, four bytes a pixel, valid until the next call; at most as often as there are rows. Throws InputError
-    /// where the file is broken or cut short, RunError where there is no memory for an interlaced picture.
+    /// The next row, four bytes per pixel, valid until the next call. Precondition: rows are left. Throws InputError if
+    /// the file is broken or cut short, RunError if there is no memory for an interlaced picture.
     std::span<const std::uint8_t> next();
 
-    /// All rows, in place of next().
+    /// All rows; an alternative to next().
     Image all();
 
 private:
-    struct File;   // libpng's
+    struct File;   // state of libpng
     void read_interlaced();
 
     std::unique_ptr<File> file_;
     Image whole_;                     // of an interlaced file
-    std::vector<std::uint8_t> row_;   // of another
+    std::vector<std::uint8_t> row_;   // of another file
     int next_ = 0;                    // row
 };
 
 /// Throws like PngRows.
 Image read_png(const std::filesystem::path& path);
 
-/// The size alone, from the file's head.
+/// The size, from the header.
 PictureSize read_png_size(const std::filesystem::path& path);
 
 }  // namespace tumble

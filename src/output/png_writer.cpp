@@ -26,7 +26,7 @@ namespace tumble {
 namespace {
 
 // Measured in deflater.cpp.
-constexpr std::uint8_t filter_sub = 1;   // the first byte of each row: differences to the pixel before it
+constexpr std::uint8_t filter_sub = 1;   // first byte of each row: differences to the pixel before
 constexpr int rows_of_band = 32;
 
 constexpr std::uint8_t zlib_head[] = {0x78, 0x01};         // RFC 1950: deflate with a window of 32 KB, a fast level
@@ -46,8 +46,8 @@ struct Sink {
     std::string error;
 };
 
-// libpng calls these between our setjmp and its own longjmp: nothing that must be destroyed may live across them,
-// and no exception may pass through C code.
+// libpng calls these between setjmp and its longjmp: they must not have objects with destructors, and no exception may
+// pass through C code.
 void append(png_structp png, png_bytep data, std::size_t size) {
     auto* sink = static_cast<Sink*>(png_get_io_ptr(png));
     bool out_of_memory = false;
@@ -72,7 +72,7 @@ void keep_write_error(png_structp png, png_const_charp message) {
 
 void ignore_write_warning(png_structp, png_const_charp) {}
 
-/// What comes before the pixels, with only plain values on the stack. False: sink.error says why.
+/// Writes the part before the pixels, with only plain values on the stack. False: sink.error has the reason.
 bool write_head(png_structp png, png_infop info, int width, int height, Sink& sink) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, &sink, append, flush);
@@ -93,7 +93,7 @@ void append_number(std::vector<std::byte>& to, std::uint32_t number) {
     for (const std::uint8_t byte : big_end_first(number)) to.push_back(std::byte(byte));
 }
 
-/// A chunk: libpng would take its checksum a tenth as fast.
+/// Appends a chunk with its checksum, ten times as fast as libpng.
 void append_chunk(std::vector<std::byte>& to, std::string_view name, std::span<const std::span<const std::uint8_t>> parts) {
     std::size_t size = 0;
     for (const auto& part : parts) size += part.size();
@@ -115,8 +115,8 @@ void pack_pixels(const std::uint8_t* from, int first, int width, std::uint8_t* t
 
 #ifdef __x86_64__
 
-/// The same from the second pixel on, four at a time; returns the first that is left. Each store is four bytes too long:
-/// they are written again by the next, and the row's last pixels are left.
+/// The same from the second pixel on, four at a time; returns the first one that is left. Each store is four bytes too
+/// long; they are overwritten by the next store or by the remaining pixels.
 __attribute__((target("ssse3"))) int pack_fours(const std::uint8_t* from, int width, std::uint8_t* to) {
     const __m128i without_alpha = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
     int x = 1;
@@ -196,7 +196,7 @@ void PngEncoder::make_head() {
     const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
     png_destroy_write_struct(&png, &info);
     if (done) return;
-    const int width = std::exchange(width_, 0);   // the next picture starts anew
+    const int width = std::exchange(width_, 0);   // the next picture is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);
 }
 
@@ -224,7 +224,7 @@ void PngRowWriter::add_row(std::span<const std::uint8_t> row) {
 void PngRowWriter::write_band() {
     const int rows = (rows_ - 1) % rows_of_band + 1;
     const bool first = rows_ == rows;
-    if (rows < band_.height) {   // the last one
+    if (rows < band_.height) {   // the last band
         band_.height = rows;
         band_.pixels.resize(4 * std::size_t(band_.width) * std::size_t(rows));
     }

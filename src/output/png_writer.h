@@ -1,6 +1,6 @@
-// Our pictures as PNG files: 8-bit RGB, sRGB. libpng writes the head; the pixels are compressed by ISA-L (igzip) in bands
-// of rows that do not look at each other, so that of a frame that is like the one before only the changed bands are
-// compressed again. The bytes are those of compressing all of them.
+// Images as PNG files: 8-bit RGB, sRGB. libpng writes the header; the pixels are compressed by ISA-L (igzip) in
+// independent bands of rows, so that only the changed bands of a frame are compressed again. The bytes equal those of
+// compressing all bands.
 #pragma once
 
 #include "core/image.h"
@@ -19,9 +19,9 @@ namespace tumble {
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
-    /// The whole file, valid until the next call. `changed` are the parts that may differ from the picture before; a
-    /// first picture, and one of another size, is taken as a whole. Alpha is left out. Throws RunError where the
-    /// picture is empty or memory runs out.
+    /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous picture; a
+    /// first picture, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the picture
+    /// is empty or memory runs out.
     std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
     std::span<const std::byte> encode(const Image& image);
 
@@ -35,25 +35,25 @@ private:
     void make_head();
 
     Deflater deflater_;
-    int width_ = 0, height_ = 0;      // of the picture before
+    int width_ = 0, height_ = 0;      // of the previous picture
     std::vector<Band> bands_;
-    std::vector<std::uint8_t> rows_;  // of one band, as they are compressed
+    std::vector<std::uint8_t> rows_;  // of one band, filtered
     std::vector<std::byte> head_, file_;
 };
 
-/// The most bytes that a PNG of this size takes.
+/// Upper bound of the size of a PNG file, bytes.
 std::size_t png_bytes_bound(int width, int height);
 
-/// Writes a PNG file of a picture that comes row by row, and keeps only one band of it.
+/// Writes a PNG file of a picture that arrives row by row, with only one band in memory.
 class PngRowWriter {
 public:
     /// Throws RunError naming the path.
     PngRowWriter(const std::filesystem::path& path, int width, int height);
 
-    /// Four bytes a pixel; as many times as there are rows.
+    /// Four bytes per pixel; call it once per row.
     void add_row(std::span<const std::uint8_t> row);
 
-    /// The file has its name.
+    /// Renames the file to its final name.
     void finish();
 
 private:
@@ -61,10 +61,10 @@ private:
 
     TemporaryFile file_;
     PngEncoder encoder_;
-    Image band_;                     // the rows on their way
+    Image band_;                     // the current rows
     int height_;
-    int rows_ = 0;                   // of the picture, that have come
-    std::uint32_t checksum_ = 1;     // Adler-32 of those written
+    int rows_ = 0;                   // number of rows received
+    std::uint32_t checksum_ = 1;     // Adler-32 of the written rows
     PngEncoder::Band compressed_;
     std::vector<std::byte> chunk_;
 };

@@ -33,15 +33,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A program that stopped reading before its input ended has failed: the time it gets to say why and end.
+// A program that stopped reading before its input ended has failed: time limit for its error message and its end.
 constexpr std::chrono::seconds last_words_time{1};
-constexpr std::size_t kept_words = 4096;      // bytes of a program's last words
-constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe a user may ask for: fewer waits for each frame
+constexpr std::size_t kept_words = 4096;      // bytes of a program's last output to standard error
+constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe that a user may request: fewer waits per frame
 constexpr std::size_t kept_output = 1 << 16;  // bytes of a program's standard output
-// ms between two looks for the end of a program whose pipes say nothing: other processes may hold those open.
+// ms between checks for the end of a program whose pipes are silent, because other processes may hold those open.
 constexpr int look_every = 20;
 
-/// Two ends of a pipe, closed unless taken.
+/// Both ends of a pipe, closed by the destructor unless taken.
 struct Pipe {
     int read = -1, write = -1;
     Pipe() {
@@ -61,7 +61,8 @@ struct Pipe {
     int take_write() { return std::exchange(write, -1); }
 };
 
-/// Starts the program with these as its standard input, output and error (-1: nothing to read, nowhere to write).
+/// Starts the program with these descriptors as standard input, output and error (-1: nothing to read, or output is
+/// dropped).
 pid_t start(const fs::path& program, const std::vector<std::string>& arguments, int input, int output, int error) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
@@ -73,7 +74,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     give(output, STDOUT_FILENO, O_WRONLY);
     give(error, STDERR_FILENO, O_WRONLY);
 
-    // It must not inherit the signals we block: its own group, an empty mask, default SIGPIPE.
+    // It must not inherit blocked signals: its own group, an empty mask, default SIGPIPE.
     posix_spawnattr_t how;
     posix_spawnattr_init(&how);
     sigset_t none, defaults;
@@ -100,8 +101,8 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     return id;
 }
 
-/// While it lives, a write to a pipe without a reader is an error value (EPIPE) and no signal, in this thread only.
-/// The signal then waits at the thread, and is taken away before the old mask comes back.
+/// During its lifetime, a write to a pipe without a reader gives EPIPE instead of a signal, in this thread only. The
+/// signal is pending at the thread, and is removed before the old mask is restored.
 class NoSigpipe {
 public:
     NoSigpipe() {
@@ -122,7 +123,7 @@ private:
     sigset_t set_, before_;
 };
 
-/// Reads what waits in the pipe, without waiting for more. False: no writer is left, and all is read.
+/// Reads the available data of a pipe, without waiting. False: no writer is left, and all data was read.
 bool read_waiting(int pipe, std::string& text) {
     pollfd place{pipe, POLLIN, 0};
     if (::poll(&place, 1, 0) <= 0) return true;
@@ -139,7 +140,8 @@ bool read_waiting(int pipe, std::string& text) {
     return true;
 }
 
-/// Waits until the child has ended, without taking its end: its number stays its own. True also where there is no such child.
+/// Waits until the child has ended, without reaping it, so that its number stays reserved. True also if there is no
+/// such child.
 bool is_ended(pid_t id, int how) {
     siginfo_t info{};
     int result = 0;
@@ -196,8 +198,8 @@ std::string ProcessEnd::describe() const {
 
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments, std::optional<int> output) {
     Pipe input, words;
-    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused at the user's limit: then it stays small
-    ::fcntl(input.write, F_SETFL, O_NONBLOCK);             // our end only: what waits for the program also looks for its end
+    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused beyond the user's limit; the pipe then stays small
+    ::fcntl(input.write, F_SETFL, O_NONBLOCK);             // this end only, so that waiting for the program also notices its end
     id_ = start(program, arguments, input.read, output.value_or(-1), words.write);
     input_ = input.take_write();
     words_pipe_ = words.take_read();
@@ -217,9 +219,9 @@ void Process::read_words() {
 
 bool Process::wait_for_room() {
     for (;;) {
-        // A full pipe of words would keep the program from reading.
+        // A full pipe of messages would block the program.
         std::array<pollfd, 2> places{{{input_, POLLOUT, 0}, {words_pipe_, POLLIN, 0}}};
-        if (::poll(places.data(), places.size(), look_every) < 0) continue;   // a signal: what it found is not told
+        if (::poll(places.data(), places.size(), look_every) < 0) continue;   // a signal: the result is invalid
         if (places[1].revents != 0) read_words();
         if (places[0].revents != 0) return true;
         if (has_ended(id_)) return false;   // a process that it started holds its input open
@@ -255,15 +257,15 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
             bytes = bytes.subspan(static_cast<std::size_t>(n));
         }
     }
-    // What was lent before has been read: more than the pipe holds came after it.
+    // The earlier memory has been read, because more than a pipe's capacity came after it.
     lent_ = std::move(memory);
-    return write(bytes);   // the rest, where it cannot be lent
+    return write(bytes);   // the rest, if it cannot be lent
 }
 
 ProcessEnd Process::finish() {
     ::close(std::exchange(input_, -1));
     const auto patience = std::chrono::steady_clock::now() + last_words_time;
-    // Not until its standard error is closed: a process that it started may hold that open.
+    // Do not wait for its standard error to close, because a process that it started may hold that open.
     while ((words_pipe_ >= 0 || reads_no_more_) && !has_ended(id_)) {
         pollfd place{words_pipe_, POLLIN, 0};   // without a pipe the poll only waits
         ::poll(&place, 1, look_every);
@@ -271,7 +273,7 @@ ProcessEnd Process::finish() {
         if (reads_no_more_ && std::chrono::steady_clock::now() > patience) kill();
     }
     is_ended(id_, 0);
-    read_words();   // what it said last is in the pipe
+    read_words();   // its last message is still in the pipe
     if (words_pipe_ >= 0) ::close(std::exchange(words_pipe_, -1));
     const std::lock_guard lock(id_mutex_);
     ProcessEnd end = wait_for_process(std::exchange(id_, -1));

@@ -1,4 +1,4 @@
-// Tables of numbers as CSV files, written row by row: memory stays flat however long they grow.
+// Tables of numbers as CSV files, written row by row, so that memory does not grow with their length.
 #pragma once
 
 #include "output/temporary_file.h"
@@ -11,12 +11,12 @@
 
 namespace tumble {
 
-/// Numbers keep 17 significant digits, which brings every double back to the bit; a point is the decimal sign in any
+/// Numbers have 17 significant digits, which restores every double to the bit; the decimal sign is a point in every
 /// locale. Text with a comma, a quote or a line break is quoted (RFC 4180). The file appears under its name at
 /// finish(), or never.
 class TableWriter {
 public:
-    /// `header` is the first row, as it is. Throws RunError where the file cannot be written; so do all below.
+    /// `header`: the first row, verbatim. All members throw RunError if the file cannot be written.
     TableWriter(const std::filesystem::path& path, std::string_view header);
 
     TableWriter& integer(std::int64_t value);

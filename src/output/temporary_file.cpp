@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The app layer lets Ctrl-C wait, so that it ends none of the system's calls: it is looked for, and taken.
+// The app layer blocks Ctrl-C, so it interrupts no system call: check for it and handle it.
 void stop_if_interrupted() {
     sigset_t waiting, taken;
     if (sigpending(&waiting) != 0) return;
@@ -33,9 +33,9 @@ void stop_if_interrupted() {
     if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
 }
 
-constexpr int interrupt_look_every = 20;   // ms, for an interrupt while a reader keeps us waiting
+constexpr int interrupt_look_every = 20;   // ms between checks for an interrupt while waiting for a reader
 
-/// Waits for a reader, as open() itself would. What is opened does not block.
+/// Waits for a reader, like open(). The descriptor does not block.
 int open_pipe(const fs::path& path) {
     for (;;) {
         const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
@@ -45,7 +45,7 @@ int open_pipe(const fs::path& path) {
     }
 }
 
-/// A pipe is opened anew where it can be, so as not to block: what others hold of it stays as it is.
+/// A pipe is opened again if possible, so that other holders of the descriptor are not affected by non-blocking mode.
 int copy_of_descriptor(int descriptor) {
     struct stat status {};
     if (::fstat(descriptor, &status) == 0 && S_ISFIFO(status.st_mode)) {
@@ -70,7 +70,7 @@ TemporaryFile::TemporaryFile(const fs::path& final_path, LeftParts left) : targe
         if (how >= 0 && (how & O_ACCMODE) == O_RDONLY) fail(EBADF);
         file_ = copy_of_descriptor(*target_.descriptor);
     } else if (target_.in_place) {
-        // Of a regular file only another process's descriptor is written in place: what is there already stays.
+        // The only regular file that is written in place is another process's descriptor: its content stays.
         file_ = fs::is_fifo(target_.path, ignored) ? open_pipe(target_.path)
                                                    : ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     } else {
@@ -99,11 +99,11 @@ void TemporaryFile::write(std::span<const std::byte> bytes) {
 }
 
 void TemporaryFile::begin_sync() {
-    if (part_) ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);   // sync() tells of errors
+    if (part_) ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);   // errors are reported by sync()
 }
 
 void TemporaryFile::sync() {
-    // Not every file system brings single files to the disk.
+    // Some file systems cannot sync single files.
     while (part_ && ::fsync(file_) != 0)
         if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP) break;
         else if (errno != EINTR) fail(errno);
@@ -129,7 +129,7 @@ void TemporaryFile::fail(int error) const {
 
 void bring_to_disk(const fs::path& folder) {
     const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return;   // a folder that can be written but not read
+    if (file < 0) return;   // a folder that is writable but not readable
     ::fsync(file);
     ::close(file);
 }

@@ -1,5 +1,5 @@
-// Outputs appear whole or not at all: they are written to a hidden name in the same folder (part_file.h), and renamed when
-// all of it is on the disk.
+// Outputs appear completely or not at all: they are written to a hidden name in the same folder (part_file.h), and
+// renamed when all of it is on the disk.
 #pragma once
 
 #include "output/output_target.h"
@@ -12,53 +12,53 @@
 
 namespace tumble {
 
-/// What earlier runs that were killed left of the same output.
+/// Treatment of part files that killed runs left of the same output.
 enum class LeftParts {
     removed,
-    kept,   // one of many files in a folder, which is looked through once for all
+    kept,   // for one of many files in a folder whose left-overs are removed once
 };
 
-/// A file on its way. Unless it is published it is removed again, and what stood under the final name stays.
-/// An output_target.h that is written in place is written in place; a pipe once a program reads it.
+/// An unfinished file. Unless it is published it is removed, and the existing file of the final name stays. A target
+/// that is written in place (output_target.h) is opened directly; a pipe is opened when a program reads it.
 class TemporaryFile {
 public:
-    /// Creates the hidden file. Throws RunError naming `final_path` where its folder is missing or not writable.
+    /// Creates the hidden file. Throws RunError naming `final_path` if its folder is missing or not writable.
     explicit TemporaryFile(const std::filesystem::path& final_path, LeftParts left = LeftParts::removed);
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    /// The output is a pipe, a device or an open descriptor: its bytes go straight there.
+    /// True if the output is a pipe, a device or an open descriptor, which is written to directly.
     bool in_place() const { return !part_; }
-    /// Where another program writes until commit(), unless it is given descriptor().
+    /// The path that another program writes to until commit(), unless it is given descriptor().
     const std::filesystem::path& path() const { return part_ ? part_->path() : target_.path; }
-    /// The one that this process was given as the output, if it was.
+    /// The descriptor of this process that was given as the output, if any.
     std::optional<int> descriptor() const { return target_.descriptor; }
 
     /// Appends all the bytes. Throws RunError naming the final path (disk full, ...).
     void write(std::span<const std::byte> bytes);
 
-    /// Everything that follows write(): the file is brought to the disk and given its final name, for good.
+    /// Finishes the file after the last write(): it is synced to the disk and renamed to its final name.
     void commit();
 
-    // The steps of commit(), for many files at a time; the folder of all of them is brought to the disk once
+    // The steps of commit(), for many files at a time; the folder of all of them is synced to the disk once
     // (bring_to_disk()). All throw RunError.
-    void begin_sync();   // the disk begins to write; does not wait
+    void begin_sync();   // starts writing to the disk, without waiting
     void sync();
-    void publish();      // the final name
+    void publish();      // renames to the final name
 
 private:
     [[noreturn]] void fail(int error) const;
 
     OutputTarget target_;
-    std::optional<PartFile> part_;   // unless it is written in place
-    int file_ = -1;                  // the part's, or one of our own
+    std::optional<PartFile> part_;   // empty if it is written in place
+    int file_ = -1;                  // of the part file, or a descriptor of its own
 };
 
-/// The names in a folder, as far as the file system can.
+/// Syncs the names in a folder, as far as the file system can.
 void bring_to_disk(const std::filesystem::path& folder);
 
-/// All of a file at once. Throws RunError naming the path.
+/// Writes all of a file at once. Throws RunError naming the path.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace tumble

@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr std::int64_t largest_part = 1'000'000;   // ffmpeg reads rates with parts up to 1,001,000
-constexpr double slowest = 0.001;                  // frames/s: players give up on longer frames, GIF at 655 s
+constexpr double slowest = 0.001;                  // frames/s: players do not support longer frames, GIF at most 655 s
 constexpr double fastest = 1e6;                    // frames/s: the scene format's own limit
 constexpr double fastest_matroska = 1000.0;        // its time stamps are whole milliseconds
-constexpr double fastest_gif = 50.0;               // its delays are whole 1/100 s, and players take 1 for 10
+constexpr double fastest_gif = 50.0;               // its delays are whole 1/100 s, and players treat 1 as 10
 
 void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -31,7 +31,7 @@ std::string file_argument(const fs::path& path) {
     return path == clip_to_standard_output ? "pipe:1" : "file:" + path.string();
 }
 
-/// Without -xerror, ffmpeg 5.1 ends with exit code 0 when the disk was full at the end of the clip.
+/// Without -xerror, ffmpeg 5.1 ends with exit code 0 if the disk was full at the end of the clip.
 Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
 
 /// The continued fraction of x, cut off before a part grows beyond `limit`.
@@ -46,7 +46,7 @@ FrameRate best_fraction(double x, std::int64_t limit) {
         if (n2 > limit || d2 > limit) break;
         n0 = n1; d0 = d1;
         n1 = n2; d1 = d2;
-        // Beyond double's own rounding the digits mean nothing: 29.97 is 2997/100, not what lies 1e-15 beside it.
+        // Digits beyond the rounding of double are meaningless: 29.97 is 2997/100, not a fraction 1e-15 beside it.
         if (std::fabs(double(n1) / double(d1) - x) <= 1e-12 * x) break;
         rest = 1.0 / (rest - whole);
     }
@@ -60,7 +60,7 @@ bool has_its_head_last(const VideoFormat& format) { return format.container == "
 std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, denominator); }
 
 FrameRate to_frame_rate(double fps) {
-    // Below 1 the first term would be 0; its reciprocal has the same digits.
+    // Below 1 the first term would be 0; the reciprocal has the same digits.
     if (fps >= 1.0) return best_fraction(fps, largest_part);
     const FrameRate upside_down = best_fraction(1.0 / fps, largest_part);
     return {upside_down.denominator, upside_down.numerator};
@@ -101,13 +101,13 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
     if (format.pixels == PixelForm::yuv420)
-        // What yuv420.h makes; without the tags players would show other colours.
+        // Matches yuv420.h; without the tags players would show other colors.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});
     append(arguments, codec_arguments(format.kind, options));
     // No dates and versions in the file: the same frames give the same bytes.
     append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});   // plays while it loads
+    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});   // playable during download
     append(arguments, {"-f", format.container, file_argument(output)});
     return arguments;
 }
@@ -115,7 +115,7 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
 Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
-                       // An ordered pattern does not crawl from frame to frame, and what stands still compresses. Coarser
+                       // An ordered pattern does not move between frames, and still regions compress well. Coarser
                        // patterns (a smaller scale) hide the ground's lines.
                        "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
                        "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif",

@@ -1,4 +1,4 @@
-// One frame as the bytes that ffmpeg is fed with, kept up to date from the pictures: only what changed is converted.
+// One frame as input bytes of ffmpeg, updated from the images: only changed regions are converted.
 #pragma once
 
 #include "core/image.h"
@@ -14,10 +14,11 @@ namespace tumble {
 
 class VideoPixels {
 public:
-    /// Of pictures of this size; for 4:2:0 an odd last column or row is there twice.
+    /// `width`, `height`: of the images; for 4:2:0 an odd last column or row is duplicated.
     VideoPixels(PixelForm form, int width, int height);
 
-    /// Takes over the parts of the picture that may differ from the one before; at first that must be all of it.
+    /// Converts the regions of the image that may differ from the previous one; in the first call that must be all of
+    /// it.
     void update(const Image& image, std::span<const Rectangle> changed);
 
     std::span<const std::byte> bytes() const { return std::as_bytes(std::span(bytes_)); }
@@ -27,7 +28,7 @@ private:
 
     PixelForm form_;
     int width_, height_;
-    Image padded_;                       // empty where the size is even
+    Image padded_;                       // empty if the size is even
     std::vector<std::uint8_t> bytes_;
 };
 

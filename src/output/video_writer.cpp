@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_frame = 1.0;   // s: players jump to frames, and streams start with one
+constexpr double longest_frame = 1.0;   // s: players seek to stored frames, and streams start with one
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void VideoWriter::send(std::span<const std::byte> bytes) {
 }
 
 void VideoWriter::finish() {
-    if (frames_in_clip_ > 0 && last_sent_ + 1 < frames_in_clip_) send(frames_in_clip_ - 1);   // else it would end early
+    if (frames_in_clip_ > 0 && last_sent_ + 1 < frames_in_clip_) send(frames_in_clip_ - 1);   // otherwise the clip would end early
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
@@ -103,7 +103,7 @@ void VideoWriter::finish() {
 void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
-        if (abandoned_) throw RunError(fmt::format("'{}' was given up", safe_path(clip_)));
+        if (abandoned_) throw RunError(fmt::format("'{}' was abandoned", safe_path(clip_)));
         gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())), file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
@@ -133,7 +133,7 @@ std::vector<std::string> VideoWriter::with_report(std::vector<std::string> argum
 
 void VideoWriter::check_clip(const std::string& container, const ProcessEnd& end) const {
     if (!report_) return check_file(file_.path(), container, end);
-    // The clip is with its reader. A GIF may store fewer frames.
+    // The clip is already with its reader. A GIF may store fewer frames.
     if (const auto fault = report_->fault(container == "gif" ? 1 : sent_))
         fail(end, fmt::format("ended with exit code 0, but {}", *fault));
 }

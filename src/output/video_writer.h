@@ -1,7 +1,8 @@
-// A clip, made by the ffmpeg program while frames are still being drawn: each goes through a pipe as it is finished.
+// A clip, encoded by the ffmpeg program while later frames are drawn: each frame goes through a pipe when it is
+// finished.
 //
-// A picture that stays goes there once: its time stamp says how long it is shown (FrameTimes), but for once a second,
-// so that players can jump, and at the end of the clip.
+// An unchanged picture is sent once: its time stamp defines how long it is shown (FrameTimes). It is repeated once per
+// second, so that players can seek, and at the end of the clip.
 #pragma once
 
 #include "core/image.h"
@@ -23,34 +24,34 @@
 
 namespace tumble {
 
-/// Where the ffmpeg program is. Throws RunError saying how to get it.
+/// Path of the ffmpeg program. Throws RunError with the remedy if it is missing.
 std::filesystem::path find_ffmpeg();
 
 /// Writes frames in order; the clip appears under its name at finish(), or never. Not for several threads at once,
-/// but for abandon().
+/// except for abandon().
 class VideoWriter {
 public:
-    /// Of pictures of this size. Starts ffmpeg. Throws InputError for an ending or a rate that cannot be (see
-    /// video_format()), RunError where ffmpeg is missing or the folder cannot be written.
+    /// Starts ffmpeg, for pictures of this size. Throws InputError for an invalid ending or rate (see video_format()),
+    /// RunError if ffmpeg is missing or the folder cannot be written.
     VideoWriter(const std::filesystem::path& clip, int width, int height, double fps, const ClipOptions& options = {});
 
-    /// The next frame, as a picture. Throws RunError with ffmpeg's words when it died.
+    /// The next frame, as a picture. Throws RunError with ffmpeg's message if it died.
     void write(const Image& picture);
-    /// The next frame, as the bytes of a VideoPixels; kept until the frame after it.
+    /// The next frame, as the bytes of a VideoPixels; held until the frame after it.
     void write(std::shared_ptr<const std::byte> pixels);
-    /// The next frame is the same as the one before.
+    /// The next frame equals the previous one.
     void repeat();
 
-    /// Waits for ffmpeg, looks whether the clip is whole (clip_check.h) and gives it its name. Throws RunError with ffmpeg's words
-    /// where it is not.
+    /// Waits for ffmpeg, checks that the clip is complete (clip_check.h) and renames it to its final name. Throws
+    /// RunError with ffmpeg's message if it is not.
     void finish();
 
-    /// Stops ffmpeg at once, from any thread; a write() that waits comes back with an error.
+    /// Stops ffmpeg at once, from any thread; a waiting write() then throws an error.
     void abandon();
 
-    /// What ffmpeg used, in s of CPU time; known after finish().
+    /// CPU time of ffmpeg, s; known after finish().
     double encoder_seconds() const { return encoder_seconds_; }
-    /// Frames that the clip shows (a GIF takes 50 a second at most), and how many of them are stored.
+    /// Frames that the clip shows (of a GIF at most 50 per second), and the number of stored ones.
     std::int64_t frames_in_clip() const { return frames_in_clip_; }
     std::int64_t frames_stored() const { return sent_; }
 
@@ -64,22 +65,22 @@ private:
     void send(std::int64_t frame);
     void send(std::span<const std::byte> bytes);
     void convert_to_gif();
-    std::filesystem::path argument_of_clip() const;   // for ffmpeg
+    std::filesystem::path argument_of_clip() const;   // argument for ffmpeg
 
     std::filesystem::path clip_;
     VideoFormat format_;
-    VideoPixels pixels_;                          // of pictures that come as such
+    VideoPixels pixels_;                          // of frames that arrive as pictures
     std::filesystem::path program_;
     TemporaryFile file_;
     std::optional<PartFile> lossless_;            // a GIF's first stage
     std::optional<EncoderReport> report_;         // of a clip that is written in place
     std::shared_ptr<const std::byte> latest_;     // the frame written last,
-    std::shared_ptr<const std::byte> shown_;      // and the one sent last (a GIF takes fewer); null before the first
-    std::int64_t longest_;                        // frames that one is shown for, at most
+    std::shared_ptr<const std::byte> shown_;      // and the one sent last (of a GIF, fewer are sent); null before the first
+    std::int64_t longest_;                        // largest number of frames for which one picture is shown
     std::int64_t frames_ = 0, frames_in_clip_ = 0, sent_ = 0;
     std::int64_t last_sent_ = -1;                 // its number in the clip
     double encoder_seconds_ = 0.0;
-    std::mutex abandon_mutex_;                    // abandon() against the change from encoder to GIF maker
+    std::mutex abandon_mutex_;                    // guards abandon() against the change from encoder to GIF maker
     bool abandoned_ = false;
     std::optional<Process> encoder_, gif_maker_;  // last: they end before their files are removed
 };

@@ -13,27 +13,27 @@ namespace {
 
 constexpr int fraction_bits = 15;
 
-/// What R, G and B count for in one plane, times 2^15.
+/// Weights of R, G and B in one plane, times 2^15.
 struct Weights {
     int r, g, b;
 };
-// Rounded so that white is 235 (the first adds up to 219/255) and grey has no colour (the others to nothing).
+// Rounded so that white is 235 (the first adds up to 219/255) and gray has no color (the others add up to 0).
 constexpr Weights to_y{5983, 20127, 2032}, to_cb{-3298, -11094, 14392}, to_cr{14392, -13072, -1320};
 static_assert(to_cb.r + to_cb.g + to_cb.b == 0 && to_cr.r + to_cr.g + to_cr.b == 0);
 
 constexpr int y_offset = 16, chroma_offset = 128;
-constexpr int y_shift = fraction_bits, chroma_shift = fraction_bits + 2;   // colour comes as the sum of four pixels
+constexpr int y_shift = fraction_bits, chroma_shift = fraction_bits + 2;   // color is computed from the sum of four pixels
 
-/// Places the offset, and a half for rounding.
+/// The offset, and a half for rounding.
 constexpr int bias(int offset, int shift) { return (offset << shift) + (1 << (shift - 1)); }
 
 std::uint8_t weigh(const Weights& w, int r, int g, int b, int offset, int shift) {
     return static_cast<std::uint8_t>((w.r * r + w.g * g + w.b * b + bias(offset, shift)) >> shift);
 }
 
-/// Two rows of pixels and where their values go.
+/// Two rows of pixels and the destination of their values.
 struct RowPair {
-    const std::uint8_t* top;      // R, G, B and a byte that is not looked at
+    const std::uint8_t* top;      // R, G, B and an unused byte
     const std::uint8_t* bottom;
     std::uint8_t* y_top;
     std::uint8_t* y_bottom;
@@ -70,7 +70,7 @@ __m128i repeated(const Weights& w) {
     return _mm_setr_epi16(r, g, b, 0, r, g, b, 0);
 }
 
-/// The pixels beside each other, added up: of (p0, p1) and (p2, p3), (p0 + p1, p2 + p3).
+/// Sums of adjacent pixels: of (p0, p1) and (p2, p3), (p0 + p1, p2 + p3).
 __m128i add_neighbours(__m128i first, __m128i second) {
     return _mm_add_epi16(_mm_unpacklo_epi64(first, second), _mm_unpackhi_epi64(first, second));
 }

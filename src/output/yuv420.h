@@ -1,11 +1,12 @@
-// From pictures to video: planes of brightness (Y) and colour differences (Cb, Cr), the latter for squares of 2 x 2
-// pixels (4:2:0), as ITU-R BT.709 has them, limited range, 8 bits:
+// From images to video: planes of brightness (Y) and color differences (Cb, Cr), the latter for squares of 2 x 2 pixels
+// (4:2:0), by ITU-R BT.709, limited range, 8 bits:
 //
 //   Y  = 16 + 219 (0.2126 R + 0.7152 G + 0.0722 B) / 255
 //   Cb = 128 + 224 (B - (Y - 16) 255 / 219) / 1.8556 / 255,   Cr the same with R and 1.5748
 //
-// of the encoded values R, G, B; Cb and Cr of the mean of the four pixels, so that they sit in the middle of the square.
-// All in integers (15 bits behind the point): the same bytes on every processor, within one level of the formula.
+// of the encoded values R, G, B; Cb and Cr of the mean of the four pixels, so that they are sited at the center of the
+// square. Computed in integers (15 fractional bits): the same bytes on every processor, within one level of the
+// formula.
 #pragma once
 
 #include "core/image.h"
@@ -17,10 +18,10 @@
 
 namespace tumble {
 
-/// Bytes of a frame: the Y plane, then Cb, then Cr, rows without padding. Width and height must be even.
+/// Bytes of a frame: the Y plane, then Cb, then Cr, rows without padding. Precondition: width and height are even.
 std::size_t yuv420_bytes(int width, int height);
 
-/// Converts the part, grown to whole squares; the rest of the planes is left as it is. The picture's size must be even.
+/// Converts the region, enlarged to whole squares; the rest of the planes is unchanged. Precondition: the size is even.
 void convert_to_yuv420(const Image& image, const Rectangle& part, std::span<std::uint8_t> planes);
 
 }  // namespace tumble

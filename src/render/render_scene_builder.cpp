@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-// Which bodies some eye of the camera has near, as they start.
+// True for each body near a possible eye position, at the initial poses.
 std::vector<char> bodies_near(const SceneDescription& scene, const RenderScene& looks) {
     std::vector<Vec3> eyes;
     for (const CameraKeyframe& key : scene.camera.keyframes) eyes.push_back(key.eye);
@@ -36,8 +36,8 @@ std::vector<char> bodies_near(const SceneDescription& scene, const RenderScene& 
     return near;
 }
 
-// A quarter of the typical reach, but so coarse that the atlas' window holds the bodies as they start, but for stragglers
-// and what is lost.
+// A quarter of the typical AO radius, or coarser so that the tile in the atlas contains the bodies at their initial
+// poses, without outliers.
 double window_cell_for(const SceneDescription& scene, const RenderScene& looks) {
     constexpr double stragglers = 0.02, margin = 1.1;
     double extent = 0.0;

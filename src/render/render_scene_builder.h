@@ -1,4 +1,4 @@
-// The whole render scene of a scene: its bodies, and the data that ambient occlusion keeps of them.
+// Builds the render scene: the bodies, and the data that ambient occlusion keeps of them.
 #pragma once
 
 #include "render/scene/render_scene.h"

@@ -1,4 +1,4 @@
-// A frame as a table of contents; each step has a file of its own.
+// The sequence of a frame; each step has a file of its own.
 #include "render/render_scene_builder.h"
 #include "render/renderer.h"
 
@@ -36,7 +36,7 @@
 namespace tumble {
 namespace {
 
-// The driver's words for itself; a null pointer would mean that no context is current.
+// A string of the driver; null would mean that no context is current.
 std::string words(const GlFunctions& gl, GLenum name) {
     const GLubyte* text = gl.GetString(name);
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
@@ -83,14 +83,14 @@ struct Renderer::State {
           times(options.times),
           turns(options.turns) {
         drawn.forget_bodies();
-        gl.FrontFace(GL_CW);  // the picture is drawn upside down (see Camera)
+        gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
         gl.Enable(GL_DEPTH_TEST);
         gl.Enable(
-            GL_DEPTH_CLAMP);  // nothing is cut off in front of the near plane or in front of the sun's first depth
+            GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
         gl.DepthFunc(GL_LEQUAL);
     }
 
-    // Another renderer's context may be current: what goes is ours only while ours is.
+    // The context of another renderer may be current; objects must be deleted in this one.
     ~State() {
         try {
             context->make_current();
@@ -98,7 +98,7 @@ struct Renderer::State {
         }
     }
 
-    // False: it is where it was.
+    // Returns false if the camera has not moved.
     bool move_camera(const Snapshot& snapshot) {
         CameraDescription now = path.at(snapshot);
         if (same_place(now, camera)) return false;
@@ -108,7 +108,7 @@ struct Renderer::State {
         return true;
     }
 
-    // With draws of which nothing is let through. Those that take longest first: see ShaderCompileSchedule.
+    // Draws with all output masked. The slowest shaders come first: see ShaderCompileSchedule.
     void compile_shaders(const DrawList& list) {
         if (turns == nullptr) return;
         bind_textures();
@@ -129,7 +129,7 @@ struct Renderer::State {
         gl.BindTexture(GL_TEXTURE_2D, shadow_map.texture());
     }
 
-    // Before the bodies. While the camera stands still, what is behind them is kept.
+    // Call before drawing bodies. While the camera stands still, the background is stored.
     void begin_picture(const std::vector<PlanePatch>& patches, bool camera_moved) {
         background_kept = background_kept && !changes.background_changed();
         if (camera_moved) {
@@ -151,7 +151,7 @@ struct Renderer::State {
     RenderScene looks;
     bool sun_up;
     CameraAnimation path;
-    CameraDescription camera;   // as it was for the last picture
+    CameraDescription camera;   // of the previous frame
     Camera view;
     CascadeFitter stage;
     AmbientOcclusion occlusion;
@@ -159,10 +159,10 @@ struct Renderer::State {
     DirtyTiles last_marks;
     MeshLods details;
     EdgeFinder edges;
-    Image drawn_image;  // as it was drawn, with surface numbers in alpha
+    Image drawn_image;  // as drawn, with surface ids in alpha
     std::unique_ptr<GlContext> context;
     GlFunctions gl;
-    // Cords can be thinner than a pixel: those scenes take several samples.
+    // False in scenes with cords, which can be thinner than a pixel and need several samples.
     bool smooth_edges;
     Framebuffer framebuffer;
     GlObject uniforms;
@@ -172,7 +172,7 @@ struct Renderer::State {
     BodyPass programs;
     PlanePass planes;
     bool background_kept = false;
-    std::vector<Rectangle> changed, closing;   // what is drawn anew; what was before and is not now
+    std::vector<Rectangle> changed, closing;   // redrawn regions; regions drawn in the previous frame and not in this one
     bool full_redraw, draw_hidden;
     PassTimes* times;
     ShaderCompileSchedule* turns;   // until its shaders are compiled
@@ -187,7 +187,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(const Snapshot& whole, Image& frame) {
     State& s = *state_;
-    s.context->make_current();  // there may be other renderers in this thread
+    s.context->make_current();  // another renderer may have been used in this thread
     PassTimer clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
     const bool camera_moved = s.move_camera(whole);
@@ -207,7 +207,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     const Visibility seen = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
     std::optional<Visibility> everything;
     const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.looks, s.view)) : seen;
-    // Of what is seen alone: where a tile lies in the atlas may tell in a colour's last digit.
+    // Of visible bodies only: the place of a tile in the atlas may change the last digit of a color.
     const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, seen);
     DirtyTiles marks = s.changes.find(state, darkening, visibility);
     if (s.full_redraw) marks.mark_all();
@@ -256,7 +256,7 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(Pass::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(Pass::planes);
-    if (camera_moved) s.planes.draw_open(planes, s.looks);   // last: not where bodies and their shadows are already
+    if (camera_moved) s.planes.draw_open(planes, s.looks);   // last, so that pixels of bodies and their shadows are skipped
     clock.ends(Pass::background);
 
     s.framebuffer.resolve(s.changed);
@@ -272,7 +272,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         }
     }
     copy_opaque(s.drawn_image, written, frame);
-    // Of what is hidden, drawn or not, no edges: surfaces share numbers, and one might be taken for what lies before it.
+    // Hidden items have no edges, drawn or not: surfaces share ids, and one might be mistaken for the surface in front
+    // of it.
     if (s.smooth_edges) {
         blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
         blend_rods(s.drawn_image, s.edges.rods(), marks, frame);

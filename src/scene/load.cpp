@@ -69,7 +69,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
         read->push_back(file);
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());
     }
-    if (overrides.integrator)   // the command line speaks for every body
+    if (overrides.integrator)   // the option applies to every body
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
     read_cords(root, scene);

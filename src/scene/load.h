@@ -12,12 +12,12 @@ namespace tumble {
 
 using FileList = std::vector<std::filesystem::path>;
 
-/// Throws InputError with file, line and column for anything the format forbids: nothing is guessed.
-/// The files that were read are appended to `read`, where that is given: the scene's own and those of its meshes.
+/// Throws InputError with file, line and column for any violation of the format. Appends the files that were read to
+/// `read`, if given: the scene's own and those of its meshes.
 SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {},
                             FileList* read = nullptr);
 
-/// The same from text, for tests; relative mesh paths are resolved against the folder of `file`.
+/// The same from text, for tests; relative mesh paths are relative to the folder of `file`.
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
                              const SceneOverrides& overrides = {}, FileList* read = nullptr);
 

@@ -1,4 +1,4 @@
-// What pictures take is known before they are drawn, and what does not fit is refused or drawn by fewer processes.
+// The memory of pictures is known in advance; a run that does not fit is refused or uses fewer processes.
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
 
@@ -24,7 +24,7 @@ PictureWork clip_of(std::int64_t frames) {
     return work;
 }
 
-TEST(PictureMemory, GrowsWithWhatIsAskedFor) {
+TEST(FrameMemory, GrowsWithTheRequestedOutputs) {
     const SceneDescription scene = scene_of(1000, 1000);
     constexpr std::uint64_t pixels = 1'000'000;
     PictureWork work;
@@ -44,8 +44,8 @@ TEST(PictureMemory, GrowsWithWhatIsAskedFor) {
     EXPECT_EQ(picture_memory(scene, depth).worker, (16 + 2 * 4) * pixels);
 }
 
-TEST(PictureMemory, FewerProcessesDrawWhereNotAllFit) {
-    const SceneDescription scene = scene_of(8192, 8192);   // 2.34 GiB a worker, 1.56 GiB of ffmpeg's
+TEST(FrameMemory, FewerProcessesDrawIfNotAllFit) {
+    const SceneDescription scene = scene_of(8192, 8192);   // 2.34 GiB per worker, 1.56 GiB for ffmpeg
     const AvailableMemory all{64 * gibi, "the machine"};
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, all, all), 6);
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, all, {10 * gibi, "the machine"}), 3);
@@ -53,7 +53,7 @@ TEST(PictureMemory, FewerProcessesDrawWhereNotAllFit) {
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, {3 * gibi, "ulimit"}, all), 6) << "a process's limit holds for each";
 }
 
-TEST(PictureMemory, WhatDoesNotFitIsRefused) {
+TEST(FrameMemory, ARunThatDoesNotFitIsRefused) {
     const SceneDescription scene = scene_of(8192, 8192);
     const AvailableMemory all{64 * gibi, "the machine"}, little{2 * gibi, "the machine"};
     EXPECT_THROW(workers_that_fit(scene, clip_of(100), 6, little, all), RunError);

@@ -1,4 +1,4 @@
-// Signals that ask the program to end: taken between two pieces of work, and never in the middle of a report.
+// Signals that ask the program to end are handled between two pieces of work, and never in the middle of a report.
 #include "app/threads/interrupt.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// The signal's disposition is the default one in every test: else a signal that is not held back would end nothing.
+/// The signal's disposition is the default one in every test; otherwise an unblocked signal would have no effect.
 void expect_default_disposition() {
     struct sigaction action {};
     sigaction(SIGTERM, nullptr, &action);
@@ -29,7 +29,7 @@ TEST(Interrupt, ASignalThatComesAtTheEndIsDropped) {
     {
         Interrupt interrupt;
         raise(SIGTERM);
-    }   // would end this program, were it not dropped
+    }   // would end this program if it were not dropped
     sigset_t waiting;
     sigpending(&waiting);
     EXPECT_EQ(sigismember(&waiting, SIGTERM), 0);

@@ -1,4 +1,4 @@
-// Files get their names in the order in which they were put, however long each takes to reach the disk.
+// Files get their names in the order of the queue, even if some take longer to reach the disk.
 #include "app/files/publish_queue.h"
 #include "core/error.h"
 
@@ -40,7 +40,7 @@ namespace {
 
 std::filesystem::path name_of(const TestFolder& folder, int number) { return folder / fmt::format("{:03}", number); }
 
-/// Puts so many files; the threads' first error, if any. `look` is called all the while.
+/// Puts this many files; returns the threads' first error, if any. `look` is called repeatedly.
 template <class Look>
 bool publish(const TestFolder& folder, PublishQueue& queue, int files, const Look& look) {
     StageTime time;
@@ -67,10 +67,10 @@ bool publish(const TestFolder& folder, PublishQueue& queue, int files, const Loo
     return !failed;
 }
 
-/// How many there are; all of them without a gap, or -1.
+/// Number of files; all of them without a gap, or -1.
 int in_order(const TestFolder& folder, int files) {
     int there = 0;
-    for (int n = files; n-- > 0;) {   // from the end: one that is made meanwhile is no gap
+    for (int n = files; n-- > 0;) {   // from the end, so that a file made meanwhile is no gap
         const bool exists = std::filesystem::exists(name_of(folder, n));
         if (exists) ++there;
         if (!exists && there > 0) return -1;
@@ -97,11 +97,11 @@ TEST(PublishQueue, NoneAfterOneThatFailed) {
     failing_sync = -1;
     const int there = in_order(folder, 60);
     EXPECT_GE(there, 20);
-    EXPECT_LE(there, 33);   // those that were waited for beside it may have come before
+    EXPECT_LE(there, 33);   // those that were waited for at the same time may be published
     EXPECT_EQ(std::size_t(there), folder.files()) << "nothing hidden is left";
 }
 
-TEST(PublishQueue, ACancelledOneLeavesNothing) {
+TEST(PublishQueue, ACanceledOneLeavesNothing) {
     const TestFolder folder;
     PublishQueue queue;
     queue.cancel();

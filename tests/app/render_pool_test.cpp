@@ -1,4 +1,4 @@
-// The drawing processes: the same bytes from any number of them, an error for each that dies, and none left behind.
+// Render processes: the same bytes for any number of them, an error for each that dies, and none left behind.
 #include "app/files/aov_file.h"
 #include "app/workers/render_pool.h"
 #include "core/error.h"
@@ -56,7 +56,7 @@ Snapshot at_frame(std::int64_t n) {
 
 MotionBlurFrame sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
 
-/// The shutter is open while the box moves, until it is at its next place; where it does not move, all moments are the same.
+/// The shutter is open while the box moves to its next place; without movement, all moments are the same.
 MotionBlurFrame blurred(std::int64_t n) {
     MotionBlurFrame exposure = sharp(n);
     const Snapshot next = at_frame(n + 1);
@@ -76,7 +76,7 @@ struct Seen {
     friend bool operator==(const Seen&, const Seen&) = default;
 };
 
-/// Draws so many frames; `meanwhile` is called with each number as its frame comes out.
+/// Draws this many frames; `meanwhile` is called with the number of each finished frame.
 std::vector<Seen> draw(RenderPool& drawer, const SceneDescription& scene, std::int64_t frames,
                        const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
                        const std::function<MotionBlurFrame(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
@@ -146,12 +146,12 @@ TEST(RenderPool, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
     }
 }
 
-// Trembling tells: a pose that is drawn anew only when it has moved far enough is that of the whole clip.
-TEST(RenderPool, AFrameIsTheSameWhicheverWasTheFirst) {
+// With jitter: a filtered pose depends on all earlier frames of the clip.
+TEST(RenderPool, AFrameDoesNotDependOnTheFirstFrame) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
         MotionBlurFrame exposure = sharp(n);
-        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // .02 pixels are .9e-3 m
+        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // 0.02 pixels are 0.9e-3 m
         return exposure;
     };
     for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping), std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
@@ -179,7 +179,7 @@ AovSet depth_and_motion() {
     return aovs;
 }
 
-/// Frames of which some differ by less than is drawn.
+/// Frames of which some differ by less than the tolerance of the pose filter.
 Snapshot trembling(std::int64_t n) {
     Snapshot snapshot = at_frame(n);
     snapshot.bodies[1].origin.x() += n % 5 == 0 ? 1e-7 : 0.0;
@@ -188,7 +188,7 @@ Snapshot trembling(std::int64_t n) {
 
 MotionBlurFrame with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
 
-TEST(RenderPool, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
+TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
     const SceneDescription scene = two_boxes();
     FrameOutputs with = both, alone;
     with.aovs = alone.aovs = depth_and_motion();
@@ -219,13 +219,13 @@ TEST(RenderPool, AovsDependOnNoNumberOfProcessesAndChangeNoPicture) {
         EXPECT_EQ(first[n].repeated, pictures[n].repeated) << n;
         EXPECT_TRUE(first[n].video == pictures[n].video && first[n].png == pictures[n].png) << n;
     }
-    // In the pictures nothing moves from frame 15 on, but the values tell 20 from 21.
+    // In the pictures nothing moves from frame 15 on, but the AOVs of 20 and 21 differ.
     EXPECT_TRUE(first[20].repeated && first[21].repeated);
     EXPECT_NE(first[20].aovs, first[21].aovs);
     EXPECT_EQ(first[22].aovs, first[23].aovs);
 }
 
-// Of work in a process of its own: this one must stay without OpenGL, so that the next tests can fork.
+// Runs work in a process of its own: this one must not use OpenGL, so that later tests can fork.
 int status_of_process(const std::function<int()>& work) {
     const pid_t id = fork();
     if (id == 0) _exit(work());
@@ -234,7 +234,7 @@ int status_of_process(const std::function<int()>& work) {
     return status;
 }
 
-TEST(RenderPool, AllFormsAreOfThePictureThatTheRendererDraws) {
+TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
     const SceneDescription scene = two_boxes();
     RenderPool drawer(scene, {}, both, 2);
     const std::vector<Seen> seen = draw(drawer, scene, 16);
@@ -302,7 +302,8 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
         const pid_t process = drawer.processes().back();
         std::int64_t last = -1;
         const std::string error = error_of([&] {
-            // Frames without end, all of which move: the run can only end by the error, whoever draws how many of them.
+            // An infinite number of moving frames: the run can only end by the error, however the frames are
+            // distributed.
             const auto meanwhile = [&](std::int64_t n) {
                 if (n == 3) kill(process, SIGKILL);
                 last = n;
@@ -312,11 +313,11 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
         constexpr std::string_view words = "error: cannot draw frame ";
         ASSERT_EQ(error.find(words), 0u) << error;
         EXPECT_NE(error.find("its process ended by signal 9"), std::string::npos) << error;
-        EXPECT_LT(last, std::stoll(error.substr(words.size())));   // what comes after the one that was lost is not handed on
+        EXPECT_LT(last, std::stoll(error.substr(words.size())));   // frames after the lost one are not delivered
     }
 }
 
-TEST(RenderPool, WhatOpenGlSaysIsReported) {
+TEST(RenderPool, OpenGlErrorsAreReported) {
     const SceneDescription scene = two_boxes();
     RenderOptions options;
     options.shader_folder = "/nowhere";
@@ -327,7 +328,7 @@ TEST(RenderPool, WhatOpenGlSaysIsReported) {
     EXPECT_EQ(error.find("error:", 1), std::string::npos) << error;
 }
 
-TEST(RenderPool, AbandonedItComesBack) {
+TEST(RenderPool, RunReturnsAfterAbandon) {
     const SceneDescription scene = two_boxes();
     RenderPool drawer(scene, {}, both, 2);
     EXPECT_NE(error_of([&] {

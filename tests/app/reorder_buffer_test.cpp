@@ -1,4 +1,4 @@
-// Frames of several workers, put in order and told apart.
+// Frames of several workers are put in order, and repetitions are detected.
 #include "app/workers/reorder_buffer.h"
 #include "core/error.h"
 
@@ -49,7 +49,7 @@ TEST(ReorderBuffer, ARepeatedFrameShowsTheOneBefore) {
     }
 }
 
-TEST(ReorderBuffer, AovsGoTheirOwnWay) {
+TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
     ReorderBuffer order(1);
     const auto with_aovs = [](Frame frame) {
         frame.aov_slot = std::make_shared<std::int64_t>(frame.number);
@@ -73,9 +73,9 @@ TEST(ReorderBuffer, AovsGoTheirOwnWay) {
     }
 }
 
-TEST(ReorderBuffer, UnchangedIsMeantOfTheWorkersOwnFrame) {
-    // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. "Unchanged" since its own last frame is a repetition only where
-    // that is also the picture just before.
+TEST(ReorderBuffer, UnchangedRefersToTheWorkersOwnFrame) {
+    // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. A frame that is "unchanged" since the worker's own previous frame
+    // is a repetition only if that is also the previous picture of the clip.
     ReorderBuffer order(2);
     const auto add = [&](std::int64_t n, std::size_t worker, bool unchanged) { order.add(numbered(n), worker, unchanged); };
     add(0, 0, false);

@@ -1,4 +1,4 @@
-// Slow motion and speed-up against a run at the normal speed.
+// Slow motion and speed-up compared with a run at normal speed.
 #include "app/timing/motion_blur.h"
 #include "app/timing/time_scaling.h"
 #include "core/error.h"
@@ -34,7 +34,7 @@ std::vector<Snapshot> frames_of(const SceneDescription& scene, const FrameTiming
     return frames;
 }
 
-TEST(Speed, KeepsTheStepWhereItCan) {
+TEST(TimeScaling, KeepsTheStepIfPossible) {
     const SceneDescription scene = falling_box();
     const std::vector<Snapshot> normal = frames_of(scene, scene.timing());
     for (const auto& [speed, steps] : {std::pair{0.25, 1}, {0.5, 2}, {2.0, 8}, {3.0, 12}}) {
@@ -43,7 +43,7 @@ TEST(Speed, KeepsTheStepWhereItCan) {
         EXPECT_EQ(timing.steps_per_frame, steps);
         const std::vector<Snapshot> frames = frames_of(scene, timing);
         EXPECT_EQ(std::int64_t(frames.size()), std::int64_t(60.0 / speed) + 1);
-        // Frame n shows the moment n * speed of the normal run's frames, to the last bit where that has one.
+        // Frame n shows the time n * speed of the normal run's frames, to the last bit if that is one of its frames.
         for (std::size_t n = 0; n < frames.size(); ++n) {
             const double at = double(n) * speed;
             if (at != double(std::size_t(at))) continue;
@@ -55,7 +55,7 @@ TEST(Speed, KeepsTheStepWhereItCan) {
     }
 }
 
-TEST(Speed, NeverMakesTheStepLonger) {
+TEST(TimeScaling, NeverMakesTheStepLonger) {
     for (double speed = slowest_speed; speed <= fastest_speed; speed *= 1.37) {
         const SceneDescription scene = falling_box();
         const FrameTiming timing = timing_at_speed(scene, speed);
@@ -86,7 +86,7 @@ TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
     for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
 }
 
-TEST(Speed, TooManyFramesAreRefused) {
+TEST(TimeScaling, TooManyFramesAreRefused) {
     SceneDescription scene = falling_box();
     scene.simulation.duration = 1e6;
     EXPECT_THROW(timing_at_speed(scene, 1e-3), InputError);

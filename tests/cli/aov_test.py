@@ -1,4 +1,4 @@
-"""More than colour: what `tumble render --aov` writes, read as a user would (np.load without NumPy), against closed forms."""
+"""AOVs: files of `tumble render --aov`, read as a user would (np.load without NumPy), compared with closed forms."""
 
 import ast
 import io
@@ -151,7 +151,7 @@ class Aovs(program.ProgramTest):
     def test_blur_and_slow_motion(self):
         self.check(0, "render", "scene.toml", "--frames", "sharp", "--aov", "depth,motion")
         self.check(0, "render", "scene.toml", "--frames", "blurred", "--aov", "depth,motion", "--shutter", "180")
-        for frame in range(4):   # the values are those of the moment when the shutter opens
+        for frame in range(4):   # values at the time when the shutter opens
             sharp, blurred = self.loaded("sharp", frame), self.loaded("blurred", frame)
             self.assertEqual(sharp["depth"].values, blurred["depth"].values)
             for a, b in zip(sharp["motion"].values, blurred["motion"].values):
@@ -164,15 +164,15 @@ class Aovs(program.ProgramTest):
                                24 / math.tan(math.radians(30)) * (fallen[1] - fallen[0]) / 4, delta=1e-5)
 
     def test_wrong_usage(self):
-        listed = "(there are depth, normal, segmentation, motion, albedo)"
+        listed = "(known: depth, normal, segmentation, motion, albedo)"
         for names, wrong in (("dept", "dept"), ("depth,Normal", "Normal"), ("depth,", ""), ("", ""),
                              ("depth normal", "depth normal")):
             run = self.check(2, "render", "scene.toml", "--frames", "out", "--aov", names)
-            self.assertEqual(run.stderr, f"error: --aov: there is no '{wrong}' {listed}\n")
+            self.assertEqual(run.stderr, f"error: --aov: unknown name '{wrong}' {listed}\n")
         run = self.check(2, "render", "scene.toml", "-o", "a.mp4", "--aov", "depth")
-        self.assertIn("--frames or --aov-folder must say where", run.stderr)
+        self.assertIn("needs --frames or --aov-folder", run.stderr)
         run = self.check(2, "render", "scene.toml", "--frames", "out", "--aov-folder", "values")
-        self.assertIn("--aov must say what", run.stderr)
+        self.assertIn("--aov-folder: needs --aov", run.stderr)
         self.assertEqual(self.names(), [])
 
     def test_nowhere_to_write(self):

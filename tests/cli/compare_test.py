@@ -32,7 +32,7 @@ class Compare(program.ProgramTest):
         self.picture("b.png", 320, 180, GREY, boxes=[(101, 60, 12, 12, RED)])
         self.assertTrue(self.check(1, "compare", "a.png", "b.png").stdout.startswith("different: "))
 
-    def test_a_single_pixel_is_told_with_rule_figure_and_place(self):
+    def test_a_single_pixel_is_reported_with_rule_value_and_place(self):
         self.picture("b.png", 320, 180, GREY, boxes=[(100, 60, 12, 12, RED), (203, 101, 1, 1, (255, 255, 255))])
         self.assertEqual(self.check(1, "compare", "a.png", "b.png").stdout,
                          "different: rule window: the 8 x 8 pixels from x 196, y 96 on differ by 2.109 levels on average "
@@ -42,12 +42,12 @@ class Compare(program.ProgramTest):
         self.assertIn("rule cluster", self.check(1, "compare", "a.png", "b.png", "--window", "255", "--cluster", "0").stdout)
         self.assertIn("rule pixels", self.check(1, "compare", "a.png", "b.png", "--window", "255", "--fraction", "0").stdout)
 
-    def test_the_help_says_every_rule(self):
+    def test_the_help_names_every_rule(self):
         text = self.check(0, "compare", "--help").stdout
         for word in ("--tolerance", "--fraction", "--cluster", "--window", "Rule pixels", "Rule cluster", "Rule window"):
             self.assertIn(word, text)
 
-    def test_a_colour_off_by_8(self):
+    def test_a_color_off_by_8(self):
         self.picture("b.png", 320, 180, (128, 120, 120), boxes=[(100, 60, 12, 12, RED)])
         self.check(1, "compare", "a.png", "b.png")
         self.check(0, "compare", "a.png", "b.png", "--tolerance", 16)
@@ -59,7 +59,7 @@ class Compare(program.ProgramTest):
         self.assertEqual(program.png_size(self.folder / "d.png"), (320, 180))
         self.check(1, "compare", "d.png", "a.png")
 
-    def test_what_cannot_be_compared(self):
+    def test_files_that_cannot_be_compared(self):
         self.picture("wide.png", 321, 180, GREY)
         self.write("text.png", "no picture")
         for a, b in (("a.png", "wide.png"), ("a.png", "none.png"), ("none.png", "a.png"), ("a.png", "text.png"),
@@ -74,7 +74,7 @@ class Compare(program.ProgramTest):
         self.assertIn("'no/d.png'", run.stderr)
 
     def bomb(self, name, width, height, interlaced=False):
-        """A few kilobytes that claim to be a black picture of one bit a pixel."""
+        """A few kilobytes that claim to be a black picture of one bit per pixel."""
         row = b"\0" * (1 + (width + 7) // 8)
         pixels = b"" if interlaced else zlib.compress(row * height, 9)
         head = struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, int(interlaced))
@@ -85,7 +85,7 @@ class Compare(program.ProgramTest):
     def limited(what, size):
         return lambda: resource.setrlimit(what, (size, size))
 
-    # One picture alone takes 128 MiB when it is unpacked as a whole.
+    # One picture alone takes 128 MiB if it is unpacked as a whole.
     @program.limits_memory
     def test_large_pictures_are_compared_row_by_row(self):
         self.bomb("large.png", 16384, 2048)
@@ -95,13 +95,13 @@ class Compare(program.ProgramTest):
         self.assertEqual(program.png_size(self.folder / "d.png"), (16384, 2048))
 
     @program.limits_memory
-    def test_what_must_be_unpacked_as_a_whole_is_refused_beyond_the_memory(self):
+    def test_interlaced_pictures_beyond_the_memory_are_refused(self):
         self.bomb("large.png", 16384, 16384, interlaced=True)
         run = self.check(2, "compare", "large.png", "large.png", preexec_fn=self.limited(resource.RLIMIT_DATA, 512 << 20))
         self.assertRegex(run.stderr, r"^error: an interlaced picture of 16384 x 16384 pixels takes 1 GiB of memory, and the limit "
                                      r"of the process's data \(ulimit -d\) has [\d.]+ [MG]iB left; ")
 
-    # 1 is "different": what kept us from telling is 2.
+    # Exit code 1 is "different", so a failure of the comparison must be 2.
     @program.limits_memory
     def test_out_of_memory_is_not_different(self):
         self.bomb("wide.png", 1000000, 4)

@@ -1,5 +1,5 @@
 """The same scene gives the same bytes: run again, with other threads, on an older processor. (tests/physics compares
-optimised and unoptimised code.)"""
+optimized and unoptimized code.)"""
 
 import os
 
@@ -23,7 +23,7 @@ SHAPES = ['{ type = "box", size = [1.0, 0.7, 0.4] }', '{ type = "sphere", radius
 
 
 def heap(count):
-    """Bodies of three kinds that fall onto each other, tilted and turning."""
+    """Bodies of three kinds that fall onto each other, tilted and rotating."""
     bodies = ""
     for n in range(count):
         bodies += (f"[[body]]\nshape = {SHAPES[n % 3]}\nfriction = 0.4\nrestitution = 0.3\n"
@@ -55,7 +55,7 @@ class Determinism(program.ProgramTest):
             self.assertEqual(self.expected, self.tables("--threads", threads), f"{threads} threads")
 
     def test_older_processors(self):
-        # glibc then takes the functions that a processor without AVX and FMA would get.
+        # glibc then selects the functions for a processor without AVX and FMA.
         masked = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-AVX2_Usable,-FMA_Usable"
         self.assertEqual(self.expected, self.tables(env={**os.environ, "GLIBC_TUNABLES": masked}))
 

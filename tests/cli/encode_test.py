@@ -1,4 +1,4 @@
-"""`encode`: frames that are there already become a clip."""
+"""`encode`: a clip from existing frames."""
 
 import os
 
@@ -70,7 +70,7 @@ class Encode(program.ProgramTest):
         self.frames(3)
         (self.folder / "in/frame_000001.png").write_bytes(b"no picture")
         self.fails(2, "in/frame_000001.png: error: not a whole PNG")
-        (self.folder / "in/frame_000001.png").write_bytes(program.png(40, 30)[:90])   # its head is good
+        (self.folder / "in/frame_000001.png").write_bytes(program.png(40, 30)[:90])   # its header is valid
         self.fails(2, "in/frame_000001.png: error: not a whole PNG")
 
     def test_a_frame_that_is_a_pipe_or_device_is_refused(self):
@@ -80,7 +80,7 @@ class Encode(program.ProgramTest):
             frame.unlink()
             make()
             run = self.check(2, "encode", "in", "-o", "a.mp4", timeout=60)
-            self.assertIn("in/frame_000001.png: error: is no regular file", run.stderr)
+            self.assertIn("in/frame_000001.png: error: is not a regular file", run.stderr)
             self.assertFalse((self.folder / "a.mp4").exists())
 
     def test_other_files_do_not_matter(self):

@@ -1,5 +1,5 @@
-"""What the environment does to a run: no ffmpeg, no room, no folder, Ctrl-C, a kill. Nothing half-written may be left
-under its final name, and the exit code is 1."""
+"""Failures of the environment: no ffmpeg, no space, no folder, Ctrl-C, a kill. No unfinished file may be left under its
+final name, and the exit code is 1."""
 
 import os
 import pathlib
@@ -46,7 +46,7 @@ class Failures(program.ProgramTest):
             self.assertIn(f"cannot write 'a.mp4': {self.folder}/bin/ffmpeg failed (exit code 4):\nUnknown encoder", run.stderr)
             self.assertEqual(self.left(), [])
 
-    def test_folders_that_cannot_be(self):
+    def test_impossible_folders(self):
         self.write("file", "")
         for arguments, named in ((["render", "scene.toml", "--frames", "file/out"], "file/out"),
                                  (["render", "scene.toml", "--frames", "file"], "file"),
@@ -71,7 +71,7 @@ class Failures(program.ProgramTest):
         self.assertIn("'/dev/full': No space left", run.stderr)
 
     def limited(self, size):
-        """No file may grow beyond so many bytes."""
+        """Limits the size of files, in bytes."""
         return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
     def test_no_room_for_frames(self):
@@ -118,7 +118,7 @@ class Failures(program.ProgramTest):
                 path.unlink()
 
     def processes_of(self, run):
-        """Its drawing processes: the children that are it again."""
+        """Its render processes: the children that run the same program."""
         children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
         return [int(c) for c in children if pathlib.Path(f"/proc/{c}/comm").read_text().strip() == "tumble"]
 
@@ -167,7 +167,7 @@ class Failures(program.ProgramTest):
                                    cwd=self.folder, stderr=subprocess.PIPE, text=True)
             self.addCleanup(run.kill)
             with open(self.folder / "t.csv", "rb") as reader:
-                self.assertTrue(reader.read(1))   # then none: the pipe fills up
+                self.assertTrue(reader.read(1))   # and no more, so that the pipe fills up
                 time.sleep(1.0)
                 self.assertIsNone(run.poll(), "it waits for the reader")
                 run.send_signal(number)
@@ -202,7 +202,7 @@ class Failures(program.ProgramTest):
                 self.assertTrue(link.is_symlink())
                 self.assertEqual((self.folder / target).read_bytes(), expected, f"{name} to {target}")
 
-    # The pictures of a GIF were first kept in the .mkv of that name.
+    # The first stage of a GIF must not use the .mkv of that name.
     def test_a_gif_beside_a_folder_of_its_name(self):
         (self.folder / "a.mkv").mkdir()
         self.check(0, "render", "scene.toml", "-o", "a.gif")
@@ -214,7 +214,7 @@ class Failures(program.ProgramTest):
         run.communicate(timeout=60)
         self.check_whole_frames()
         self.assertFalse((self.folder / "a.mp4").exists())
-        # ffmpeg and the drawing processes see the end of their input and stop by themselves; they must not outlive the test's folder.
+        # ffmpeg and the render processes see the end of their input and stop; they must not outlive the test's folder.
         deadline = time.monotonic() + 30
         while self.something_runs() and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -232,7 +232,7 @@ class Failures(program.ProgramTest):
 
 @program.limits_memory
 class Memory(program.ProgramTest):
-    """Pictures that do not fit are refused before anything is made."""
+    """Pictures that do not fit into memory are refused before any output is made."""
 
     @staticmethod
     def limited():
@@ -260,9 +260,9 @@ class Memory(program.ProgramTest):
                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (100 << 20, 100 << 20)))
         self.assertRegex(run.stderr, r"^error: a scene of 2 keys and 2000001 items takes 113 MiB of memory, and the limit of ")
 
-    def test_info_tells_what_pictures_take(self):
+    def test_info_gives_the_memory_of_pictures(self):
         text = self.check(0, "info", "scene.toml", "--size", "16384x16384").stdout
-        self.assertRegex(text, r"memory +about 9\.38 GiB for the pictures of each drawing process and 6\.25 GiB for those of ffmpeg")
+        self.assertRegex(text, r"memory +about 9\.38 GiB for the pictures of each render process and 6\.25 GiB for those of ffmpeg")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
-"""Text of others (titles, names, keys, file names, another program's words) on its way to a terminal: nothing in it is a
-command to the terminal, nothing breaks a line, and nothing is endless."""
+"""Foreign text (titles, names, keys, file names, output of another program) in messages: no control sequence of the
+terminal, no line break, and a bounded length."""
 
 import os
 
 import program
 
-# Escape sequences (ESC and C1), a bell, a line break, a turned reading direction, a byte that is no UTF-8.
+# Escape sequences (ESC and C1), a bell, a line break, a reversed reading direction, a byte that is not UTF-8.
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\nerror: fake\u202eab"
 EVIL_TOML = r"\u001b]0;owned\u0007\u001b[2J\u009b31m\nerror: fake\u202eab"
 SHOWN = r"\x1b]0;owned\x07\x1b[2J\u009b31m\nerror: fake\u202eab"
@@ -104,7 +104,7 @@ class HostileText(program.ProgramTest):
         self.assert_safe(self.check(1, "simulate", "scene.toml", "--energy", name + "/no/e.csv"))
         self.assert_safe(self.check(1, "render", "scene.toml", "--frames", name + ".mp4"))
 
-    def test_another_programs_last_words(self):
+    def test_error_messages_of_another_program(self):
         (self.folder / "bin").mkdir()
         fake = self.folder / "bin/ffmpeg"
         fake.write_text(f"#!/bin/sh\nprintf 'Unknown \\033[31mencoder\\n\\302\\233' >&2; exit 4\n")

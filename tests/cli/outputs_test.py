@@ -1,5 +1,5 @@
-"""Where outputs go: standard output and other descriptors, links, names that are read, long names, folders in use, and what
-a killed run left behind."""
+"""Targets of outputs: standard output and other descriptors, links, names of inputs, long names, folders in use, and
+left-overs of killed runs."""
 
 import fcntl
 import json
@@ -28,7 +28,7 @@ class Descriptors(program.ProgramTest):
         self.assertEqual(run.returncode, code, f"{arguments}\n{run.stderr}")
         return path.read_bytes()
 
-    def test_tables_are_added_to_what_is_there(self):
+    def test_tables_are_appended(self):
         self.check(0, "simulate", "scene.toml", "--energy", "e.csv")
         expected = b"old\n" + (self.folder / "e.csv").read_bytes()
         (self.folder / "link").symlink_to("/dev/stdout")
@@ -43,7 +43,7 @@ class Descriptors(program.ProgramTest):
         self.assertTrue((self.folder / "link").is_symlink())
         self.assertEqual(self.names(), ["e.csv", "link", "log", "other", "third"])
 
-    def test_clips_are_added_to_what_is_there(self):
+    def test_clips_are_appended(self):
         for name in ("a.mkv", "a.webm", "a.gif"):
             (self.folder / name).symlink_to("/dev/stdout")
             found = self.run_into("1", "render", "scene.toml", "-o", name)
@@ -54,14 +54,14 @@ class Descriptors(program.ProgramTest):
             (self.folder / name).symlink_to("/dev/stdout")
             self.assertEqual(self.run_into("1", "render", "scene.toml", "-o", name, code=2), b"old\n")
 
-    def test_pictures_are_added_to_what_is_there(self):
+    def test_pictures_are_appended(self):
         (self.folder / "a.png").write_bytes(program.png(8, 8))
         (self.folder / "d.png").symlink_to("/dev/fd/5")
         found = self.run_into("5", "compare", "a.png", "a.png", "--diff", "d.png")
         self.assertTrue(found.startswith(b"old\n\x89PNG"))
 
     def test_a_descriptor_that_is_not_open(self):
-        for name in ("/dev/fd/7", "/proc/self/fd/7"):   # nor one that the program has opened for itself meanwhile
+        for name in ("/dev/fd/7", "/proc/self/fd/7"):   # nor one that the program has opened meanwhile
             run = self.check(1, "simulate", "scene.toml", "--trajectory", "t.csv", "--energy", name)
             self.assertIn(f"cannot write '{name}': Bad file descriptor", run.stderr)
             self.assertEqual(self.names(), [])
@@ -84,7 +84,7 @@ class Descriptors(program.ProgramTest):
         run = subprocess.Popen([program.TUMBLE, "simulate", "scene.toml", "--duration", "60", "--trajectory", "-"],
                                cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(run.kill)
-        self.assertTrue(run.stdout.read(1))   # then none: the pipe fills up
+        self.assertTrue(run.stdout.read(1))   # and no more, so that the pipe fills up
         time.sleep(0.5)
         self.assertIsNone(run.poll(), "it waits for the reader")
         run.send_signal(signal.SIGINT)
@@ -177,7 +177,7 @@ class OneFile(program.ProgramTest):
 
     def test_outputs_among_the_frames(self):
         (self.folder / "out").mkdir()
-        (self.folder / "a.mp4").symlink_to("out/frame_000002.png")   # not there yet
+        (self.folder / "a.mp4").symlink_to("out/frame_000002.png")   # does not exist yet
         self.refused("render", "scene.toml", "-o", "a.mp4", "--frames", "out", said="must be two files")
         (self.folder / "b.mp4").symlink_to("new/frame_000002.png")
         self.refused("render", "scene.toml", "-o", "b.mp4", "--frames", "new", said="must be two files")
@@ -208,13 +208,13 @@ class OneFile(program.ProgramTest):
         (self.folder / "d.png").symlink_to("b.png")
         self.refused("compare", "a.png", "b.png", "--diff", "d.png", said="is read")
 
-    def test_links_in_a_circle(self):
+    def test_link_loops(self):
         (self.folder / "in").mkdir()
         (self.folder / "in/frame_000000.png").write_bytes(program.png(8, 8))
         (self.folder / "out").mkdir()
         for name in ("a.csv", "a.mp4", "a.gif", "a.png", "out/frame_000000.png"):
             (self.folder / name).symlink_to(pathlib.Path(name).name)
-        said = "a link that leads in a circle"
+        said = "its links form a loop"
         self.refused("simulate", "scene.toml", "--energy", "a.csv", said=said)
         self.refused("render", "scene.toml", "-o", "a.mp4", said=said)
         self.refused("render", "scene.toml", "-o", "a.gif", said=said)
@@ -245,7 +245,7 @@ class Names(program.ProgramTest):
                             shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def unprivileged(self, *arguments, code):
-        """Runs as a user that permissions hold for."""
+        """Runs as a user without root's permissions."""
         drop = ["setpriv", "--bounding-set=-dac_override,-dac_read_search"] if os.geteuid() == 0 else []
         run = subprocess.run([*drop, program.TUMBLE, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, timeout=300)
@@ -308,7 +308,7 @@ class Runs(program.ProgramTest):
                     except BlockingIOError:
                         time.sleep(0.01)
 
-    def test_what_a_kill_left_is_removed(self):
+    def test_left_overs_of_a_killed_run_are_removed(self):
         for clip, parts in (("a.gif", 2), ("a.mkv", 1)):
             run = self.started("-o", clip, "--frames", "out", "--aov", "depth")
             self.write(".unlike." + clip + ".tumble.part-00000000", "")   # of another name
@@ -322,7 +322,7 @@ class Runs(program.ProgramTest):
             (self.folder / (".unlike." + clip + ".tumble.part-00000000")).unlink()
             shutil.rmtree(self.folder / "out")
 
-    def test_what_a_killed_simulation_left_is_removed(self):
+    def test_left_overs_of_a_killed_simulation_are_removed(self):
         run = subprocess.Popen([program.TUMBLE, "simulate", "scene.toml", "--trajectory", "t.csv", "--duration", "1e5"],
                                cwd=self.folder, stderr=subprocess.DEVNULL)
         deadline = time.monotonic() + 60
@@ -334,7 +334,7 @@ class Runs(program.ProgramTest):
         self.check(0, "simulate", "scene.toml", "--energy", "t.csv")
         self.assertEqual(self.names(), ["t.csv"])
 
-    def test_what_a_living_run_writes_stays(self):
+    def test_files_of_a_living_run_stay(self):
         run = self.started("-o", "a.mkv", "--frames", "out")
         parts = [name for name in self.hidden() if name.startswith(".a.mkv")]
         self.assertEqual(len(parts), 1)
@@ -361,7 +361,7 @@ class Runs(program.ProgramTest):
         self.check(0, "render", "scene.toml", "--frames", "out", "--duration", "0")   # it is free at once
         self.assertEqual(self.hidden(), [])
 
-    def test_one_folder_for_frames_and_values(self):
+    def test_one_folder_for_frames_and_aovs(self):
         self.check(0, "render", "scene.toml", "--frames", "out", "--aov", "depth", "--aov-folder", "./out", "--duration", "0")
         self.assertEqual(self.names(), ["out", "out/aov_000000.npz", "out/frame_000000.png"])
 

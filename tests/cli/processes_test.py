@@ -1,5 +1,5 @@
-"""Programs and processes that hang, die or are missing, and descriptors that are closed: each run ends by itself or by the
-first signal, and leaves no process behind."""
+"""Programs and processes that hang, die or are missing, and closed descriptors: each run ends by itself or by the first
+signal, and leaves no process behind."""
 
 import itertools
 import os
@@ -51,7 +51,7 @@ class Processes(program.ProgramTest):
         self.assertTrue(condition())
 
     def check_nothing_runs(self):
-        """No process has the test's folder as its own any more."""
+        """True if no process has the test's folder as its working folder."""
         self.until(lambda: not in_folder(self.folder))
 
 
@@ -87,7 +87,7 @@ class ClosedDescriptors(Processes):
                         (self.folder / output).unlink()
                     elif 1 not in closed:
                         self.assertEqual(run.returncode, 0, run.stderr)
-                    else:   # what should have been printed was not
+                    else:   # the requested output was not printed
                         self.assertIn(run.returncode, (0, 1, 2), run.stderr)
         self.check_nothing_runs()
 
@@ -127,7 +127,7 @@ class OddFfmpeg(Processes):
         self.assertEqual(self.left(), [])
         self.check_nothing_runs()
 
-    # Each hangs where it can: before it reads, in the middle, after the last frame.
+    # Each hangs at another place: before it reads, in the middle, after the last frame.
     HANGS = ('exec sleep 1000', 'sleep 1000 & echo $! >> "$left"; wait', 'head -c 2000 > /dev/null; exec sleep 1000',
              'cat > /dev/null; sleep 1000', 'trap "" TERM INT HUP; cat > /dev/null; sleep 1000',
              'kill -STOP $$', 'setsid sleep 1000 & echo $! >> "$left"; sleep 1000',
@@ -149,7 +149,7 @@ class OddFfmpeg(Processes):
                 self.assertIn("error: interrupted", error)
                 self.assertEqual(self.left(), [])
                 (self.folder / "bin/left.started").unlink()
-                if "setsid" in script:   # a process with a session of its own is out of reach
+                if "setsid" in script:   # a process with its own session cannot be killed with the group
                     for process in self.left_processes():
                         end(process)
                 self.check_nothing_runs()
@@ -199,7 +199,7 @@ class LittleMemory(Processes):
             self.assertEqual(self.names(), [])
         self.assertIn(True, kinds)
 
-    def test_doctor_tells_it_from_a_missing_library(self):
+    def test_doctor_distinguishes_it_from_a_missing_library(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (150 << 20, 150 << 20))
         run = self.check(1, "doctor", preexec_fn=limit, timeout=GUARD)
@@ -207,7 +207,7 @@ class LittleMemory(Processes):
         self.assertIn("the limit of address space (ulimit -v) is 150 MiB", run.stdout)
         self.assertNotIn("apt-get install libosmesa6", run.stdout)
 
-    # Threads that had been started waited for work for ever.
+    # Threads that were started before the failure must end.
     def test_no_room_for_threads(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (200 << 20, 200 << 20))   # 64 stacks take 512 MiB
@@ -255,7 +255,7 @@ def end(number):
 
 
 def in_folder(folder):
-    """The processes whose working folder is this one; not those that have ended and wait to be taken."""
+    """The processes whose working folder is this one; without zombies."""
     found = []
     for path in pathlib.Path("/proc").glob("[0-9]*"):
         try:

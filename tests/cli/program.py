@@ -83,7 +83,7 @@ class ProgramTest(unittest.TestCase):
         return run
 
     def names(self):
-        """All files and folders there are, but for the scene."""
+        """All files and folders except the scene."""
         return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if p.name != "scene.toml")
 
     def rows(self, name):
@@ -92,7 +92,7 @@ class ProgramTest(unittest.TestCase):
 
 
 def probe(path, entries):
-    """What ffprobe says of the first video stream, as a list of texts in its own order of entries."""
+    """ffprobe's values of the first video stream, as a list of texts in ffprobe's order of entries."""
     out = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
                           "stream=" + entries, "-of", "default=nw=1:nk=1", path],
                          stdout=subprocess.PIPE, text=True, check=True)
@@ -100,7 +100,7 @@ def probe(path, entries):
 
 
 def chunk(kind, data):
-    """Of a PNG."""
+    """Width and height of a PNG."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 

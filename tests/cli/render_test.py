@@ -72,10 +72,10 @@ class Render(program.ProgramTest):
     RESTING = program.SCENE.replace("position = [0.0, 3.0, 0.0]", "position = [0.0, 0.5, 0.0]").replace(
         "angular_velocity = [1.0, 2.0, 0.5]", "")
 
-    def test_what_rests_is_drawn_once_and_shown_longer(self):
+    def test_unchanged_pictures_are_drawn_once_and_shown_longer(self):
         self.write("resting.toml", self.RESTING)
         run = self.check(0, "render", "resting.toml", "-o", "a.mp4", "--frames", "out", "--duration", "3", "--variable-rate")
-        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (what does not change is shown longer)", run.stderr)
+        self.assertIn("wrote a.mp4: 31 frames of 48 x 32, stored as 4 (unchanged pictures are shown longer)", run.stderr)
         self.assertEqual(program.probe(self.folder / "a.mp4", "duration,nb_read_frames"),
                          ["3.100000", "4"])
         self.assertIn("frames/s; 1 drawn;", run.stderr)
@@ -128,7 +128,7 @@ class Render(program.ProgramTest):
             self.assertNotEqual((self.folder / "sharp" / name).read_bytes(), blurred)
             self.assertEqual((self.folder / "again" / name).read_bytes(), blurred)
 
-    def test_scenes_of_nearly_nothing(self):
+    def test_almost_empty_scenes(self):
         self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")
         self.check(0, "render", "empty.toml", "--frames", "out")
         self.assertEqual(len(list((self.folder / "out").iterdir())), 7)
@@ -152,7 +152,7 @@ class Render(program.ProgramTest):
         try:
             while part := os.read(ours, 4096):
                 said += part
-        except OSError:   # what the end of a terminal looks like
+        except OSError:   # raised at the end of a terminal
             pass
         os.close(ours)
         self.assertEqual(run.wait(timeout=60), 0)

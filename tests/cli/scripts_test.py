@@ -1,4 +1,4 @@
-"""The scripts: --help tells how to call each, and an option that a script does not know ends it before it does anything."""
+"""The scripts: --help shows the usage of each, and an unknown option ends a script before it has any effect."""
 
 import os
 import pathlib
@@ -9,12 +9,12 @@ import unittest
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 SCRIPTS = sorted(p.name for p in FOLDER.iterdir() if p.is_file() and os.access(p, os.X_OK))
-# What would install, build or run something. Each leaves a file behind in place of that.
+# Replaced programs that would install, build or run something; each leaves a file as evidence.
 OTHER_PROGRAMS = ("apt-get", "cmake", "ctest", "dpkg-query", "ffmpeg", "ninja", "sudo")
 
 
 class Scripts(unittest.TestCase):
-    """Each script runs as a copy in a tree of its own, which must stay as it is."""
+    """Each script runs as a copy in a temporary tree, which must stay unchanged."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tumble-scripts-"))
@@ -62,7 +62,7 @@ class Scripts(unittest.TestCase):
         for arguments in (("bench", "no-such-benchmark"), ("bench", "accuracy", "--rounds", "2"), ("bench", "contact", "--case"),
                           ("demo", "more"), ("install-dependencies", "more"), ("accept-golden", "no-such-scene"),
                           ("test", "more"), ("test", "-R"), ("make-crowd-scenes",), ("make-scenes-picture",),
-                          ("make-meshes", "a", "b"), ("plot-contact", "a"), ("make-cli-reference",)):
+                          ("make-meshes", "a", "b"), ("plot-contact", "a"), ("make-cli-reference",), ("check-prose", "no-such-file")):
             with self.subTest(arguments=arguments):
                 run = self.run_script(*arguments)
                 self.assertEqual(run.returncode, 2, run.stdout + run.stderr)

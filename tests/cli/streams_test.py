@@ -17,7 +17,7 @@ class Streams(program.ProgramTest):
         self.addCleanup(self.full.close)
 
     def without_reader(self):
-        """A pipe that no process reads from any more."""
+        """A pipe without a reader."""
         ends = os.pipe()
         os.close(ends[0])
         self.addCleanup(os.close, ends[1])
@@ -27,7 +27,7 @@ class Streams(program.ProgramTest):
         streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **streams}
         return subprocess.run([program.TUMBLE, *arguments], cwd=self.folder, timeout=300, **streams).returncode
 
-    # With the exit code when all can be written.
+    # With the exit code if all output can be written.
     COMMANDS = ((0, "--help"), (0, "--version"), (0, "render", "--help"), (0, "info", "scene.toml"), (0, "doctor"),
                 (0, "compare", "a.png", "a.png"), (1, "compare", "a.png", "b.png"), (2, "compare", "a.png", "none.png"),
                 (0, "render", "scene.toml", "-o", "a.mkv"), (0, "render", "scene.toml", "--frames", "out"),
@@ -41,7 +41,7 @@ class Streams(program.ProgramTest):
                 with self.subTest(arguments=arguments):
                     self.assertEqual(self.code(arguments, stderr=stream), code)
 
-    def test_what_was_asked_for_on_standard_output(self):
+    def test_requested_output_on_standard_output(self):
         cases = ((1, "--help"), (1, "--version"), (1, "encode", "--help"), (1, "info", "scene.toml"), (1, "doctor"),
                  (2, "compare", "a.png", "a.png"), (2, "compare", "a.png", "b.png"),   # 1 means different
                  (1, "simulate", "scene.toml", "--energy", "-"), (1, "simulate", "scene.toml", "--trajectory", "/dev/stdout"))
@@ -56,7 +56,7 @@ class Streams(program.ProgramTest):
                     # Both at once.
                     self.assertEqual(self.code(arguments, stdout=stream, stderr=stream), code)
 
-    def test_nothing_was_asked_for_on_standard_output(self):
+    def test_no_output_requested_on_standard_output(self):
         for arguments in (["render", "scene.toml", "-o", "a.mkv"], ["simulate", "scene.toml", "--energy", "e.csv"],
                           ["encode", "in", "-o", "b.mkv"]):
             self.assertEqual(self.code(arguments, stdout=self.full), 0)
@@ -67,7 +67,7 @@ class Streams(program.ProgramTest):
                 run = subprocess.run(["/bin/bash", "-c", '"$@" 2>&1 | head -1 > /dev/null; echo ${PIPESTATUS[0]}', "sh",
                                       program.TUMBLE, *arguments], cwd=self.folder, timeout=300, stdout=subprocess.PIPE,
                                      text=True)
-                # Whether the reader is gone in time is a race: then what was asked for on standard output is not written.
+                # A race: if the reader has ended in time, the output on standard output is not written.
                 self.assertIn(run.stdout, {f"{code}\n", "1\n", "2\n"})
 
     def test_closed(self):

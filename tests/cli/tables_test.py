@@ -1,4 +1,4 @@
-"""`simulate`: the columns, rows and numbers of the contract."""
+"""`simulate`: the documented columns, rows and numbers."""
 
 import math
 import struct
@@ -144,7 +144,7 @@ class Tables(program.ProgramTest):
         run = self.check(2, "simulate", "scene.toml", "--energy", "-", "--trajectory", "-")
         self.assertIn("must be two files", run.stderr)
 
-    def test_doubles_come_back_to_the_bit(self):
+    def test_doubles_are_restored_to_the_bit(self):
         for row in self.simulate()[0]:
             value = float(row["qx"])
             self.assertEqual(struct.pack("d", value), struct.pack("d", float(f"{value:.17g}")))

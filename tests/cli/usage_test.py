@@ -27,7 +27,7 @@ class Help(program.ProgramTest):
             for line in text.splitlines():
                 self.assertLessEqual(len(line), 120, line)
 
-    def test_help_teaches_the_options_of_the_contract(self):
+    def test_help_has_the_documented_options(self):
         options = {"render": ["-o", "--frames", "--size", "--fps", "--duration", "--samples", "--threads", "--gl", "--quiet"],
                    "simulate": ["--trajectory", "--energy", "--step", "--steps-per-frame", "--integrator", "--impacts",
                                 "--impact-law", "--duration", "--fps", "--threads"],
@@ -70,7 +70,7 @@ class WrongUsage(program.ProgramTest):
                 self.assertEqual(run.stdout, "")
                 self.assertEqual(self.names(), [])
 
-    def test_nothing_that_is_read_is_replaced(self):
+    def test_no_input_is_replaced(self):
         self.write("clip.mp4", program.SCENE)   # a scene whose clip would have its own name
         (self.folder / "a.png").write_bytes(program.png(8, 8))
         for arguments in (["render", "clip.mp4"], ["render", "scene.toml", "-o", "scene.toml"],
@@ -104,14 +104,14 @@ class WrongUsage(program.ProgramTest):
 
 
 class Info(program.ProgramTest):
-    def test_tells_of_bodies_and_cost(self):
+    def test_describes_bodies_and_cost(self):
         text = self.check(0, "info", "scene.toml").stdout
         for part in ("Two bodies", "6 frames", "3 bodies", "1 dynamic box, 600 kg", "1 dynamic sphere", "1 fixed plane",
                      "crate", "100 100 100", "48 x 32"):
             self.assertIn(part, text)
         self.assertEqual(self.names(), [])
 
-    def test_large_scenes_are_summarised(self):
+    def test_large_scenes_are_summarized(self):
         bodies = "".join(f'[[body]]\nshape = {{ type = "sphere", radius = 0.1 }}\nposition = [{n}.0, 1.0, 0.0]\n'
                          for n in range(300))
         self.write("many.toml", "format = 1\n" + bodies)
@@ -126,9 +126,9 @@ class Info(program.ProgramTest):
 
 
 class Doctor(program.ProgramTest):
-    def test_all_there(self):
+    def test_all_requirements_met(self):
         text = self.check(0, "doctor").stdout
-        for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "Everything is there"):
+        for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "All requirements are met"):
             self.assertIn(part, text)
 
     def test_no_ffmpeg(self):

@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 const fs::path source = fs::path(TUMBLE_SOURCE_DIR) / "src";
 
-/// The includes that a top folder may have.
+/// The allowed includes of a top folder.
 struct Layer {
-    std::vector<std::string> allowed;              // beginnings of our headers: a folder ("core/") or one header
-    std::vector<std::string> forbidden_libraries;  // beginnings of system headers
+    std::vector<std::string> allowed;              // prefixes of headers: a folder ("core/") or one header
+    std::vector<std::string> forbidden_libraries;  // prefixes of system headers
 };
 
 const std::map<std::string, Layer> layers = {
@@ -36,7 +36,7 @@ const std::map<std::string, Layer> layers = {
     {"app", {{"core/", "scene/", "sim/", "render/", "output/", "app/"}, {}}},
 };
 
-/// The includes of each folder below src/, by folder.
+/// The included folders of each folder below src/.
 using FolderGraph = std::map<std::string, std::set<std::string>>;
 
 struct Include {

@@ -1,4 +1,4 @@
-// What bounds the memory: folders made as the system has them, and this process's true address space.
+// Bounds of memory: folders like those of the system, and this process's true address space.
 #include "core/available_memory.h"
 #include "core/error.h"
 
@@ -41,7 +41,7 @@ TEST_F(AvailableMemoryTest, AControlGroupOfVersion2) {
     write("proc/self/cgroup", "0::/outer/inner\n");
     write("groups/outer/inner/memory.max", "max\n");
     write("groups/outer/inner/memory.current", "1000\n");
-    write("groups/outer/memory.max", "1073741824\n");   // the one around it bounds, too
+    write("groups/outer/memory.max", "1073741824\n");   // the parent's limit counts as well
     write("groups/outer/memory.current", "734003200\n");
     write("groups/outer/memory.stat", "anon 5\ninactive_file 104857600\nactive_file 209715200\n");
     EXPECT_EQ(available().bytes, (1024 - 700 + 100 + 200) * mebi);
@@ -67,11 +67,11 @@ TEST_F(AvailableMemoryTest, AContainerSeesItsGroupAsTheRoot) {
     EXPECT_EQ(available().bytes, gibi);
 }
 
-TEST_F(AvailableMemoryTest, NothingKnownBoundsNothing) {
+TEST_F(AvailableMemoryTest, UnknownValuesAreNoBounds) {
     EXPECT_GT(available_memory({folder / "none", folder / "none"}).bytes, 1000 * gibi);
 }
 
-/// Ends the process: 7 where the limit of its address space is seen.
+/// Ends the process: 7 if the limit of its address space is detected.
 void look_at_address_space() {
     std::uint64_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
@@ -85,7 +85,7 @@ void look_at_address_space() {
 
 TEST(AvailableMemoryDeathTest, TheAddressSpace) { EXPECT_EXIT(look_at_address_space(), testing::ExitedWithCode(7), ""); }
 
-TEST(AvailableMemory, WhatFitsPassesAndWhatDoesNotIsRefusedWithFigures) {
+TEST(AvailableMemory, SmallRequestsPassAndLargeOnesAreRefusedWithNumbers) {
     require_memory(1, "nothing", "none");
     try {
         require_memory(std::uint64_t(1) << 60, "a picture of 9 x 9 pixels", "a smaller one takes less");

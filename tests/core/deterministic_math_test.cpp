@@ -8,10 +8,10 @@
 namespace tumble {
 namespace {
 
-// What the header promises.
+// The accuracy stated in the header.
 constexpr double allowed = 1e-15, allowed_of_sine = 2e-16;
 
-/// libm in long double is right to far below a double's rounding, and so are the differences taken here.
+/// libm in long double is accurate far below the rounding of a double, and so are the differences computed here.
 void expect_sincos(double x) {
     const SinCos at = sincos(x);
     EXPECT_LE(std::fabs(at.sin - std::sin(static_cast<long double>(x))), allowed_of_sine) << x;
@@ -20,11 +20,11 @@ void expect_sincos(double x) {
 
 double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-TEST(Elementary, SineAndCosineOverTheFirstTurns) {
+TEST(DeterministicMath, SineAndCosineOverTheFirstTurns) {
     for (int i = -4000; i <= 4000; ++i) expect_sincos(i * 0.003);
 }
 
-TEST(Elementary, SineAndCosineNearMultiplesOfAQuarterTurn) {
+TEST(DeterministicMath, SineAndCosineNearMultiplesOfAQuarterTurn) {
     for (const int k : {1, 2, 3, 4, 5, 22, 355, 1000, 103993, 636619}) {
         for (const double offset : {0.0, 1e-16, 1e-12, 1e-8, -1e-8, 1e-3, pi / 4}) {
             expect_sincos(k * (pi / 2) + offset);
@@ -33,7 +33,7 @@ TEST(Elementary, SineAndCosineNearMultiplesOfAQuarterTurn) {
     }
 }
 
-TEST(Elementary, SineAndCosineUpToAMillion) {
+TEST(DeterministicMath, SineAndCosineUpToAMillion) {
     std::mt19937_64 random(1);
     for (int i = 0; i < 20000; ++i) {
         const double u = unit(random);
@@ -43,7 +43,7 @@ TEST(Elementary, SineAndCosineUpToAMillion) {
 }
 
 // Phases of hours of fast spin.
-TEST(Elementary, SineAndCosineUpToBillions) {
+TEST(DeterministicMath, SineAndCosineUpToBillions) {
     std::mt19937_64 random(2);
     for (int i = 0; i < 20000; ++i) {
         expect_sincos((2.0 * unit(random) - 1.0) * 1.6e9);
@@ -54,7 +54,7 @@ TEST(Elementary, SineAndCosineUpToBillions) {
     }
 }
 
-TEST(Elementary, LostPhasesAreStillOnTheCircle) {
+TEST(DeterministicMath, LostPhasesAreStillOnTheCircle) {
     for (const double x : {1e12, 1e15, 1e16, 1e22, -1e100, 1e300}) {
         const SinCos at = sincos(x);
         EXPECT_NEAR(at.sin * at.sin + at.cos * at.cos, 1.0, 4e-16) << x;
@@ -63,7 +63,7 @@ TEST(Elementary, LostPhasesAreStillOnTheCircle) {
     EXPECT_TRUE(std::isnan(sincos(NAN).cos));
 }
 
-TEST(Elementary, SineAndCosineLieOnTheCircle) {
+TEST(DeterministicMath, SineAndCosineLieOnTheCircle) {
     for (int i = 0; i < 1000; ++i) {
         const SinCos at = sincos(i * 0.7);
         EXPECT_NEAR(at.sin * at.sin + at.cos * at.cos, 1.0, 4e-16);
@@ -77,7 +77,7 @@ void expect_angle(double y, double x) {
     EXPECT_NEAR(atan2_stable(y, x), truth, allowed) << y << ", " << x;
 }
 
-TEST(Elementary, AngleOfAPoint) {
+TEST(DeterministicMath, AngleOfAPoint) {
     for (int i = -1799; i <= 1800; ++i) {
         const double angle = i * pi / 1800.0;
         for (const double radius : {1e-3, 1.0, 7.5e4}) expect_angle(radius * std::sin(angle), radius * std::cos(angle));
@@ -87,7 +87,7 @@ TEST(Elementary, AngleOfAPoint) {
     EXPECT_EQ(atan2_stable(0.0, 1.0), 0.0);
 }
 
-TEST(Elementary, AngleOfVeryNearAndVeryFarPoints) {
+TEST(DeterministicMath, AngleOfVeryNearAndVeryFarPoints) {
     for (const double radius : {1e-300, 1e-200, 1e-160, 1e160, 1e300}) {
         expect_angle(radius, radius);
         expect_angle(-0.3 * radius, -radius);
@@ -95,14 +95,14 @@ TEST(Elementary, AngleOfVeryNearAndVeryFarPoints) {
     }
 }
 
-TEST(Elementary, SmallAnglesKeepTheirDigits) {
+TEST(DeterministicMath, SmallAnglesKeepTheirDigits) {
     for (const double angle : {1e-3, 1e-8, 1e-12}) {
         EXPECT_NEAR(sincos(angle).sin, std::sin(angle), 2e-16 * angle);
         EXPECT_NEAR(atan2_stable(angle, 1.0), std::atan2(angle, 1.0), 4e-16 * angle);
     }
 }
 
-TEST(Elementary, ArcTangent) {
+TEST(DeterministicMath, ArcTangent) {
     std::mt19937_64 random(3);
     const auto expect = [](double x) {
         const long double truth = std::atan(static_cast<long double>(x));
@@ -119,7 +119,7 @@ TEST(Elementary, ArcTangent) {
     EXPECT_TRUE(std::isnan(arc_tangent(NAN)));
 }
 
-TEST(Elementary, Exponential) {
+TEST(DeterministicMath, Exponential) {
     std::mt19937_64 random(4);
     for (int i = 0; i < 20000; ++i) {
         for (const double x : {1400.0 * (unit(random) - 0.5), 2.0 * unit(random) - 1.0}) {
@@ -132,10 +132,10 @@ TEST(Elementary, Exponential) {
     EXPECT_EQ(exponential(-HUGE_VAL), 0.0);
     EXPECT_EQ(exponential(1e4), HUGE_VAL);
     EXPECT_TRUE(std::isnan(exponential(NAN)));
-    EXPECT_NEAR(exponential(-745.0) / 5e-324, 1.0, 0.5);   // the last numbers there are
+    EXPECT_NEAR(exponential(-745.0) / 5e-324, 1.0, 0.5);   // near the smallest number
 }
 
-TEST(Elementary, HyperbolicTangentAndSecant) {
+TEST(DeterministicMath, HyperbolicTangentAndSecant) {
     std::mt19937_64 random(5);
     for (int i = 0; i < 20000; ++i) {
         const double x = (i % 2 ? 2.0 : 60.0) * (unit(random) - 0.5);

@@ -1,4 +1,4 @@
-// Carlson's integrals against published values, the same integrals in 128-bit arithmetic by other means, and identities.
+// Carlson's integrals compared with published values, with 128-bit numerical integration, and with identities.
 #include "core/elliptic.h"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11
 
 }  // namespace
 
-// Carlson 1995, section 3: the numerical checks he gives.
+// Carlson 1995, section 3: numerical checks.
 TEST(Elliptic, PublishedValues) {
     EXPECT_NEAR(carlson_rf(1.0, 2.0, 0.0), 1.3110287771461, 1e-13);
     EXPECT_NEAR(carlson_rf(0.5, 1.0, 0.0), 1.8540746773014, 1e-13);
@@ -79,7 +79,7 @@ TEST(Elliptic, AgainstTheDefiningIntegrals) {
         const double k2 = i % 5 == 0 ? 1.0 - std::ldexp(1.0, -static_cast<int>(random() % 40) - 1) : unit(random);
         const double dn2 = (1.0 - k2) + k2 * cn2;
         const double p = 1.0 + std::ldexp(unit(random), static_cast<int>(random() % 60) - 30);
-        // And so near each other that the series is taken at once.
+        // And so close to each other that the series is used at once.
         const double x = 1.0 + 0.015 * unit(random), y = 1.0 + 0.015 * unit(random);
         expect_relative(carlson_rf(x, y, 1.0), reference_rf(x, y, 1.0), 1e-15);
         expect_relative(carlson_rj(x, y, 1.0, 1.017), reference_rj(x, y, 1.0, 1.017), 1e-15);
@@ -105,7 +105,7 @@ TEST(Elliptic, ClosedFormsAndHomogeneity) {
     }
 }
 
-// What is no number ends, as one that is none.
+// Invalid arguments do not loop, and give an invalid number.
 TEST(Elliptic, EndsOnBadArguments) {
     EXPECT_TRUE(std::isnan(carlson_rf(NAN, 1.0, 1.0)));
     EXPECT_TRUE(std::isnan(carlson_rj(0.5, NAN, 1.0, 1.0)));

@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-TEST(Errors, SayWhereAsFarAsItIsKnown) {
+TEST(Errors, NameThePlaceAsFarAsItIsKnown) {
     EXPECT_STREQ(InputError("no scene").what(), "error: no scene");
     EXPECT_STREQ(InputError({"a.toml", 3, 7}, "bad").what(), "a.toml:3:7: error: bad");
     EXPECT_STREQ(InputError({"a.toml", 0, 0}, "cannot be read").what(), "a.toml: error: cannot be read");

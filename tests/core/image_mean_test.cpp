@@ -1,4 +1,4 @@
-// Means of pictures, against the same in doubles.
+// Means of images, compared with the same in double precision.
 #include "core/color.h"
 #include "core/image_mean.h"
 
@@ -18,7 +18,7 @@ Image of_values(const std::vector<int>& values) {
     return image;
 }
 
-TEST(ImageMean, WhatIsTheSameStays) {
+TEST(ImageMean, EqualPixelsAreUnchanged) {
     std::vector<int> all(256);
     for (int i = 0; i < 256; ++i) all[std::size_t(i)] = i;
     const Image image = of_values(all);

@@ -1,4 +1,4 @@
-// No text of others does anything to a terminal, and none fills it.
+// No foreign text controls or fills a terminal.
 #include "core/error.h"
 #include "core/safe_text.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::string_literals;
 
-TEST(SafeText, WhatCanBeReadStays) {
+TEST(SafeText, ReadableTextIsUnchanged) {
     for (const std::string text : {"", "crate 7", "C:\\crate", "Kiste grün", "木箱", "🎲", "a\u200db", "100 %", "'\"`$"})
         EXPECT_EQ(safe_text(text), text);
 }
@@ -26,7 +26,7 @@ TEST(SafeText, ControlsAreShownAsEscapes) {
     EXPECT_EQ(safe_text("a\U000e0041"), "a\\U000e0041") << "a tag, invisible";
 }
 
-TEST(SafeText, WhatIsNotUtf8IsShownByteByByte) {
+TEST(SafeText, InvalidUtf8IsShownByteByByte) {
     EXPECT_EQ(safe_text("a\xff\x80"s), "a\\xff\\x80");
     EXPECT_EQ(safe_text("\xc3"s), "\\xc3") << "cut short";
     EXPECT_EQ(safe_text("\xc0\x9b\xe0\x82\x9b"s), "\\xc0\\x9b\\xe0\\x82\\x9b") << "overlong forms of a control";
@@ -34,7 +34,7 @@ TEST(SafeText, WhatIsNotUtf8IsShownByteByByte) {
     EXPECT_EQ(safe_text("\xf4\x90\x80\x80\xf8"s), "\\xf4\\x90\\x80\\x80\\xf8") << "beyond the last character";
 }
 
-// Each byte alone, and each character: what comes out has no control in it, in whatever encoding a terminal takes it.
+// Each byte, and each character: the result has no control character in any encoding of a terminal.
 TEST(SafeText, NothingUnsafeIsLeft) {
     std::string all;
     for (int byte = 0; byte < 256; ++byte) all += char(byte);
@@ -49,7 +49,7 @@ TEST(SafeText, NothingUnsafeIsLeft) {
     }
 }
 
-TEST(SafeText, LongTextIsCutAndItsLengthSaid) {
+TEST(SafeText, LongTextIsCutAndItsLengthIsGiven) {
     const std::string text(10'000'000, 'k');
     const std::string safe = safe_text(text);
     EXPECT_EQ(safe.size(), value_text_bytes);
@@ -61,7 +61,7 @@ TEST(SafeText, LongTextIsCutAndItsLengthSaid) {
     EXPECT_LE(cut.size(), value_text_bytes);
     EXPECT_EQ(safe_text(cut), cut) << "after a whole character";
     EXPECT_NE(cut.find("箱... (3000 bytes)"), std::string::npos);
-    EXPECT_LE(safe_text(std::string(1000, '\x1b')).size(), value_text_bytes) << "the length is that of what is shown";
+    EXPECT_LE(safe_text(std::string(1000, '\x1b')).size(), value_text_bytes) << "the length includes the escapes";
 }
 
 TEST(SafeText, TwiceIsOnce) {

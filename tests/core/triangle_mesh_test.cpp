@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// A box of these edges with one corner at `origin`, faces outward.
+/// A box with these edges and one corner at `origin`, faces outward.
 TriangleMesh box(const Vec3& size, const Vec3& origin) {
     TriangleMesh mesh;
     for (int i = 0; i < 8; ++i) {

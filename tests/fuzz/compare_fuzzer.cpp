@@ -1,6 +1,6 @@
-// Two PNG files and the options of `compare`: a verdict that holds what its rules say, or an InputError. The first four
-// bytes are the tolerance, the fraction in parts of 255, and the cluster's and the window's limit (0: not given); the next
-// two are the first file's length, low byte first.
+// Two PNG files and the options of `compare`: a verdict consistent with its rules, or an InputError. The first four
+// bytes are the tolerance, the fraction in parts of 255, and the cluster's and the window's limit (0: not given); the
+// next two are the first file's length, low byte first.
 #include "png_bytes.h"
 
 #include "core/check.h"

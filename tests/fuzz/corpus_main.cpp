@@ -22,5 +22,5 @@ int main(int count, char** arguments) {
         const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
-    return files.empty() ? 1 : 0;   // a test that ran nothing has not passed
+    return files.empty() ? 1 : 0;   // a test without files must fail
 }

@@ -1,4 +1,4 @@
-// What the fuzz targets of the mesh formats share.
+// Shared by the fuzz targets of the mesh formats.
 #pragma once
 
 #include "../support/folder.h"
@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Loads the bytes as a mesh file of that extension (".obj"): a mesh or a MeshError comes of it, nothing else.
+/// Loads the bytes as a mesh file of that extension (".obj"): the result is a mesh or a MeshError.
 inline int fuzz_mesh(const char* extension, const std::uint8_t* data, std::size_t size) {
     static const TestFolder folder;
     const std::filesystem::path file = folder / (std::string("mesh") + extension);

@@ -1,4 +1,4 @@
-// What the fuzz targets that read PNG files share.
+// Shared by the fuzz targets that read PNG files.
 #pragma once
 
 #include "output/png_reader.h"
@@ -13,7 +13,7 @@
 
 namespace tumble {
 
-/// A larger picture takes time, not other code.
+/// A larger picture takes more time without reaching other code.
 inline constexpr std::int64_t fuzzed_pixels = 1 << 18;
 
 inline OpenFile as_file(std::span<const std::uint8_t> bytes) {
@@ -23,7 +23,7 @@ inline OpenFile as_file(std::span<const std::uint8_t> bytes) {
     return OpenFile(fmemopen(const_cast<std::uint8_t*>(bytes.data()), bytes.size(), "rb"));
 }
 
-/// Gives each chunk the checksum of its bytes: else every change would be answered by that alone.
+/// Corrects the checksum of each chunk, because every change would be rejected by it.
 inline void mend_checksums(std::span<std::uint8_t> bytes) {
     constexpr std::size_t signature = 8, head = 8, checksum = 4;
     for (std::size_t at = signature; at + head + checksum <= bytes.size();) {

@@ -1,5 +1,5 @@
-// A PNG file: a picture or an InputError comes of its bytes, nothing else; row by row it is the same as by libpng's own
-// simplified reader.
+// A PNG file: the result is a picture or an InputError. The picture equals that of libpng's simplified reader, row by
+// row.
 #include "png_bytes.h"
 
 #include "core/check.h"
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Nothing: libpng does not take it.
+/// Empty if libpng rejects the file.
 std::vector<std::uint8_t> read_simply(std::span<const std::uint8_t> bytes) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;

@@ -1,4 +1,4 @@
-// A scene file: a description or an InputError comes of its text, nothing else, and the error is safe to print.
+// A scene file: the result is a description or an InputError that is safe to print.
 #include "core/check.h"
 #include "core/error.h"
 #include "scene/load.h"

@@ -1,4 +1,4 @@
-// Raw deflate: zlib unpacks what went in, the bytes do not depend on where in memory the work is done, and the bound holds.
+// Raw deflate: zlib restores the input, the bytes do not depend on memory addresses, and the bound holds.
 #include "output/deflater.h"
 
 #include "inflated.h"
@@ -34,7 +34,7 @@ Bytes slopes(std::size_t size) {
     return bytes;
 }
 
-TEST(Deflater, ZlibUnpacksWhatWentIn) {
+TEST(Deflater, ZlibRestoresTheInput) {
     Deflater deflater;
     for (const std::size_t size : {0, 1, 3, 1000, 32768, 32769, 300000, 3000000}) {
         const Bytes bytes = slopes(size);
@@ -43,7 +43,7 @@ TEST(Deflater, ZlibUnpacksWhatWentIn) {
     EXPECT_LT(packed(deflater, slopes(300000)).size(), 30000u);
 }
 
-/// As a body that moves leaves it in the motion of a frame: a block of noise in a field of nothing.
+/// Like the motion AOV of a moving body: a block of noise in a field of zeros.
 Bytes block_of_noise() {
     std::mt19937 random(7);
     Bytes bytes(160 * 480 * 4);
@@ -52,12 +52,12 @@ Bytes block_of_noise() {
     return bytes;
 }
 
-// ISA-L's levels 1 and 2 fail this: where the stream lies gives three in a thousand other matches.
-TEST(Deflater, TheBytesAreTheSameWhereverItLies) {
+// ISA-L's levels 1 and 2 fail this: for three addresses in a thousand they find other matches.
+TEST(Deflater, TheBytesAreTheSameAtEveryAddress) {
     const Bytes bytes = block_of_noise();
     Deflater first;
     const Bytes expected = packed(first, bytes);
-    std::vector<std::unique_ptr<Deflater>> kept;   // so that each lies somewhere else
+    std::vector<std::unique_ptr<Deflater>> kept;   // so that each has a different address
     for (int i = 0; i < 2000; ++i) {
         kept.push_back(std::make_unique<Deflater>());
         ASSERT_TRUE(packed(*kept.back(), bytes) == expected) << i;

@@ -1,4 +1,4 @@
-// The tester tested: what must pass (noise between processors) and what must not (a change that someone would see).
+// Comparison of pictures: noise between processors passes, and a visible change fails.
 #include "core/error.h"
 #include "output/image_compare.h"
 
@@ -29,7 +29,7 @@ TEST(Compare, TheSameIsAlike) {
 
 TEST(Compare, NoiseBetweenInstructionSetsPasses) {
     const Image a = landscape(width, height);
-    Image few = a;   // 2 pixels by up to 35 levels, even side by side
+    Image few = a;   // 2 pixels by up to 35 levels, even adjacent
     shift(few, 200, 300, 35);
     shift(few, 201, 300, -30);
     EXPECT_TRUE(compare_images(a, few).alike) << compare_images(a, few).reason;
@@ -73,7 +73,7 @@ TEST(Compare, ALostSoftShadowFails) {
     }
 }
 
-TEST(Compare, AShiftedColourFails) {
+TEST(Compare, AShiftedColorFails) {
     for (const int channel : {0, 1, 2})
         for (const int levels : {8, -8, 2}) {
             const Image a = landscape(width, height);
@@ -100,7 +100,7 @@ TEST(Compare, ManyScatteredPixelsFail) {
     EXPECT_TRUE(compare_images(a, b, {.fraction = 3e-4}).alike);
 }
 
-TEST(Compare, EveryPlaceIsLookedAt) {
+TEST(Compare, EveryPlaceIsChecked) {
     // Three rows of 3 in each corner and at odd sizes: the windows reach the edges.
     for (const auto& [w, h] : {std::pair{101, 67}, {64, 64}, {9, 9}, {5, 5}})
         for (const int x : {0, w - 3})
@@ -128,9 +128,9 @@ TEST(Compare, LooserOptionsAllowMore) {
     EXPECT_TRUE(compare_images(a, a, {.tolerance = 0, .fraction = 0.0}).alike);
 }
 
-TEST(Compare, EveryRuleThatFailsIsNamedWithItsFigureAndPlace) {
+TEST(Compare, EveryFailedRuleIsNamedWithItsValueAndPlace) {
     const Image a = plain(width, height, {120, 120, 120});
-    Image dot = a;   // 31 of 307,200 pixels may differ by anything, but a window's mean is bounded
+    Image dot = a;   // 31 of 307,200 pixels may differ by any amount, but a window's mean is bounded
     shift(dot, 100, 60, 134);
     const Comparison one = compare_images(a, dot);
     EXPECT_EQ(one.reason, "rule window: the 8 x 8 pixels from x 96, y 56 on differ by 2.094 levels on average "
@@ -159,7 +159,7 @@ TEST(Compare, EachRuleCanBeSet) {
     options.window = 2.1;
     EXPECT_TRUE(compare_images(a, dot, options).alike);
 
-    Image row = a;   // five pixels side by side
+    Image row = a;   // five adjacent pixels
     for (int x = 40; x < 45; ++x) shift(row, x, 60, 10);
     EXPECT_FALSE(compare_images(a, row).alike);
     options = {};
@@ -174,7 +174,7 @@ TEST(Compare, EachRuleCanBeSet) {
     options.fraction = 0.0;
     EXPECT_FALSE(compare_images(a, one, options).alike);
     EXPECT_FALSE(compare_images(a, one, options).rules[0].holds());
-    // A rule that is set does not grow with the fraction any more.
+    // A rule that is set explicitly does not grow with the fraction.
     options.fraction = 1.0;
     options.window = 0.1;
     EXPECT_FALSE(compare_images(a, one, options).alike);
@@ -192,7 +192,7 @@ TEST(Compare, OtherSizesCannotBeCompared) {
     EXPECT_THROW(difference_image(plain(10, 10, {}), plain(11, 10, {})), InputError);
 }
 
-TEST(Compare, TheDifferenceCanBeSeen) {
+TEST(Compare, TheDifferenceIsVisible) {
     const Image a = plain(20, 20, {90, 90, 90});
     Image b = a;
     shift(b, 3, 4, 50);

@@ -1,4 +1,4 @@
-// Raw deflate unpacked by zlib, which knows nothing of what packed it.
+// Raw deflate unpacked by zlib, independently of the compressor.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// `stream` must be complete and end where its last block does. `most`: bytes that are expected; one more would be seen.
+/// `stream` must be complete and end with its last block. `most`: expected number of bytes; one more would be detected.
 inline std::vector<std::byte> inflated(std::span<const std::byte> stream, std::size_t most) {
     std::vector<std::byte> bytes(most + 1);
     z_stream z{};

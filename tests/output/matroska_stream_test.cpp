@@ -1,4 +1,4 @@
-// Time stamps of the stream that ffmpeg is fed with.
+// Time stamps of ffmpeg's input stream.
 #include "output/matroska_stream.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-/// Big end first.
+/// Big-endian.
 std::uint64_t number_at(const std::vector<std::byte>& bytes, std::size_t at) {
     std::uint64_t number = 0;
     for (std::size_t i = 0; i < 8; ++i) number = number << 8 | std::to_integer<std::uint64_t>(bytes.at(at + i));

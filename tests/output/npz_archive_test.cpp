@@ -1,4 +1,4 @@
-// The bytes of an .npz archive, taken apart by the words of the zip (PKWARE's APPNOTE 6.3) and .npy formats.
+// The bytes of an .npz archive, parsed by the specifications of zip (PKWARE's APPNOTE 6.3) and .npy.
 #include "output/npz_archive.h"
 
 #include "inflated.h"
@@ -37,7 +37,7 @@ std::map<std::string, std::string> members(std::span<const std::byte> file) {
         const std::uint32_t local = number(file, at + 42, 4);
         const std::string name = text(file, at + 46, name_size);
         EXPECT_EQ(number(file, local, 4), 0x04034b50u);
-        // The local head says the same: method, date, checksum, sizes.
+        // The local header has the same values: method, date, checksum, sizes.
         for (std::size_t i = 0; i < 22; ++i) EXPECT_EQ(file[local + 4 + i], file[at + 6 + i]) << name << i;
         EXPECT_EQ(text(file, local + 30, name_size), name);
 
@@ -52,7 +52,7 @@ std::map<std::string, std::string> members(std::span<const std::byte> file) {
     return found;
 }
 
-/// An .npy file's words, and its values.
+/// The header of an .npy file, and its values.
 std::pair<std::string, std::string> npy(const std::string& file) {
     EXPECT_EQ(file.substr(0, 8), std::string("\x93NUMPY\x01\0", 8));
     const auto size = std::size_t(static_cast<unsigned char>(file[8]) + 256 * static_cast<unsigned char>(file[9]));
@@ -72,7 +72,7 @@ std::vector<Value> values_of(const std::string& bytes) {
 
 TEST(NpzArchive, HoldsArraysOfAllKinds) {
     std::vector<float> floats;
-    for (int i = 0; i < 1000 * 7; ++i) floats.push_back(std::sin(float(i)) / float(i));   // the first is not a number
+    for (int i = 0; i < 1000 * 7; ++i) floats.push_back(std::sin(float(i)) / float(i));   // the first is NaN
     const std::vector<double> doubles = {0.1, -1e300};
     const std::vector<std::int32_t> numbers(50000, 70000);
     const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5, 6};
@@ -95,7 +95,7 @@ TEST(NpzArchive, HoldsArraysOfAllKinds) {
     EXPECT_EQ(values_of<std::uint8_t>(npy(found.at("bytes.npy")).second), bytes);
 }
 
-TEST(NpzArchive, TheNextFileKnowsNothingOfTheOneBefore) {
+TEST(NpzArchive, FilesAreIndependent) {
     const std::vector<std::uint8_t> small = {1, 2, 3}, large(100000, 9);
     NpzArchive fresh, used;
     used.add("large", {100000}, large);
@@ -106,7 +106,7 @@ TEST(NpzArchive, TheNextFileKnowsNothingOfTheOneBefore) {
     EXPECT_EQ(members(b).size(), 1u);
 }
 
-TEST(NpzArchive, TheBoundHoldsForWhatCannotBeCompressed) {
+TEST(NpzArchive, TheBoundHoldsForIncompressibleData) {
     std::uint32_t state = 1;
     for (const std::size_t size : {1u, 1000u, 300000u}) {
         std::vector<std::uint8_t> noise(size);

@@ -1,5 +1,5 @@
-// Hidden files on their way: what a killed process left is removed, what a living one writes stays, and a final name comes
-// only when the bytes are on the disk. fsync() and rename() are those below.
+// Part files: those of a killed process are removed, those of a living one stay, and a final name appears only when the
+// bytes are on the disk. fsync() and rename() are replaced below.
 #include "core/error.h"
 #include "output/part_file.h"
 #include "output/temporary_file.h"
@@ -24,7 +24,7 @@
 namespace {
 
 std::vector<std::string> calls;   // in order, with the last part of the path
-int sync_error = 0;               // what the next fsync() meets
+int sync_error = 0;               // error of the next fsync()
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -53,7 +53,7 @@ namespace fs = std::filesystem;
 
 void put(TemporaryFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
 
-/// What a process leaves that is killed while it writes.
+/// The file that a process leaves if it is killed while it writes.
 fs::path part_of_a_killed_process(const fs::path& final_path) {
     int ends[2];
     EXPECT_EQ(pipe(ends), 0);
@@ -86,7 +86,7 @@ TEST(PartFile, TheBytesAreOnTheDiskBeforeTheName) {
     EXPECT_EQ(calls, (std::vector<std::string>{"sync " + part, "rename " + part, "sync " + folder.path().filename().string()}));
 }
 
-TEST(PartFile, WhatCannotBeBroughtToTheDiskGetsNoName) {
+TEST(PartFile, AFileThatCannotBeSyncedGetsNoName) {
     const TestFolder folder;
     write_text(folder / "a.txt", "old");
     {
@@ -100,13 +100,13 @@ TEST(PartFile, WhatCannotBeBroughtToTheDiskGetsNoName) {
     EXPECT_EQ(folder.files(), 1u);
     TemporaryFile file(folder / "a.txt");
     put(file, "new");
-    sync_error = EINVAL;   // a file system that has no such thing
+    sync_error = EINVAL;   // a file system without sync
     file.commit();
     sync_error = 0;
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
 }
 
-TEST(PartFile, WhatAKilledProcessLeftIsRemoved) {
+TEST(PartFile, PartsOfAKilledProcessAreRemoved) {
     const TestFolder folder;
     const fs::path left = part_of_a_killed_process(folder / "a.txt");
     const fs::path other = part_of_a_killed_process(folder / "b.txt");
@@ -115,7 +115,7 @@ TEST(PartFile, WhatAKilledProcessLeftIsRemoved) {
     EXPECT_TRUE(fs::exists(other)) << "the part of another name";
 }
 
-TEST(PartFile, WhatALivingOneWritesStays) {
+TEST(PartFile, PartsOfALivingProcessStay) {
     const TestFolder folder;
     TemporaryFile living(folder / "a.txt");
     put(living, "first");
@@ -130,7 +130,7 @@ TEST(PartFile, WhatALivingOneWritesStays) {
     EXPECT_EQ(read_text(folder / "a.txt"), "first");
 }
 
-TEST(PartFile, OnlyWhatHasItsOwnFormIsRemoved) {
+TEST(PartFile, OnlyNamesOfPartsAreRemoved) {
     const TestFolder folder;
     const std::vector<std::string> others = {".a.txt.part-0123abcd",        "a.txt.tumble.part-0123abcd",
                                              ".a.txt.tumble.part-0123abc",  ".a.txt.tumble.part-0123ABCD",
@@ -156,14 +156,14 @@ TEST(PartFile, NamesAsLongAsThereAreAny) {
         EXPECT_EQ(folder.files(), 1u);
         fs::remove(folder / name);
     }
-    std::string umlauts;   // 255 bytes: a cut after as many as there is room for, 233, would be in the middle of a letter
+    std::string umlauts;   // 255 bytes: a cut at the available 233 would be in the middle of a letter
     for (int i = 0; i < 127; ++i) umlauts += "\xc3\xb6";
     const PartFile part(folder / (umlauts + "x"));
     EXPECT_EQ(part.path().filename().string().substr(0, 233), "." + umlauts.substr(0, 232));
     EXPECT_EQ(part.path().filename().string()[233], '.');
 }
 
-// Whoever removes a part holds its lock: one that is made in the same moment is made again.
+// A process that removes a part file holds its lock; a part file made at the same moment is made again.
 TEST(PartFile, ManyAtOnce) {
     const TestFolder folder;
     std::vector<pid_t> children;

@@ -1,4 +1,4 @@
-// Pictures for tests, made of numbers.
+// Synthetic pictures for tests.
 #pragma once
 
 #include "core/image.h"
@@ -26,7 +26,7 @@ inline Image plain(int width, int height, Pixel color) {
     return image;
 }
 
-/// No two rows, columns or channels alike.
+/// All rows, columns and channels differ.
 inline Image colorful(int width, int height) {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
@@ -34,7 +34,7 @@ inline Image colorful(int width, int height) {
     return image;
 }
 
-/// A sky over ground, a slope of brightness in each: what a frame is made of without its bodies.
+/// A sky over ground, with a gradient of brightness in each: a frame without bodies.
 inline Image landscape(int width, int height) {
     Image image(width, height);
     for (int y = 0; y < height; ++y)

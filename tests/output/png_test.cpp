@@ -1,4 +1,4 @@
-// What is written comes back to the bit; what is broken is refused with its name; every kind of PNG can be read.
+// Written pictures are restored to the bit; broken files are refused by name; every kind of PNG can be read.
 #include "core/error.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
@@ -72,7 +72,7 @@ TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
     PngEncoder encoder;
     for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
         Image image = colorful(width, height);
-        encoder.encode(image, {});   // of another size than before: all of it, whatever has changed
+        encoder.encode(image, {});   // of another size than the previous one: a full conversion, for any changed regions
         const std::vector<Rectangle> changes[] = {
             {{3, 0, 1, 1}}, {{0, height - 1, width, 1}}, {}, {{1, 5, 4, 20}, {5, 25, 2, 6}}, {{0, 0, width, height}}};
         int value = 0;
@@ -84,7 +84,7 @@ TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
     }
 }
 
-TEST(Png, WhatDoesNotCompressFits) {
+TEST(Png, IncompressibleDataFits) {
     const TestFolder folder;
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 1000}, {500, 333}}) {
         Image image(width, height);
@@ -139,7 +139,7 @@ TEST(Png, ReadsEveryKind) {
     EXPECT_EQ(read_png(folder / "k.png").pixels, (std::vector<std::uint8_t>{30, 20, 10, 255, 9, 8, 7, 255}));
 }
 
-/// libpng's own simplified reader: the answer to compare with.
+/// libpng's own simplified reader, as the reference.
 std::vector<std::uint8_t> read_simply(const std::filesystem::path& path) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -151,7 +151,7 @@ std::vector<std::uint8_t> read_simply(const std::filesystem::path& path) {
     return pixels;
 }
 
-/// A PNG of noise in any form that there is; `gamma` 0: the file does not say.
+/// A PNG of noise in any form; `gamma` 0: no gamma in the file.
 void write_noise(const std::filesystem::path& path, int width, int height, int depth, int kind, bool interlaced, bool transparent,
                  double gamma) {
     std::FILE* const file = std::fopen(path.c_str(), "wb");
@@ -181,7 +181,7 @@ void write_noise(const std::filesystem::path& path, int width, int height, int d
     std::fclose(file);
 }
 
-TEST(Png, EveryFormReadsAsBySimplifiedLibpng) {
+TEST(Png, EveryFormIsReadLikeLibpngsSimplifiedReader) {
     const TestFolder folder;
     const std::filesystem::path path = folder / "noise.png";
     struct Form {
@@ -196,7 +196,8 @@ TEST(Png, EveryFormReadsAsBySimplifiedLibpng) {
                 for (const bool transparent : {false, true})
                     for (const double gamma : {0.0, 1.0, 0.45455}) {
                         if (transparent && (form.kind & PNG_COLOR_MASK_ALPHA) != 0) continue;
-                        // libpng 1.6.39's simplified reader shuffles 16-bit interlaced files: it reads the same without interlacing.
+                        // libpng 1.6.39's simplified reader shuffles 16-bit interlaced files, so the reference is
+                        // without interlacing.
                         write_noise(folder / "plain.png", 21, 13, depth, form.kind, false, transparent, gamma);
                         write_noise(path, 21, 13, depth, form.kind, interlaced, transparent, gamma);
                         const std::string which = testing::PrintToString(std::tuple(form.kind, depth, interlaced, transparent, gamma));
@@ -227,7 +228,7 @@ TEST(Png, RowByRowIsTheSamePicture) {
     EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(Png, WhatIsNoPngIsNamed) {
+TEST(Png, AFileThatIsNoPngIsNamed) {
     const TestFolder folder;
     EXPECT_NE(message_of(folder / "none.png").find("none.png: error: cannot be read: No such file"), std::string::npos);
     write_text(folder / "text.png", "not a picture");
@@ -242,7 +243,7 @@ TEST(Png, EveryCutIsRefused) {
     const TestFolder folder;
     const std::vector<std::byte> bytes = encoded(colorful(20, 10));
     const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (std::size_t n = 0; n < whole.size() - 12; n += 7) {   // the last 12 bytes are the end mark: nothing is lost
+    for (std::size_t n = 0; n < whole.size() - 12; n += 7) {   // the last 12 bytes are the end mark: no loss
         write_text(folder / "cut.png", whole.substr(0, n));
         EXPECT_NE(message_of(folder / "cut.png").find("not a whole PNG file"), std::string::npos) << n << " bytes";
     }
@@ -256,7 +257,7 @@ TEST(Png, NoChangedByteCrashes) {
         std::string broken = whole;
         broken[n] = char(~broken[n]);
         write_text(folder / "broken.png", broken);
-        message_of(folder / "broken.png");   // an error or a picture; the sanitizers watch
+        message_of(folder / "broken.png");   // an error or a picture; the sanitizers check
     }
 }
 
@@ -264,11 +265,11 @@ TEST(Png, AHostileSizeIsRefusedBeforeMemoryIsTaken) {
     const TestFolder folder;
     const std::vector<std::byte> bytes = encoded(colorful(1, 1));
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const char huge[] = {0x00, 0x0f, 0x42, 0x40};   // 1,000,000, big end first
+    const char huge[] = {0x00, 0x0f, 0x42, 0x40};   // 1,000,000, big-endian
     std::memcpy(&text[16], huge, 4);
     std::memcpy(&text[20], huge, 4);
     const auto checksum = [&] {
-        std::uint32_t crc = 0xffffffffu;   // of the head chunk (PNG specification, annex D)
+        std::uint32_t crc = 0xffffffffu;   // of the header chunk (PNG specification, annex D)
         for (std::size_t i = 12; i < 29; ++i) {
             crc ^= static_cast<std::uint8_t>(text[i]);
             for (int bit = 0; bit < 8; ++bit) crc = (crc & 1u) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;

@@ -1,4 +1,4 @@
-// Other programs: found, fed, listened to, and their deaths survived.
+// Other programs: found, fed, read from, and their failures handled.
 #include "core/error.h"
 #include "output/process.h"
 
@@ -22,7 +22,7 @@ const std::filesystem::path shell = "/bin/sh";
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-TEST(Process, IsFedAndEnds) {
+TEST(Process, ReadsItsInputAndEnds) {
     const TestFolder folder;
     Process process(shell, {"-c", "cat > \"$0\"", (folder / "out").string()});
     const std::string text(3'000'000, 'x');   // more than a pipe holds
@@ -31,17 +31,17 @@ TEST(Process, IsFedAndEnds) {
     EXPECT_EQ(read_text(folder / "out"), text);
 }
 
-// Memory is written over as soon as it is let go of: a program that is slow to read must have read it by then.
-TEST(Process, WhatIsLentIsKeptUntilItIsRead) {
+// Memory is overwritten as soon as it is released: a slow program must have read it by then.
+TEST(Process, LentMemoryIsHeldUntilItIsRead) {
     const TestFolder folder;
-    const std::size_t size = (1 << 20) + 12345;   // a little more than the pipe holds
+    const std::size_t size = (1 << 20) + 12345;   // slightly more than the pipe's capacity
     int kept = 0;
     const auto let_go = [&kept](std::byte* memory) {
         std::fill_n(memory, size, std::byte('!'));
         std::free(memory);
         --kept;
     };
-    Process process(shell, {"-c", "sleep .05; exec dd of=\"$0\" bs=65536 2>/dev/null", (folder / "out").string()});
+    Process process(shell, {"-c", "sleep 0.05; exec dd of=\"$0\" bs=65536 2>/dev/null", (folder / "out").string()});
     std::string all;
     for (const char letter : {'a', 'b', 'c', 'd', 'e'}) {
         auto* const memory = static_cast<std::byte*>(std::aligned_alloc(4096, 2 << 20));
@@ -49,13 +49,13 @@ TEST(Process, WhatIsLentIsKeptUntilItIsRead) {
         all.append(size, letter);
         ++kept;
         EXPECT_TRUE(process.lend({memory, let_go}, size));
-        EXPECT_EQ(kept, 1) << "what came before is in nobody's way";
+        EXPECT_EQ(kept, 1) << "memory of earlier writes was released";
     }
     EXPECT_TRUE(process.finish().ok());
     EXPECT_TRUE(read_text(folder / "out") == all);
 }
 
-TEST(Process, ItsFailureIsTold) {
+TEST(Process, ItsFailureIsReported) {
     Process process(shell, {"-c", "echo first >&2; echo the reason >&2; exit 7"});
     const ProcessEnd end = process.finish();
     EXPECT_EQ(end.exit_code, 7);
@@ -63,14 +63,14 @@ TEST(Process, ItsFailureIsTold) {
     EXPECT_EQ(end.describe(), "exit code 7");
 }
 
-TEST(Process, ManyWordsAreCutToTheLast) {
+TEST(Process, LongOutputIsCutToItsEnd) {
     Process process(shell, {"-c", "i=0; while [ $i -lt 20000 ]; do echo line $i; i=$((i+1)); done >&2; exit 1"});
     const ProcessEnd end = process.finish();
     EXPECT_LT(end.words.size(), 10000u);
     EXPECT_TRUE(end.words.ends_with("line 19999"));
 }
 
-TEST(Process, AReaderThatDiesIsNoSignalForUs) {
+TEST(Process, ADeadReaderRaisesNoSignal) {
     struct sigaction action {};
     sigaction(SIGPIPE, nullptr, &action);
     ASSERT_EQ(action.sa_handler, SIG_DFL) << "else this test could not fail";
@@ -100,7 +100,7 @@ TEST(Process, CanBeKilledWhileItIsFed) {
     EXPECT_EQ(end.describe(), "ended by signal 9 (Killed)");
 }
 
-/// The number that the script wrote, once it is there.
+/// The number that the script wrote, after waiting for it.
 pid_t number_in(const std::filesystem::path& file) {
     for (int i = 0; i < 10'000; ++i) {
         std::error_code missing;
@@ -110,7 +110,7 @@ pid_t number_in(const std::filesystem::path& file) {
     return -1;
 }
 
-// A zombie that no one waits for is gone too: who adopts it may be slow.
+// A zombie counts as gone as well, because the adopting process may be slow.
 bool is_gone(pid_t id) {
     for (int i = 0; i < 10'000; ++i) {
         const std::filesystem::path status = "/proc/" + std::to_string(id) + "/stat";
@@ -120,8 +120,8 @@ bool is_gone(pid_t id) {
     return false;
 }
 
-// What a program starts and leaves behind may hold its pipes open for ever.
-TEST(Process, ItsEndIsNotThatOfAllThatItStarted) {
+// A process that a program leaves behind may hold its pipes open.
+TEST(Process, ItsEndDoesNotWaitForItsChildren) {
     const TestFolder folder;
     const std::string leave_behind = "sleep 1000 & echo $! > \"$0\"; ";
     {
@@ -146,7 +146,7 @@ TEST(Process, ItsEndIsNotThatOfAllThatItStarted) {
 }
 
 TEST(Process, OneThatClosedItsErrorsIsWaitedForAndCanBeKilled) {
-    Process quick(shell, {"-c", "exec 2>&-; sleep .1; exit 4"});
+    Process quick(shell, {"-c", "exec 2>&-; sleep 0.1; exit 4"});
     EXPECT_EQ(quick.finish().exit_code, 4);
 
     Process slow(shell, {"-c", "exec 2>&-; exec sleep 1000"});
@@ -158,7 +158,7 @@ TEST(Process, OneThatClosedItsErrorsIsWaitedForAndCanBeKilled) {
     killer.join();
 }
 
-// Fed no more, it would be waited for without end, and its kill by a signal would not be looked for.
+// Without further input it would be waited for without end, and an interrupt would not be noticed.
 TEST(Process, OneThatClosedItsInputAndErrorsIsEndedAfterASecond) {
     Process process(shell, {"-c", "exec <&- 2>&-; exec sleep 1000"});
     const std::string text(4'000'000, 'x');
@@ -166,7 +166,7 @@ TEST(Process, OneThatClosedItsInputAndErrorsIsEndedAfterASecond) {
     EXPECT_EQ(process.finish().signal, SIGKILL);
 }
 
-TEST(Process, KilledItTakesAlongWhatItStarted) {
+TEST(Process, KillingItKillsItsChildren) {
     const TestFolder folder;
     Process process(shell, {"-c", "sleep 1000 & echo $! > \"$0\"; sleep 1000", (folder / "child").string()});
     const pid_t child = number_in(folder / "child");
@@ -176,7 +176,7 @@ TEST(Process, KilledItTakesAlongWhatItStarted) {
     EXPECT_TRUE(is_gone(child));
 }
 
-TEST(Process, WordsDoNotFillItsPipeWhileItIsFed) {
+TEST(Process, ItsMessagesAreReadWhileItIsFed) {
     const TestFolder folder;
     const std::string script = "i=0; while [ $i -lt 30000 ]; do echo line $i; i=$((i+1)); done >&2; cat > \"$0\"";
     Process process(shell, {"-c", script, (folder / "out").string()});
@@ -201,7 +201,7 @@ TEST(Process, AProgramThatHangsIsStopped) {
     EXPECT_FALSE(run_program("/bin/true", {}, [] { return false; }).stopped);
 }
 
-TEST(Process, ItsEndIsSeenWithoutTakingIt) {
+TEST(Process, ItsEndIsDetectedWithoutReapingIt) {
     const pid_t id = fork();
     if (id == 0) {
         ::pause();
@@ -215,7 +215,7 @@ TEST(Process, ItsEndIsSeenWithoutTakingIt) {
     EXPECT_EQ(wait_for_process(id).signal, SIGTERM);
 }
 
-TEST(Process, ForgottenItIsKilled) {
+TEST(Process, TheDestructorKillsIt) {
     const auto start = std::chrono::steady_clock::now();
     { const Process process("/bin/sleep", {"1000"}); }
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(100));

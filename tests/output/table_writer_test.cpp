@@ -1,4 +1,4 @@
-// Every double comes back to the bit, whatever the locale; text is quoted where CSV needs it.
+// Every double is restored to the bit, in any locale; text is quoted if CSV requires it.
 #include "core/error.h"
 #include "output/table_writer.h"
 
@@ -55,7 +55,7 @@ TEST(TableWriter, EveryDoubleComesBack) {
 }
 
 TEST(TableWriter, TheLocaleChangesNothing) {
-    // Not every machine has a locale with a decimal comma; where there is none, this says little.
+    // Not every machine has a locale with a decimal comma; without one, the test is weaker.
     const char* found = nullptr;
     for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "fr_FR.utf8"})
         if (found == nullptr) found = std::setlocale(LC_ALL, name);

@@ -1,4 +1,4 @@
-// A file appears whole or not at all, and what was there before stays until then.
+// A file appears completely or not at all, and an earlier file stays until then.
 #include "core/error.h"
 #include "output/png_writer.h"
 #include "output/temporary_file.h"
@@ -57,10 +57,11 @@ TEST(TemporaryFile, ALinkIsWrittenThrough) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
 }
 
-TEST(TemporaryFile, ALinkToWhatIsNotThereYetIsWrittenThrough) {
+TEST(TemporaryFile, ALinkToAMissingFileIsWrittenThrough) {
     const TestFolder folder;
     std::filesystem::create_directory(folder / "in");
-    std::filesystem::create_symlink("in/other.txt", folder / "link.txt");   // by way of another, from where each stands
+    // through another link, each relative to its own folder
+    std::filesystem::create_symlink("in/other.txt", folder / "link.txt");
     std::filesystem::create_symlink("../a.txt", folder / "in/other.txt");
     TemporaryFile file(folder / "link.txt");
     put(file, "new");
@@ -70,7 +71,7 @@ TEST(TemporaryFile, ALinkToWhatIsNotThereYetIsWrittenThrough) {
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "in/other.txt"));
 }
 
-TEST(TemporaryFile, LinksInACircleAreRefused) {
+TEST(TemporaryFile, LinkLoopsAreRefused) {
     const TestFolder folder;
     std::filesystem::create_symlink("b", folder / "a");
     std::filesystem::create_symlink("a", folder / "b");
@@ -78,7 +79,7 @@ TEST(TemporaryFile, LinksInACircleAreRefused) {
     EXPECT_EQ(folder.files(), 2u);
 }
 
-TEST(TemporaryFile, ADescriptorIsWrittenWhereItStands) {
+TEST(TemporaryFile, ADescriptorIsWrittenAtItsPosition) {
     const TestFolder folder;
     write_text(folder / "log", "old ");
     const int log = ::open((folder / "log").c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
@@ -131,7 +132,7 @@ TEST(TemporaryFile, AFullDiskLeavesNothing) {
     getrlimit(RLIMIT_FSIZE, &before);
     const auto previous = std::signal(SIGXFSZ, SIG_IGN);
     rlimit small = before;
-    small.rlim_cur = 1000;   // bytes in a file: the writer meets it as it meets the end of a disk
+    small.rlim_cur = 1000;   // bytes in a file: for the writer, the same error as a full disk
     setrlimit(RLIMIT_FSIZE, &small);
     EXPECT_THROW(write_png(folder / "a.png", colorful(320, 180)), RunError);
     setrlimit(RLIMIT_FSIZE, &before);

@@ -34,13 +34,13 @@ TEST(FrameRate, IsCloseForAnyNumber) {
         ASSERT_GE(rate.denominator, 1);
         EXPECT_LE(rate.numerator, 1'000'000);
         EXPECT_LE(rate.denominator, 1'000'000);
-        // A best fraction p/q is closer than 1/(q * limit): the worst case is a limit in the numerator.
+        // A best fraction p/q is closer than 1/(q * limit): the worst case is a numerator at the limit.
         EXPECT_NEAR(double(rate.numerator) / double(rate.denominator), fps, fps * fps * 1e-6 + fps * 1e-6) << fps;
     }
 }
 
-// Only clips whose head can be written first.
-TEST(VideoFormat, ByWhatThePathIs) {
+// Only clips whose header can be written first.
+TEST(VideoFormat, DependsOnTheKindOfThePath) {
     const TestFolder folder;
     for (const char* name : {"a.mp4", "a.MOV", "a.mkv", "a.webm", "a.gif"}) {
         ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
@@ -63,7 +63,7 @@ TEST(VideoFormat, ByEnding) {
     for (const char* name : {"a", "a.avi", "mp4", "a.mp4.png", "a.", ""}) EXPECT_THROW(video_format(name, 60.0), InputError);
 }
 
-TEST(VideoFormat, RatesThatCannotBe) {
+TEST(VideoFormat, ImpossibleRatesAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     for (const double fps : {0.0, -1.0, 1e-5, 1.1e6, nan, infinity}) EXPECT_THROW(video_format("a.mp4", fps), InputError);
     EXPECT_NO_THROW(video_format("a.mp4", 1e6));

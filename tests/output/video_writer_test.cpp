@@ -1,4 +1,4 @@
-// Clips by the real ffmpeg, measured with ffprobe and decoded again.
+// Clips encoded by the real ffmpeg, measured with ffprobe and decoded again.
 #include "core/error.h"
 #include "output/process.h"
 #include "output/video_writer.h"
@@ -32,7 +32,7 @@ std::string probe(const std::filesystem::path& clip, const std::string& what) {
     return *text;
 }
 
-/// All frames as RGB bytes, by the matrix that the clip says it has.
+/// All frames as RGB bytes, by the matrix that the clip names.
 std::string decoded(const std::filesystem::path& clip) {
     const std::filesystem::path raw = clip.string() + ".rgb";
     if (!output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-f", "rawvideo", "-pix_fmt", "rgb24", "-y",
@@ -43,7 +43,7 @@ std::string decoded(const std::filesystem::path& clip) {
     return bytes;
 }
 
-/// A box that moves over plain ground by 4 pixels a frame.
+/// A box that moves over a uniform ground by 4 pixels per frame.
 Image moving_box(int width, int height, int frame) {
     Image image = plain(width, height, {90, 100, 110});
     if (width >= 8 && height >= 8) fill(image, std::min(4 * frame, width - 8), height / 2 - 4, 8, 8, crate);
@@ -70,7 +70,7 @@ void expect_near(Pixel a, Pixel b, int levels) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], levels) << "channel " << c;
 }
 
-TEST(VideoWriter, H264HasWhatPlayersWant) {
+TEST(VideoWriter, H264HasTheFeaturesThatPlayersNeed) {
     const TestFolder folder;
     write_clip(folder / "a.mp4", 64, 48, 60.0, 12);
     EXPECT_EQ(probe(folder / "a.mp4", "codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
@@ -81,7 +81,7 @@ TEST(VideoWriter, H264HasWhatPlayersWant) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(VideoWriter, ColoursAndPlacesSurvive) {
+TEST(VideoWriter, ColorsAndPlacesArePreserved) {
     const TestFolder folder;
     for (const char* name : {"a.mp4", "a.mkv", "a.mov", "a.webm", "a.gif"}) {
         SCOPED_TRACE(name);
@@ -127,7 +127,7 @@ TEST(VideoWriter, OddSizesRepeatTheirEdge) {
     EXPECT_EQ(probe(folder / "odd.gif", "width,height"), "33 17");
 }
 
-TEST(VideoWriter, AFastGifTakesEverySoManiethFrame) {
+TEST(VideoWriter, AFastGifTakesEveryNthFrame) {
     const TestFolder folder;
     VideoWriter writer(folder / "a.gif", 64, 48, 60.0);
     for (int n = 0; n < 9; ++n) writer.write(moving_box(64, 48, n));
@@ -147,9 +147,9 @@ TEST(VideoWriter, TheSameFramesAreTheSameBytes) {
     }
 }
 
-/// Which grey is shown at each of so many times n/fps: by the time stamps of the stored frames.
+/// Gray value shown at each of the times n/fps, by the time stamps of the stored frames.
 std::vector<int> shown(const std::filesystem::path& clip, double fps, int frames) {
-    const std::filesystem::path raw = clip.string() + ".grey";
+    const std::filesystem::path raw = clip.string() + ".gray";
     output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-fps_mode", "passthrough", "-f", "rawvideo",
                                   "-pix_fmt", "gray", "-y", raw.string()});
     const std::string bytes = read_text(raw);
@@ -168,9 +168,9 @@ std::vector<int> shown(const std::filesystem::path& clip, double fps, int frames
     return greys;
 }
 
-TEST(VideoWriter, WhatStaysIsStoredOnceAndShownLonger) {
+TEST(VideoWriter, UnchangedPicturesAreStoredOnceAndShownLonger) {
     const TestFolder folder;
-    // What is drawn anew at which frame; the last one stays to the end.
+    // Value and frame of each change; the last one stays to the end.
     const std::vector<std::pair<int, int>> changes{{0, 40}, {1, 60}, {5, 80}, {6, 100}, {7, 120}, {12, 140}, {45, 200}};
     constexpr int frames = 60;
     for (const char* name : {"a.mp4", "a.mkv", "a.webm", "a.gif"}) {
@@ -207,8 +207,8 @@ TEST(VideoWriter, WhatStaysIsStoredOnceAndShownLonger) {
     }
 }
 
-TEST(VideoWriter, AFastGifKeepsWhatItShowed) {
-    // Of 100 frames/s it takes every second one: what only the others show must not come into it.
+TEST(VideoWriter, AFastGifKeepsItsShownFrames) {
+    // Of 100 frames/s it takes every second one: content of the other frames must not appear.
     const TestFolder folder;
     VideoWriter writer(folder / "a.gif", 64, 48, 100.0);
     const Image dark = plain(64, 48, {40, 40, 40}), bright = plain(64, 48, {200, 200, 200});
@@ -232,7 +232,7 @@ TEST(VideoWriter, StrangeNamesAreNames) {
     }
 }
 
-TEST(VideoWriter, GivenUpNothingIsLeft) {
+TEST(VideoWriter, AbandonedItLeavesNothing) {
     const TestFolder folder;
     write_text(folder / "a.gif", "old");
     {
@@ -248,7 +248,7 @@ TEST(VideoWriter, GivenUpNothingIsLeft) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-/// Tilted squares with frames and grooves fall past a sky, which is all there is at the end.
+/// Tilted squares with frames and grooves fall in front of a sky, which alone is visible at the end.
 Image falling_squares(int width, int height, int frame) {
     Image image = plain(width, height, {0, 0, 0});
     for (int y = 0; y < height; ++y)
@@ -271,7 +271,7 @@ Image falling_squares(int width, int height, int frame) {
     return image;
 }
 
-/// Channels of the last frame, a second after all was still, that are off by more than so many levels.
+/// Number of channels of the last frame, a second after the last movement, that are off by more than `levels`.
 int still_off(const std::filesystem::path& clip, VideoQuality quality, int levels) {
     constexpr int width = 320, height = 176, falling = 110, fps = 60;
     VideoWriter writer(clip, width, height, fps, {FrameTimes::constant_rate, quality});
@@ -334,7 +334,7 @@ TEST(VideoWriter, NoFfmpegSaysHowToGetIt) {
     EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(VideoWriter, ItsDeathIsReportedInItsWords) {
+TEST(VideoWriter, ItsFailureIsReportedWithItsMessage) {
     const TestFolder folder;
     for (const char* script : {"echo 'no such encoder' >&2; exit 3", "exec <&-; echo 'no such encoder' >&2; exit 3",
                                "/bin/cat > /dev/null; echo 'no such encoder' >&2; exit 3"}) {
@@ -346,7 +346,7 @@ TEST(VideoWriter, ItsDeathIsReportedInItsWords) {
     }
 }
 
-// Exit code 0 is a claim, the clip the proof.
+// Exit code 0 is not sufficient; the clip is checked.
 TEST(VideoWriter, AClipThatIsNotWholeIsAnError) {
     const TestFolder folder, other;
     write_clip(other / "short.mp4", 64, 48, 30.0, 4);
@@ -375,7 +375,7 @@ TEST(VideoWriter, AClipThatIsNotWholeIsAnError) {
     }
 }
 
-// No one can look again at what went into a pipe: it is ffmpeg's own report that counts.
+// A clip written into a pipe cannot be checked, so ffmpeg's own report counts.
 TEST(VideoWriter, AClipIntoAPipeThatIsNotWholeIsAnError) {
     const TestFolder folder;
     for (const char* name : {"a.mkv", "a.webm", "a.gif"}) {
@@ -403,7 +403,7 @@ TEST(VideoWriter, AGifThatIsNotWholeIsAnError) {
     EXPECT_EQ(folder.files(), 0u);
 }
 
-TEST(VideoWriter, WhatFfmpegLeavesRunningIsNotWaitedFor) {
+TEST(VideoWriter, ChildrenOfFfmpegAreNotWaitedFor) {
     const TestFolder folder, other;
     for (const char* name : {"a.mp4", "a.gif"}) {
         const OtherFfmpeg daemon("/bin/sleep 1000 & echo $! >> '" + (other / "left").string() + "'; exec /usr/bin/ffmpeg \"$@\"");
@@ -416,8 +416,8 @@ TEST(VideoWriter, WhatFfmpegLeavesRunningIsNotWaitedFor) {
     EXPECT_EQ(count, 3);
 }
 
-// A stopped program takes no more frames, and no notice of any signal but the one that kills it.
-TEST(VideoWriter, AStoppedFfmpegCanBeGivenUp) {
+// A stopped program takes no more frames, and reacts to no signal but the one that kills it.
+TEST(VideoWriter, AStoppedFfmpegCanBeAbandoned) {
     const TestFolder folder;
     const OtherFfmpeg stopped("/bin/sleep 1000 & kill -STOP $$");
     VideoWriter writer(folder / "a.mp4", 640, 480, 30.0);

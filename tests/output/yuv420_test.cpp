@@ -1,4 +1,4 @@
-// Conversion to video planes: against the formula in doubles, part by part, at every alignment.
+// Conversion to video planes: compared with the formula in doubles, by regions, at every alignment.
 #include "output/video_pixels.h"
 #include "output/yuv420.h"
 
@@ -26,7 +26,7 @@ Ycc bt709(double r, double g, double b) {
 Image noise(int width, int height, unsigned seed) {
     Image image(width, height);
     std::mt19937 random(seed);
-    for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>(random());   // the fourth byte too
+    for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>(random());   // the fourth byte as well
     return image;
 }
 
@@ -59,7 +59,7 @@ TEST(Yuv420, IsTheFormula) {
         }
 }
 
-TEST(Yuv420, KnownColours) {
+TEST(Yuv420, KnownColors) {
     const auto first_of = [](Pixel color) {
         const Image image = plain(16, 2, color);
         const std::vector<std::uint8_t> planes = converted(image);
@@ -76,7 +76,7 @@ TEST(Yuv420, KnownColours) {
     }
 }
 
-TEST(Yuv420, WideAndNarrowWaysAgree) {
+TEST(Yuv420, WideAndNarrowImagesAgree) {
     // Widths below 8 are converted square by square; the same pixels in a wide picture eight at a time.
     const Image wide = noise(64, 8, 2);
     const std::vector<std::uint8_t> planes = converted(wide);

@@ -1,4 +1,4 @@
-// Where a moving camera is, against closed forms; and its pictures.
+// Pose of a moving camera compared with closed forms; and its frames.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -52,7 +52,7 @@ TEST(CameraAnimation, TurnsAboutTheTargetCounterClockwiseFromAbove) {
 
 TEST(CameraAnimation, AnOrbitKeepsItsHeightAboutATiltedUp) {
     SceneDescription scene = empty_scene();
-    scene.camera.up = Vec3(1.0, 2.0, 0.5);   // not of unit length
+    scene.camera.up = Vec3(1.0, 2.0, 0.5);   // not normalized
     scene.camera.orbit = -77.0;
     const Vec3 arm = scene.camera.eye - scene.camera.target;
     const CameraDescription now = CameraAnimation(scene.camera).at(at_time(scene, 1.3));
@@ -74,13 +74,13 @@ TEST(CameraAnimation, GoesThroughItsKeyframes) {
         EXPECT_EQ(path.at(at_time(scene, 0.2)).eye, Vec3(0, 0, 8)) << "still before the first";
         EXPECT_EQ(path.at(at_time(scene, 9.0)).eye, Vec3(4, 6, 8)) << "and after the last";
         const CameraDescription between = path.at(at_time(scene, 1.5));
-        // Smooth: half of the way, less an eighth of the second key's velocity: (2 * 4 + 0, 0 + 6 / 2, 0) / 3.
+        // Smooth: half of the displacement, less an eighth of the second key's velocity: (2 * 4 + 0, 0 + 6 / 2, 0) / 3.
         const bool smooth = way == Interpolation::smooth;
         EXPECT_LT((between.eye - (smooth ? Vec3(2.0 - 8.0 / 24.0, -1.0 / 8.0, 8.0) : Vec3(2, 0, 8))).norm(), rounding);
     }
 }
 
-// A camera that waits stands still, however quickly it leaves; its eye may wait while its target moves.
+// A waiting camera stands still, even if it leaves fast; its eye may wait while its target moves.
 TEST(CameraAnimation, AWaitingCameraStandsStill) {
     SceneDescription scene = empty_scene();
     scene.camera.keyframes = {{0.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {3.0, {0, 0, 8}, {2, 0, 0}, 40.0}, {3.2, {5, 0, 8}, {2, 1, 0}, 20.0}};
@@ -92,7 +92,7 @@ TEST(CameraAnimation, AWaitingCameraStandsStill) {
     }
 }
 
-// Straight above its target the picture stood across its way for one frame. What was to the right just before is so still.
+// Straight above its target, the camera keeps its roll of the moment before.
 TEST(CameraAnimation, PassesOverItsTargetWithoutAQuarterTurn) {
     for (const double orbit : {0.0, 50.0})
         for (const double height : {8.0, -8.0})
@@ -106,7 +106,7 @@ TEST(CameraAnimation, PassesOverItsTargetWithoutAQuarterTurn) {
                 const auto view_at = [&](double time) { return Camera(path.at(at_time(scene, time)), 320, 180); };
                 const Camera before = view_at(2.0 - 1e-6), there = view_at(2.0), after = view_at(2.0 + 1e-6);
                 EXPECT_LT((there.eye() - Vec3(0.0, height, 0.0)).norm(), rounding);
-                // Nearly level, along (2, 4): up x that is to the right, seen from above and from below.
+                // Nearly level, along (2, 4): up x forward is to the right, seen from above and from below.
                 const double angle = orbit * M_PI / 180.0 * 2.0;
                 const Vec3 right = Eigen::AngleAxisd(angle, Vec3::UnitY()) * Vec3(4.0, 0.0, -2.0).normalized();
                 EXPECT_LT((there.right() - right).norm(), 1e-3) << orbit << " " << height;
@@ -129,9 +129,9 @@ TEST(CameraAnimation, FollowsABodyAndTurnsAroundIt) {
     EXPECT_LT((now.target - Vec3(3.0, 3.0, -2.0)).norm(), rounding);
 }
 
-// A body whose origin is at one end, and which tumbles about its middle: the camera goes along with the middle, in a
+// The origin of the body is at one end, and the body tumbles about its center: the camera follows the center, in a
 // straight line.
-TEST(CameraAnimation, FollowsTheCentreOfMassOfWhatTumbles) {
+TEST(CameraAnimation, FollowsTheCenterOfMassOfATumblingBody) {
     SceneDescription scene = empty_scene();
     const Vec3 middle(0.3, 0.1, -0.2);   // body frame, from the origin
     const Quat first(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
@@ -169,7 +169,7 @@ TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
     }
 }
 
-// Every frame is what a renderer that has seen nothing before makes of it, however few of the frames it gets.
+// Every frame equals that of a new renderer, for any subset of frames that the renderer gets.
 TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
     SceneDescription scene = small_heap();
     const std::size_t last = scene.bodies.size() - 1;
@@ -184,7 +184,7 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
         Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
         PoseFilter poses(scene);
         Image frame, sparse, truth;
-        for (int n = 0; n < 15; ++n) {   // with stillness before and after
+        for (int n = 0; n < 15; ++n) {   // with still frames before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
             snapshot.bodies[1].origin.x() += 0.05 * n;
             if (n > 10) snapshot.bodies[last].origin = snapshot.bodies[last].center_of_mass += Vec3(0.1 * (n - 10), 0.2, 0.0);
@@ -199,9 +199,9 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
     }
 }
 
-// What was kept from another place of the camera is, to the bit, what would be worked out at this one: of a few hundred
+// Data that is kept from another camera position equals, to the bit, data computed at this one: with a few hundred
 // bodies, rounding would show in some texel.
-TEST(MovingCamera, WhatIsKeptDoesNotDependOnWhereItWasSeenFrom) {
+TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
     SceneDescription scene = heap_scene(250);
     scene.output.width = 232;
     scene.output.height = 152;
@@ -243,11 +243,11 @@ TEST(MovingCamera, NoTwoFramesAreTheSamePictureUntilItStops) {
     }
 }
 
-TEST(MovingCamera, RestsWithABodyThatTrembles) {
+TEST(MovingCamera, StandsStillWithAJitteringBody) {
     SceneDescription scene = small_heap();
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
-    scene.bodies[1].surface.visible = false;   // followed all the same
+    scene.bodies[1].surface.visible = false;   // followed although invisible
     PoseFilter poses(scene);
     Snapshot snapshot = at_time(scene, 0.0);
     poses.follow(snapshot);
@@ -260,8 +260,9 @@ TEST(MovingCamera, RestsWithABodyThatTrembles) {
     EXPECT_TRUE(poses.follow(snapshot));
 }
 
-// Haze and grids fit the bodies' distance: the target may stand anywhere along the way to them, and before or behind.
-TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
+// Fog and grids fit the bodies' distance: the target may be anywhere along the view axis, also in front of or behind
+// the bodies.
+TEST(FogReferenceDistance, IsTheDistanceOfTheBodiesInView) {
     SceneDescription scene = empty_scene();
     for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
     const RenderScene looks = make_render_scene(scene);
@@ -282,8 +283,8 @@ TEST(ViewingDistance, IsThatOfWhatIsLookedAt) {
     EXPECT_EQ(viewing_distance(scene, make_render_scene(scene)), 4.0);
 }
 
-// A tower behind marbles was nowhere in the picture: half of the light was haze at five times their distance.
-TEST(HazeDistance, LeavesWhatIsLargeInThePicture) {
+// A tower behind marbles must be visible, although fog at five times their distance would hide it.
+TEST(FogDistance, KeepsLargeBodiesVisible) {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(0.0, 0.0, 10.0);
     scene.camera.target = Vec3::Zero();
@@ -295,21 +296,21 @@ TEST(HazeDistance, LeavesWhatIsLargeInThePicture) {
         return fog_distance(scene, make_render_scene(scene), 10.0);
     };
     EXPECT_EQ(with_box(Vec3(1.0, 1.0, -1.0), 1.0), 50.0);        // near
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -190.5), 0.5), 50.0);      // a dot
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -190.5), 0.5), 50.0);      // small on the screen
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 400.0);    // its near side is 200 m away
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 50.0);      // behind the eye
-    EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // what the others stand on: a metre below the eye
+    EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // below the bodies: a meter below the eye
     scene.camera.orbit = 10.0;
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);     // in view later
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);     // visible later
     scene.camera.orbit = 0.0;
     scene.bodies[3].keyframes = {{0.0, Vec3(0.0, 0.0, -1.0), Quat::Identity()}, {1.0, Vec3(0.0, 0.0, -195.0), Quat::Identity()}};
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -1.0), 10.0), 400.0);      // where it goes
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -1.0), 10.0), 400.0);      // visible at the end
     scene.bodies[3].keyframes.clear();
     scene.camera.keyframes = {{0.0, {0, 0, 10}, {0, 0, 0}, 40.0}, {1.0, {0, 0, 20}, {0, 0, 0}, 40.0}};
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 420.0);    // the farthest
 }
 
-TEST(HazeDistance, ATowerBehindMarblesIsInThePicture) {
+TEST(FogDistance, ATowerBehindMarblesIsVisible) {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(0.0, 0.2, 0.5);
     scene.camera.target = Vec3(0.0, 0.2, 0.0);

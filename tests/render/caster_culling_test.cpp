@@ -1,4 +1,4 @@
-// What throws no shadow of its own: all that the sun could see of it lies behind other boxes.
+// Culled shadow casters: their sides towards the sun are behind other boxes.
 #include "example_scenes.h"
 #include "core/rotation.h"
 #include "random.h"
@@ -11,10 +11,10 @@
 namespace tumble {
 namespace {
 
-// Does the way from `point` to the sun pass through the box?
+// True if the ray from `point` to the sun passes through the box.
 bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) { return passes_through(box, point, to_sun, 1e9); }
 
-/// Boxes in a cloud, wide ones among them, and the sun's view of them.
+/// A cloud of boxes, with wide ones among them, seen from the sun.
 struct Cloud {
     Cloud() {
         Random random(5);
@@ -36,7 +36,7 @@ struct Cloud {
     ShadowCascades fit;
 };
 
-TEST(CasterCulling, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
+TEST(CasterCulling, CulledCastersAreInTheShadowOfOthers) {
     const Cloud cloud;
     std::vector<char> casting(cloud.items.size(), 1);
     drop_hidden_casters(cloud.looks, cloud.items, cloud.fit, casting);
@@ -63,7 +63,7 @@ TEST(CasterCulling, WhatIsLeftOutLiesInTheShadowOfWhatIsNot) {
     EXPECT_GT(dropped, 150) << "of 600: there is much to leave out";
 }
 
-TEST(CasterCulling, HidesWhatLiesBehindAndNothingElse) {
+TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
     SceneDescription scene = empty_scene();
     const Vec3 down = scene.light.direction.normalized();
     const Vec3 across = down.unitOrthogonal();
@@ -73,7 +73,7 @@ TEST(CasterCulling, HidesWhatLiesBehindAndNothingElse) {
     const Vec3 front = scene.bodies[0].position;
     for (const auto& [away, beside] : {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
         scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
-    scene.bodies.push_back(cube(front + 2.0 * down, 2.5));   // wider than what lies before it
+    scene.bodies.push_back(cube(front + 2.0 * down, 2.5));   // wider than the box in front of it
     const RenderScene looks = make_render_scene(scene);
     const Camera view(scene.camera, 320, 180);
     const Snapshot snapshot = first_snapshot(scene);

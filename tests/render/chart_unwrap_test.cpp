@@ -1,4 +1,4 @@
-// Charts: what lies between a chart's texels is where the surface is, wherever that turns, folds or lies above itself.
+// Charts: positions interpolated between texels are on the surface, also where it bends, folds or overlaps itself.
 #include "example_scenes.h"
 #include "random.h"
 
@@ -14,7 +14,7 @@
 namespace tumble {
 namespace {
 
-// A ramp that winds up: each turn lies 1 m above the one before, and all are connected.
+// A spiral ramp: each turn is 1 m above the one below, and all are connected.
 std::shared_ptr<const MeshAsset> spiral_asset(int turns) {
     auto asset = std::make_shared<MeshAsset>();
     constexpr int steps = 24;
@@ -32,7 +32,8 @@ std::shared_ptr<const MeshAsset> spiral_asset(int turns) {
 Vec3 vec3(const std::array<float, 3>& v) { return {double(v[0]), double(v[1]), double(v[2])}; }
 Vec3 position(const MeshAsset::Vertex& v) { return {double(v.position[0]), double(v.position[1]), double(v.position[2])}; }
 
-// The farthest that a place is from what its texels say; and that it lies on a used one's bounds.
+// Largest distance of a point from the position interpolated from its texels; the point must be within the bounds of a
+// used one.
 double worst(const MeshAsset& asset, double cell) {
     auto charts = make_mesh_charts(asset, cell, 1'000'000);
     EXPECT_TRUE(charts);
@@ -77,7 +78,7 @@ TEST(ChartedMesh, ShowTheSurfaceBetweenTexels) {
     }
 }
 
-// Texel by texel no two charts meet, rims included: what is interpolated is of one chart.
+// No two charts overlap, borders included: interpolation stays within one chart.
 TEST(ChartedMesh, LieSideBySide) {
     for (const auto& asset : {torus_asset(2.0, 0.7, 48, 24), spiral_asset(3)}) {
         const auto charts = make_mesh_charts(*asset, 0.1, 1'000'000);
@@ -97,7 +98,7 @@ TEST(ChartedMesh, AreNoneWhereTheyDoNotFit) {
     EXPECT_FALSE(make_mesh_charts(*sheet_asset(8.0, 1), 0.1, 1000));
 }
 
-// Every used texel is in one block, and its place in the block's and group's bounds.
+// Every used texel is in one block, and its point is in the bounds of the block and of its group.
 TEST(OcclusionLightmap, BlocksHoldTheirTexels) {
     auto charts = make_mesh_charts(*torus_asset(2.0, 0.7, 48, 24), 0.1, 1'000'000);
     ASSERT_TRUE(charts);

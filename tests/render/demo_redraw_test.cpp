@@ -1,4 +1,4 @@
-// The demo scenes, drawn partly and wholly: the same bytes.
+// Partial and full redraw of the demo scenes give the same bytes.
 #include "render/scene/pose_filter.h"
 #include "render/renderer.h"
 #include "scene/load.h"

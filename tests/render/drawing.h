@@ -15,7 +15,7 @@ namespace tumble {
 Image drawn(const SceneDescription& scene, const RenderOptions& options = {});
 Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options = {});
 
-/// The pixel that a point of the world lands in.
+/// The pixel of a point of the world.
 struct Pixel {
     int x, y;
 };
@@ -25,12 +25,12 @@ Pixel pixel_of(const SceneDescription& scene, const Vec3& point);
 double brightness(const Image& image, Pixel at);
 double brightness_at(const Image& image, const SceneDescription& scene, const Vec3& point);
 
-/// A copy of the shaders with changes, gone at the end of the test.
+/// A copy of the shaders with changes, deleted at the end of the test.
 class ShaderCopy {
 public:
     ShaderCopy();
 
-    /// Replaces a text that must be there; returns the number of its line.
+    /// Replaces a text that must exist; returns the number of its line.
     int replace(const std::string& file, const std::string& text, const std::string& by);
     void remove(const std::string& file);
     const std::filesystem::path& folder() const { return folder_.path(); }

@@ -1,4 +1,4 @@
-// Smooth edges against exact areas.
+// Analytic antialiasing compared with exact areas.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -24,7 +24,7 @@ TEST(ShareBefore, IsTheMeanOfAClampedRamp) {
         }
 }
 
-// White below the line through the middle at this angle, black above: as one sample a pixel draws it.
+// White below a line through the center at this angle, black above, with one sample per pixel.
 struct HalfPlane {
     static constexpr int size = 48;
     Vec3 normal;   // in pixels: inside where normal . (x, y, 1) > 0
@@ -43,7 +43,7 @@ struct HalfPlane {
                 p[3] = inside ? inner : outer;
             }
     }
-    double area(int x, int y) const {   // of the pixel that is inside
+    double area(int x, int y) const {   // of the pixel inside the half-plane
         int count = 0;
         for (int i = 0; i < 32; ++i)
             for (int j = 0; j < 32; ++j)
@@ -66,7 +66,7 @@ Image blended(const Image& drawn, const ScreenEdge& edge) {
     return frame;
 }
 
-TEST(BlendEdges, GivesEveryPixelOfALineItsArea) {
+TEST(BlendAnalyticEdges, GivesEveryPixelOfALineItsArea) {
     for (double angle = 0.0; angle < 6.28; angle += 0.13) {
         const HalfPlane half(angle);
         for (const bool outline : {false, true}) {
@@ -82,7 +82,7 @@ TEST(BlendEdges, GivesEveryPixelOfALineItsArea) {
     }
 }
 
-TEST(BlendEdges, LeavesHiddenEdgesAlone) {
+TEST(BlendAnalyticEdges, LeavesHiddenEdgesAlone) {
     const HalfPlane half(0.4);
     for (const ScreenEdge& edge :
          {ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 4},
@@ -94,8 +94,8 @@ TEST(BlendEdges, LeavesHiddenEdgesAlone) {
     }
 }
 
-// As does the far rim of a ring whose near side reaches farther.
-TEST(BlendEdges, LeavesEdgesAloneThatTheirOwnSurfaceHides) {
+// The far rim of a ring is hidden by its near side.
+TEST(BlendAnalyticEdges, LeavesEdgesAloneThatAreHiddenByTheirSurface) {
     for (double angle = 0.0; angle < 6.28; angle += 0.13) {
         const HalfPlane half(angle);
         const double x = -1.5 * std::sin(angle), y = 1.5 * std::cos(angle);   // pixels inwards
@@ -106,7 +106,7 @@ TEST(BlendEdges, LeavesEdgesAloneThatTheirOwnSurfaceHides) {
     }
 }
 
-// White bodies before a black sky: a pixel is the share of it that is covered.
+// White bodies before a black sky: the value of a pixel is its coverage.
 class Silhouettes {
 public:
     Silhouettes() {
@@ -114,7 +114,7 @@ public:
             shaders_.replace(file, "pixel = ", "pixel = vec4(vec3(1.0), v_rough.w); // ");
         shaders_.replace("sky.frag", "pixel = ", "pixel = vec4(0.0, 0.0, 0.0, 1.0); // ");
     }
-    // Root of the mean squared error over the pixels that are partly covered. `inside`: whether a point is covered.
+    // Root mean square error over the partly covered pixels. `inside`: true for a covered point.
     template <class Inside>
     double error(const SceneDescription& scene, bool multisample, Inside inside) const {
         RenderOptions options = shaders_.options();
@@ -135,7 +135,7 @@ public:
         return std::sqrt(sum / count);
     }
 
-    // The darkest pixel that lies, with all around it, within what is drawn with one sample.
+    // The darkest pixel that is, with all its neighbors, within the area drawn with one sample.
     int darkest_within(SceneDescription scene) const {
         const Image smooth = drawn(scene, shaders_.options());
         scene.output.samples = 1;
@@ -157,7 +157,7 @@ private:
     ShaderCopy shaders_;
 };
 
-// Whether a point of the screen lies on the box.
+// True if a point of the screen is on the box.
 auto shown_box(const Camera& view, const BodyDescription& box, const Vec3& half_size) {
     FewPoints corners;
     for (const Vec3& p : box_corners(view.relative(box.position), box.rotation.toRotationMatrix(), half_size)) corners.push_back(view.pixel(p));
@@ -168,7 +168,7 @@ auto shown_box(const Camera& view, const BodyDescription& box, const Vec3& half_
     };
 }
 
-TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
+TEST(AnalyticAntialiasing, OfABoxAndABallAreFinerThanFourSamples) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
@@ -189,8 +189,8 @@ TEST(SmoothEdges, OfABoxAndABallAreFinerThanFourSamples) {
     EXPECT_LT(silhouettes.error(scene, false, inside), 0.06);   // the ball is drawn as a mesh within 0.15 pixels
 }
 
-// One colour inside and out: only the outline of the ring can be seen, with its hole.
-TEST(SmoothEdges, OfAMeshHaveManyShades) {
+// One color inside and outside: only the outline of the ring is visible, with its hole.
+TEST(AnalyticAntialiasing, OfAMeshHaveManyShades) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3(0.0, 1.0, 0.0), torus_asset(1.2, 0.4), {255, 255, 255},
@@ -214,8 +214,8 @@ TEST(SmoothEdges, OfAMeshHaveManyShades) {
     EXPECT_LT(smooth, silhouettes.error(scene, true, inside) + 0.02);
 }
 
-// The far rim of its hole, which the near tube hides, took colour from beyond the ring: grey holes in small ones.
-TEST(SmoothEdges, ThatAMeshHidesItselfAreNotSeen) {
+// The far rim of the hole, which the near tube hides, must not take color from beyond the ring.
+TEST(AnalyticAntialiasing, EdgesHiddenByTheirMeshAreNotBlended) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     for (double angle = 0.0; angle < 1.6; angle += 0.2) {
@@ -225,8 +225,8 @@ TEST(SmoothEdges, ThatAMeshHidesItselfAreNotSeen) {
     }
 }
 
-// Grounds that reach behind the eye had no smooth edges at all: hills and floors ended in steps before the sky.
-TEST(SmoothEdges, OfGroundsThatReachBehindTheEye) {
+// Large receivers that extend behind the eye have smooth edges.
+TEST(AnalyticAntialiasing, OfGroundsThatReachBehindTheEye) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
@@ -262,8 +262,8 @@ TEST(SmoothEdges, OfGroundsThatReachBehindTheEye) {
     EXPECT_LT(silhouettes.error(scene, false, on_ball), 0.06);   // it is drawn as a mesh within 0.15 pixels
 }
 
-// A rod of three pixels or less: its narrow sides show at no pixel's middle for a while, and there its outline had steps.
-TEST(SmoothEdges, OfThinBoxesAreStraight) {
+// A rod of three pixels or less: its narrow sides may cover no pixel center along a part of the outline.
+TEST(AnalyticAntialiasing, OfThinBoxesAreStraight) {
     const Silhouettes silhouettes;
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
@@ -277,8 +277,8 @@ TEST(SmoothEdges, OfThinBoxesAreStraight) {
     }
 }
 
-// Its rounded edges were as wide as a pixel, all of its sides, and pixels' middles lay here and there on them: a string of beads.
-TEST(SmoothEdges, ThinBoxesLookAsInALargerPicture) {
+// A rounded edge a pixel wide would be hit irregularly by pixel centers, like a string of beads.
+TEST(AnalyticAntialiasing, ThinBoxesLookAsInALargerPicture) {
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
     for (double angle = 0.37; angle < 1.5; angle += 0.3) {

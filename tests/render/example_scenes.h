@@ -1,4 +1,4 @@
-// Scenes made by hand, for the tests of drawing: no file is read and nothing is simulated.
+// Scenes built in code for the tests of drawing: no file is read and nothing is simulated.
 #pragma once
 
 #include "scene/description/description.h"
@@ -15,7 +15,7 @@ BodyDescription ball_body(const Vec3& position, double radius, Color color, cons
 BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset> asset, Color color,
                           const Quat& rotation = Quat::Identity());
 
-/// Whether start + t way is inside of the box for any t from 0 to end: by its slabs.
+/// True if start + t way is inside the box for any t from 0 to end, by its slabs.
 bool passes_through(const BodyDescription& box, const Vec3& start, const Vec3& way, double end);
 
 /// A ring in the plane y = 0, around the y axis, of 2 around x across triangles.
@@ -25,16 +25,16 @@ std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_rad
 /// A flat square in the plane y = 0, seen from above, of 2 cells^2 triangles.
 std::shared_ptr<const MeshAsset> sheet_asset(double size, std::uint32_t cells);
 
-/// The poses that the description starts from.
+/// The initial poses of the description.
 Snapshot first_snapshot(const SceneDescription& scene);
 
-/// `count` boxes of about 1 m piled on the ground, seen as in a demonstration clip.
+/// `count` boxes of about 1 m piled on the ground, seen as in a demo clip.
 SceneDescription heap_scene(int count);
 
 /// All lengths times a factor.
 SceneDescription scaled(SceneDescription scene, double factor);
 
-/// All positions moved.
+/// All positions displaced.
 SceneDescription moved(SceneDescription scene, const Vec3& by);
 
 }  // namespace tumble

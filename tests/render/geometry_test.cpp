@@ -1,4 +1,4 @@
-// The parts of drawing that need no OpenGL, against closed forms and slower ways.
+// The parts of drawing without OpenGL, compared with closed forms and slower methods.
 #include "example_scenes.h"
 
 #include "core/deterministic_math.h"
@@ -43,11 +43,11 @@ TEST(Primitives, FaceOutwardAndFillTheirVolume) {
     EXPECT_NEAR(volume(make_ball(0)), 2.53615, 1e-4);  // icosahedron of circumradius 1
     EXPECT_NEAR(volume(make_ball(4)), 4.18879, 0.02);  // 4 pi / 3
     EXPECT_EQ(make_ball(3).indices.size(), 3u * 20u * 64u);
-    EXPECT_NEAR(volume(make_cylinder(256)), 4.0 * 3.14159265 / 3.0, 1e-3);  // the mantle's share: two thirds of 2 pi
+    EXPECT_NEAR(volume(make_cylinder(256)), 4.0 * 3.14159265 / 3.0, 1e-3);  // without caps: two thirds of 2 pi
 }
 
-TEST(SkyOpenness, AWallTakesTheShareOfTheFormula) {
-    // Ground point at distance x from a wall much higher than the reach h: d(p + n h_k) = x.
+TEST(AnalyticOcclusion, AWallTakesTheShareOfTheFormula) {
+    // Ground point at distance x from a wall much higher than the AO radius h: d(p + n h_k) = x.
     Occluder wall{};
     wall.center.setZero();
     wall.to_local.setIdentity();
@@ -64,21 +64,21 @@ TEST(SkyOpenness, AWallTakesTheShareOfTheFormula) {
     }
 }
 
-TEST(SkyOpenness, CoplanarFacesAndThingsBehindDoNotDarken) {
+TEST(AnalyticOcclusion, CoplanarFacesAndBodiesBehindDoNotOcclude) {
     Occluder box{};
     box.center.setZero();
     box.to_local.setIdentity();
     box.half_size = {0.5f, 0.5f, 0.5f};
     box.reach = 0.5f;
     SurfacePoints points;
-    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbour of the same height
+    points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbor of the same height
     points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());   // turned away
     darken(points, box, 0.5f);
     EXPECT_NEAR(points.open[0], 1.0f, 0.01f);
     EXPECT_EQ(points.open[1], 1.0f);
 }
 
-TEST(TexelGrid, HasWhatItsPointsHaveOneByOne) {
+TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
     std::mt19937 engine(3);
     const auto random = [&](float low, float high) {
         return low + (high - low) * float(double(engine()) / 4294967296.0);
@@ -115,7 +115,7 @@ TEST(TexelGrid, HasWhatItsPointsHaveOneByOne) {
     EXPECT_GT(clear, 1000);
 }
 
-TEST(CellRectangles, HoldAllThatIsWantedOnceAndNothingThatIsForbidden) {
+TEST(TileMerge, CoverEveryWantedCellOnceAndNoForbiddenOne) {
     std::mt19937 engine(9);
     const CellGrid grid{20, 12, 8, 157, 96};   // the last column is cut
     std::size_t strict = 0, loose = 0;
@@ -142,7 +142,7 @@ TEST(CellRectangles, HoldAllThatIsWantedOnceAndNothingThatIsForbidden) {
     EXPECT_LT(loose, strict);
 }
 
-TEST(OccluderFinder, FindsWhatComparingAllFinds) {
+TEST(OccluderFinder, EqualsAFullComparison) {
     std::mt19937 engine(5);
     const auto random = [&](float low, float high) {
         return low + (high - low) * float(double(engine()) / 4294967296.0);
@@ -150,7 +150,7 @@ TEST(OccluderFinder, FindsWhatComparingAllFinds) {
     std::vector<Occluder> occluders(300);
     for (std::size_t i = 0; i < occluders.size(); ++i) {
         occluders[i].center = {random(-20, 20), random(0, 5), random(-20, 20)};
-        occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);  // some plates among the crates
+        occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);  // some plates among the boxes
         occluders[i].reach = random(0.1f, 0.6f);
         occluders[i].body = i;
     }
@@ -169,7 +169,7 @@ TEST(OccluderFinder, FindsWhatComparingAllFinds) {
     }
 }
 
-TEST(MeshOccluders, StayInsideAndLeaveTheHoleFree) {
+TEST(OccluderBoxes, StayInsideAndLeaveTheHoleFree) {
     const auto torus = torus_asset(1.0, 0.3);
     const std::vector<OccluderBox> boxes = make_mesh_occluders(torus->surface);
     ASSERT_FALSE(boxes.empty());
@@ -193,17 +193,17 @@ TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
     const RenderScene looks = make_render_scene(scene);
-    const Camera view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the middle row
+    const Camera view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the center row
     const std::vector<PlanePatch> patches = make_plane_patches(looks, first_snapshot(scene), view, 0.01);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_DOUBLE_EQ(patches[0].height, 1.0);
     for (const glm::vec3& corner : patches[0].corners) {
-        EXPECT_GE(corner.y, -1e-6f);  // the picture's lower half, drawn with the first row at -1
-        // z = 1 - 2 near / depth; the lowest row sees the ground at depth 1 / tan(20 degrees)
+        EXPECT_GE(corner.y, -1e-6f);  // the lower half of the image, drawn with the first row at -1
+        // z = 1 - 2 near / depth; the lowest row shows the ground at depth 1 / tan(20 degrees)
         const double depth = corner.y > 0.5f ? 1.0 / std::tan(20.0 * 3.14159265358979 / 180.0) : INFINITY;
         EXPECT_NEAR(corner.z, 1.0 - 0.02 / depth, 1e-6);
     }
-    scene.camera.eye.y() = scene.camera.target.y() = -1.0;  // from below one looks through
+    scene.camera.eye.y() = scene.camera.target.y() = -1.0;  // seen from below, a plane is transparent
     EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), Camera(scene.camera, 320, 180), 0.01).empty());
 }
 
@@ -248,8 +248,9 @@ TEST(ShadowCascades, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
     }
 }
 
-// Crates 4 m apart at most, on what may be a ground: the rest take up 3 + 2 sqrt(3) / 2 = 4.73 m, at least 15 half edges.
-TEST(Grounds, AreMuchLargerThanAllTheRestTogether) {
+// Boxes at most 4 m apart, on a possible large receiver: the others occupy 3 + 2 sqrt(3) / 2 = 4.73 m, at least 15 half
+// edges.
+TEST(LargeReceivers, AreMuchLargerThanAllTheRestTogether) {
     for (const auto& [size, ground] : {std::pair{5.0, false}, {7.0, false}, {9.0, true}, {300.0, true}}) {
         SceneDescription scene = empty_scene();
         scene.bodies.push_back(box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), {}));
@@ -261,7 +262,7 @@ TEST(Grounds, AreMuchLargerThanAllTheRestTogether) {
     }
 }
 
-TEST(Grounds, CatchWhatFalls) {
+TEST(LargeReceivers, AreFoundBelowFallingBodies) {
     SceneDescription scene = empty_scene();
     scene.bodies.push_back(ground_plane());   // y = 0
     const Quat slope(Eigen::AngleAxisd(pi / 6.0, Vec3::UnitZ()));
@@ -270,7 +271,7 @@ TEST(Grounds, CatchWhatFalls) {
     const RenderScene looks = make_render_scene(scene);
     ASSERT_TRUE(looks.bodies[1].ground);
     const RestHeightEstimate landing(scene, looks);
-    // Above the middle plane the top lies 1 / cos 30 degrees higher, and rises by tan 30 degrees.
+    // Above the center plane the top is higher by 1 / cos 30 degrees, and rises by tan 30 degrees.
     EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 3.0), -Vec3::UnitY()), 5.0 - 2.0 / std::sqrt(3.0), 1e-9);
     EXPECT_NEAR(landing.fall(Vec3(3.0, 25.0, 0.0), -Vec3::UnitY()), 5.0 - 5.0 / std::sqrt(3.0), 1e-9);
     EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 21.0), -Vec3::UnitY()), 25.0, 1e-9) << "beside it";
@@ -278,8 +279,8 @@ TEST(Grounds, CatchWhatFalls) {
     EXPECT_EQ(landing.fall(Vec3(0.0, 25.0, 0.0), Vec3::UnitY()), 0.0);
 }
 
-// The ball around a wide ground holds the eye; the ground in view is at the bottom of the picture, along the axis
-// height / fall away.
+// The bounding ball of a wide receiver contains the eye; its visible part is at the bottom of the image, at the depth
+// height / slope.
 TEST(NearDistance, FitsTheGroundBelowTheEye) {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(0.0, 4.0, 8.0);
@@ -292,7 +293,7 @@ TEST(NearDistance, FitsTheGroundBelowTheEye) {
     EXPECT_GT(near, nearest / 8.0) << "depths have too few bits";
 }
 
-TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
+TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
     SceneDescription scene = heap_scene(30);
     scene.bodies.push_back(box_body(scene.camera.eye + Vec3(0.0, 0.0, 30.0), Vec3::Ones(), {1, 2, 3}));
     const RenderScene looks = make_render_scene(scene);
@@ -312,7 +313,7 @@ TEST(DrawList, IsSortedFrontToBackAndLeavesOutWhatIsOutOfView) {
         for (std::size_t i = 0; i < batch.count; ++i) {
             const glm::vec4& p = list.instances[batch.first + i].position;
             const double distance = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-            EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);   // batches of one shell begin anew
+            EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);   // batches within one shell start again
             last = distance;
         }
     }

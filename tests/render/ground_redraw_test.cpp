@@ -1,4 +1,4 @@
-// On grounds made of boxes, meshes and balls, drawing only what changed gives the bytes of drawing everything, and is less.
+// On large receivers made of boxes, meshes and balls, partial redraw gives the bytes of a full redraw, and draws less.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -21,7 +21,7 @@ BodyDescription slab(const Vec3& top, const Vec3& size, const Quat& rotation = Q
 
 Quat turned_about(const Vec3& axis, double radians) { return Quat(Eigen::AngleAxisd(radians, axis)); }
 
-// A surface over a square lattice, cells to a side, y as the function says; normals of the triangles around.
+// A height field over a square grid with `cells` per side; normals of the adjacent triangles.
 template <class Height>
 std::shared_ptr<const MeshAsset> hills(double size, std::uint32_t cells, Height height) {
     auto asset = std::make_shared<MeshAsset>(*sheet_asset(size, cells));
@@ -39,7 +39,7 @@ std::shared_ptr<const MeshAsset> hills(double size, std::uint32_t cells, Height 
     return asset;
 }
 
-// Hills, a bowl with steep sides, a sheet of few triangles on the slant, a ring to stand in, or a ball to stand on.
+// Hills, a bowl with steep sides, an oblique sheet of few triangles, a ring around the bodies, or a ball below them.
 void add_curved_ground(SceneDescription& scene, Random& random, unsigned kind) {
     const double size = std::pow(10.0, random.between(0.7, 2.0)), high = random.between(0.1, 0.8);
     const auto cells = std::uint32_t(random.between(4.0, 40.0));
@@ -65,7 +65,7 @@ void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
         const Vec3 axis = Vec3(random.between(-1.0, 1.0), 0.2, random.between(-1.0, 1.0)).normalized();
         scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(axis, random.between(-0.6, 0.6))));
     }
-    if (kind == 2) {   // some of the walls may stand before the eye
+    if (kind == 2) {   // some of the walls may be in front of the eye
         const double room = std::min(size, 30.0), high = random.between(2.0, 6.0);
         scene.bodies.push_back(slab(Vec3::Zero(), Vec3(room, thick, room)));
         scene.bodies.push_back(slab(Vec3(-0.5 * room, high, 0.0), Vec3(thick, high, room)));
@@ -85,15 +85,15 @@ enum class Ground { boxes, curved };
 SceneDescription random_scene(unsigned seed, Ground ground) {
     Random random(seed);
     SceneDescription scene = empty_scene();
-    scene.output.width = 232;   // not a whole number of tiles
+    scene.output.width = 232;   // not a multiple of the tile size
     scene.output.height = 152;
     scene.output.samples = seed % 7 == 0 ? 1 : 4;
     scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 6.0), random.between(4.0, 12.0));
     scene.camera.target = Vec3(0.0, 0.3, 0.0);
     if (seed % 6 == 5) scene.camera.orbit = 40.0;
     scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.1, 1.0), random.between(-1.0, 0.6));
-    if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);   // shadows without end
-    scene.light.shadows = seed % 8 != 6;   // without, nothing hides what darkening alone changes
+    if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);   // infinitely long shadows
+    scene.light.shadows = seed % 8 != 6;   // without shadows, changes of AO are not hidden
     if (ground == Ground::boxes) add_ground(scene, random, seed % 4);
     else add_curved_ground(scene, random, seed % 5);
     if (seed % 5 == 4) {
@@ -119,7 +119,7 @@ SceneDescription random_scene(unsigned seed, Ground ground) {
     return scene;
 }
 
-// Some stay where they are; the others roll, fly off, leave the ground, or come back.
+// Some bodies stay; the others roll, fly off, leave the ground, or return.
 void move(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
     const double share = random.between(0.1, 0.8), way = std::pow(10.0, random.between(-3.0, -0.3));
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
@@ -139,7 +139,7 @@ std::size_t different_pixels(const Image& a, const Image& b) {
     return count;
 }
 
-// One draws all frames, another every second one, as two workers do. The part of all pictures that was redrawn.
+// One renderer draws all frames, another every second one, like two workers. Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
     RenderOptions everything;
     everything.full_redraw = true;
@@ -151,7 +151,7 @@ double draw_partly(unsigned seeds, Ground ground) {
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 20; ++step) {
-            if (step % 10 == 9) snapshot.time += 0.5;   // an orbiting camera goes on
+            if (step % 10 == 9) snapshot.time += 0.5;   // an orbiting camera moves
             partial.render(snapshot, frame);
             full.render(snapshot, truth);
             EXPECT_EQ(different_pixels(frame, truth), 0u) << "scene " << seed << ", step " << step;
@@ -176,7 +176,8 @@ TEST(GroundRedraw, HasTheBytesOfAFullRedrawOnMeshesAndBalls) {
     EXPECT_LT(draw_partly(30, Ground::curved), 0.6) << "of the pictures: the test must have something to leave out";
 }
 
-// A small step on a large floor: not more is redrawn than on a plane, wherever the ground's ball and its far corners are.
+// A small movement on a large floor redraws no more than on a plane, for any bounding ball and far corners of the
+// floor.
 TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
     const auto redrawn = [](const BodyDescription& ground) {
         SceneDescription scene = empty_scene();

@@ -1,4 +1,4 @@
-// Light: colours come out as they were given, shadows lie where geometry puts them, contact is dark.
+// Light: colors are as given, shadows are at the geometric place, contacts are dark.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -22,7 +22,7 @@ SceneDescription shadow_scene() {
     return scene;
 }
 
-// What body 1 takes at each place: the picture without it less that with it.
+// Levels that body 1 takes at each place: the image without it less the image with it.
 std::vector<double> levels_taken(const SceneDescription& scene, const std::vector<Vec3>& places) {
     SceneDescription open = scene;
     open.bodies[1].surface.visible = false;
@@ -32,7 +32,7 @@ std::vector<double> levels_taken(const SceneDescription& scene, const std::vecto
     return levels;
 }
 
-// With the shading left out, what is on the screen is the scene file's colour: decoded and encoded exactly once.
+// Without shading, the color on the screen is the scene file's: decoded and encoded exactly once.
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_diffuse), 1.0); // ");
@@ -61,7 +61,7 @@ TEST(Light, AFaceInTheSunLooksLikeItsColor) {
     EXPECT_NEAR(pixel[2], 0x3c, 32);
 }
 
-// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) takes a point at height y to x - y / 2. Its shadow
+// The box spans x -0.5 .. 0.5 and y 1.5 .. 2.5; light (-0.5, -1, 0) maps a point at height y to x - y / 2. Its shadow
 // on the ground is x in (-0.5 - 1.25, 0.5 - 0.75) = (-1.75, -0.25), z in (-0.5, 0.5).
 TEST(Light, AShadowLiesWhereGeometryPutsIt) {
     const SceneDescription scene = shadow_scene();
@@ -73,7 +73,7 @@ TEST(Light, AShadowLiesWhereGeometryPutsIt) {
         EXPECT_GT(brightness_at(image, scene, outside), 0.97 * bright) << outside.transpose();
 }
 
-// How far two pictures of a ground at y = 0 differ at most, in levels, within `reach` of a point of it.
+// Largest difference between two images of a ground at y = 0, in levels, within `reach` of a point of it.
 int most_difference(const Image& a, const Image& b, const SceneDescription& scene, const Vec3& around, double reach) {
     int most = 0;
     for (double x = -reach; x <= reach; x += 0.02 * reach)
@@ -85,7 +85,7 @@ int most_difference(const Image& a, const Image& b, const SceneDescription& scen
     return most;
 }
 
-// The sun shone on the undersides of bodies through the ground.
+// The sun must not shine on the undersides of bodies through the ground.
 TEST(Light, ASunBelowTheGroundLightsNothing) {
     SceneDescription scene = shadow_scene();
     scene.bodies.push_back(ball_body(Vec3(-2.0, 1.5, 0.0), 0.5, {60, 130, 200}));
@@ -99,7 +99,7 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     const Image day = with_sun(above), dark = with_sun(Vec3(0.3, 1.0, -0.4));
     EXPECT_GT(brightness_at(day, scene, Vec3(0.0, 2.0, 0.5)), 1.3 * brightness_at(dark, scene, Vec3(0.0, 2.0, 0.5)));
     EXPECT_EQ(with_sun(Vec3(-0.7, 0.1, -0.5)), dark) << "from wherever it shines not";
-    scene.bodies[0].rotation = Quat(Eigen::AngleAxisd(0.9, Vec3::UnitX()));   // rises towards -z, from where no sun comes then
+    scene.bodies[0].rotation = Quat(Eigen::AngleAxisd(0.9, Vec3::UnitX()));   // rises towards -z, from where no light comes
     EXPECT_EQ(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.0, 0.3, 1.0)));
     std::get<PlaneShape>(scene.bodies[0].shape).normal = Vec3::UnitZ();   // a wall, 8 m behind the bodies
     scene.bodies[0].rotation = Quat::Identity();
@@ -110,7 +110,7 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     EXPECT_NE(with_sun(Vec3(0.3, 1.0, -0.4)), with_sun(Vec3(0.3, 1.0, 0.4))) << "nor is nothing";
 }
 
-// A sheet with one rim bent upward, which gives it the reach of a thing with a height.
+// A sheet with one border bent upward, which gives it the AO radius of a body with a height.
 BodyDescription bent_sheet(bool face_up) {
     auto asset = std::make_shared<MeshAsset>(*sheet_asset(16.0, 8));
     for (Vec3& v : asset->surface.vertices) v.y() = v.z() < -7.0 ? 2.0 : 0.0;
@@ -123,8 +123,8 @@ BodyDescription bent_sheet(bool face_up) {
     return mesh_body(Vec3::Zero(), asset, {190, 190, 190});
 }
 
-// Wound the other way, with its normals downward, a sheet's upper side lay in its own shadow, and was as dark as its underside
-// close to the ground.
+// A sheet wound the other way, with its normals downward, must not shadow its own upper side, nor be as dark as its
+// underside near the ground.
 TEST(Light, BothSidesOfAnOpenMeshAreLitAlike) {
     SceneDescription scene = shadow_scene();
     scene.bodies.push_back(ground_plane());
@@ -136,9 +136,9 @@ TEST(Light, BothSidesOfAnOpenMeshAreLitAlike) {
     };
     scene.bodies.back().position.y() = -0.05;
     EXPECT_LE(difference(), 1);
-    scene.output.width = 160;   // shadows are looked at by the pixel
+    scene.output.width = 160;   // shadows are looked up per pixel
     scene.output.height = 90;
-    scene.bodies.back().position.y() = -0.5;   // back faces lie a pixel's depth behind
+    scene.bodies.back().position.y() = -0.5;   // back faces are a pixel's depth farther
     EXPECT_LE(difference(), 1);
 }
 
@@ -153,13 +153,14 @@ TEST(Light, AFlyingBodyKeepsItsShadow) {
     SceneDescription scene = shadow_scene();
     scene.camera.eye = Vec3(0.0, 30.0, 60.0);
     Snapshot snapshot = first_snapshot(scene);
-    snapshot.bodies[1].origin = Vec3(20.0, 6.0, -10.0);  // far outside of what the near map was fitted to
+    snapshot.bodies[1].origin = Vec3(20.0, 6.0, -10.0);  // far outside the bodies that the near map was fitted to
     const Image image = drawn(scene, snapshot);
     const double bright = brightness_at(image, scene, Vec3(20.0, 0.0, -10.0));
     EXPECT_LT(brightness_at(image, scene, Vec3(17.0, 0.0, -10.0)), 0.85 * bright);
 }
 
-// One shadow map around bodies hundreds of metres apart had texels of a metre: those near the eye threw no shadows.
+// One shadow map around bodies hundreds of meters apart would have texels of a meter, too coarse for bodies near the
+// eye.
 TEST(Light, BodiesNearTheEyeKeepTheirShadowsWhereOthersAreFar) {
     SceneDescription scene = shadow_scene();
     scene.camera.target = Vec3(0.0, 0.5, -4.0);
@@ -177,19 +178,19 @@ TEST(Light, BodiesNearTheEyeKeepTheirShadowsWhereOthersAreFar) {
         << "nor are those far away without";
 }
 
-// A body of any kind that reaches y = 0 from below and is `size` wide.
+// A body of any kind whose top is at y = 0 and that is `size` wide.
 BodyDescription wide_ground(const std::string& kind, double size) {
     constexpr Color color{190, 190, 190};
     BodyDescription ground = box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), color);
     if (kind == "mesh") ground = mesh_body(Vec3::Zero(), sheet_asset(size, 8), color);
     ground.type = BodyType::fixed;
-    ground.surface.roughness = 0.8;   // as the plane's
+    ground.surface.roughness = 0.8;   // the same as the plane's
     return ground;
 }
 
-// However far a ground reaches, it catches the shadows that a plane at its place does: sharp ones from the near map,
-// also where bodies land that are still in the air.
-TEST(Light, ALargeGroundCatchesShadowsAsAPlaneDoes) {
+// A large receiver of any size has the same shadows as a plane at its place: sharp ones from the near map, also where
+// bodies will land.
+TEST(Light, ALargeReceiverHasTheShadowsOfAPlane) {
     SceneDescription scene = shadow_scene();
     const Image on_plane = drawn(scene);
     for (const std::string kind : {"box", "mesh"})
@@ -199,8 +200,8 @@ TEST(Light, ALargeGroundCatchesShadowsAsAPlaneDoes) {
         }
 }
 
-// The near map's shadows go over to the far one's on a large ground as on a plane.
-TEST(Light, ALargeGroundCatchesFarShadowsToo) {
+// The transition from the near map's shadows to the far one's is the same on a large receiver as on a plane.
+TEST(Light, ALargeReceiverHasTheFarShadowsOfAPlane) {
     SceneDescription scene = shadow_scene();
     scene.camera.eye = Vec3(0.0, 15.0, 20.0);
     scene.bodies.push_back(box_body(Vec3(3.0, 2.0, 0.0), Vec3(1.0, 0.5, 1.0), {90, 120, 180}));
@@ -217,7 +218,8 @@ TEST(Light, ALargeGroundCatchesFarShadowsToo) {
     EXPECT_GT(brightness_at(on_box, scene, Vec3(-1.81, 0.0, 0.0)), 0.97 * bright);
 }
 
-// A sheet with waves lower than a pixel far away, seen from above: depths round, and specks of its underside must not show.
+// A sheet with waves lower than a pixel far away, seen from above: depths are rounded, and specks of its underside must
+// not show.
 TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     SceneDescription scene = shadow_scene();
     scene.camera.eye = Vec3(0.0, 1.5, 9.0);
@@ -232,7 +234,7 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     }
     scene.bodies = {mesh_body(Vec3::Zero(), sheet, {190, 190, 190})};
     const Image image = drawn(scene);
-    int specks = 0;   // darker than all four neighbours, by 15 levels on average
+    int specks = 0;   // darker than all four neighbors, by 15 levels on average
     for (int y = 1; y < image.height - 1; ++y)
         for (int x = 1; x < image.width - 1; ++x) {
             const double most = 2.0 * brightness(image, {x, y}) + 30.0;
@@ -242,15 +244,16 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     EXPECT_EQ(specks, 0);
 }
 
-// The sun on metal's rounded edges: dots along them, others in every frame. Where the picture is moved by parts of a pixel, few
-// pixels are much brighter in one than on average, but those that are so on wood as well, for there something ends.
+// Highlights on rounded edges of metal must not be dots that change from frame to frame. In images displaced by parts
+// of a pixel, few pixels are much brighter in one than on average. Those that are so on wood as well are excluded,
+// because a surface ends there.
 TEST(Light, MetalEdgesDoNotGlitter) {
     SceneDescription scene = shadow_scene();
     scene.bodies.clear();
     Random random(4);
     for (int i = 0; i < 24; ++i)
         scene.bodies.push_back(box_body(Vec3(1.6 * (i % 6) - 4.0, 1.6 * (i / 6) - 2.0, 0.0), Vec3::Ones(), {200, 160, 60}, random.turn()));
-    const auto brightest = [&] {   // of each pixel: how much above the mean
+    const auto brightest = [&] {   // of each pixel: the difference from the mean
         std::vector<Image> images;
         for (int i = 0; i < 16; ++i) {
             RenderOptions options;
@@ -281,8 +284,8 @@ TEST(Light, MetalEdgesDoNotGlitter) {
     EXPECT_LT(glitter, 10) << "pixels";
 }
 
-// No acne: a ball and a box in full sun have no dark speckles on the sides turned to it.
-TEST(Light, LitFacesAreNotShadowedByThemselves) {
+// No acne: a ball and a box in full sun have no dark specks on the sides towards the sun.
+TEST(Light, LitFacesDoNotShadowThemselves) {
     SceneDescription scene = shadow_scene();
     scene.light.direction = Vec3(0.2, -0.5, -1.0);
     scene.bodies[1] = box_body(Vec3(0.0, 0.5, 0.0), Vec3(3.0, 1.0, 1.0), {200, 200, 200});
@@ -295,7 +298,7 @@ TEST(Light, LitFacesAreNotShadowedByThemselves) {
                         1.0);
 }
 
-TEST(Light, ContactIsDarkAndItsDarknessEnds) {
+TEST(Light, ContactOcclusionIsDarkAndLimited) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
     scene.bodies[1].position.y() = 0.5;
@@ -311,7 +314,7 @@ TEST(Light, ContactIsDarkAndItsDarknessEnds) {
     EXPECT_NEAR(brightness_at(image, scene, Vec3(0.0, 0.0, 1.2)), open, 2.0);
 }
 
-// The darkness around a contact does not spread with the ground's size.
+// The AO around a contact does not spread with the size of the receiver.
 TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
@@ -329,7 +332,8 @@ TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
     }
 }
 
-// Nor does it depend on a mesh's triangles, be they few or more than there are values for; nor on a ball's size.
+// Nor does it depend on a mesh's triangles, even if they are few or more than the available texels; nor on a ball's
+// size.
 TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
@@ -342,7 +346,7 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     const std::vector<double> on_plane = taken();
     const auto compare = [&](const std::string& what) {
         scene.bodies[0].type = BodyType::fixed;
-        scene.bodies[0].surface.roughness = 0.8;   // as the plane's
+        scene.bodies[0].surface.roughness = 0.8;   // the same as the plane's
         const std::vector<double> here = taken();
         for (std::size_t i = 0; i < places.size(); ++i)
             EXPECT_NEAR(here[i], on_plane[i], 4.5) << what << ", " << places[i].transpose();   // the plane is dithered by 0.5
@@ -353,11 +357,11 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
             compare(std::to_string(size) + " m, " + std::to_string(cells) + " cells");
         }
     scene.bodies[0] = ball_body(Vec3(0.0, -10.0, 0.0), 10.0, {190, 190, 190});
-    compare("a ball");   // the box stands in it by 4 cm at its corners
+    compare("a ball");   // the corners of the box are 4 cm inside it
 }
 
-// What lies on a shelf or in a bowl does not darken the ground below; what hangs beyond the shelf's edge does.
-TEST(Light, NothingDarkensTheGroundThroughAFixedBody) {
+// A body on a shelf or in a bowl does not occlude the ground below; a body beyond the shelf's edge does.
+TEST(Light, NoBodyOccludesTheGroundThroughAFixedBody) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
     scene.camera.eye = Vec3(0.0, 0.3, 6.0);   // below the shelf
@@ -386,7 +390,7 @@ TEST(Light, NothingDarkensTheGroundThroughAFixedBody) {
     EXPECT_LT(half, 0.95 * open.back());
 }
 
-// However large a mesh is and whatever its vertices share: what is not near a body is not darkened by it.
+// A mesh of any size, with any sharing of samples between vertices, is unoccluded far from a body.
 TEST(Light, ContactIsNotDarkFarAway) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
@@ -401,8 +405,8 @@ TEST(Light, ContactIsNotDarkFarAway) {
         }
 }
 
-// A body kilometres away, fallen off or rolled away or in the background, from the start or later: the shadow, the contact's
-// darkness and the haze of the one that is left are the same without it.
+// A body kilometers away, which fell off, rolled away or is in the background, from the start or later, does not affect
+// the shadow, the AO and the fog of the remaining body.
 TEST(Light, ALostBodyChangesNothingAroundTheRest) {
     SceneDescription scene = shadow_scene();
     scene.bodies[1].position.y() = 0.5;
@@ -411,7 +415,7 @@ TEST(Light, ALostBodyChangesNothingAroundTheRest) {
     scene.bodies[2].position = Vec3(2.0, 0.5, -1.0);
     Snapshot aside = first_snapshot(scene);
     aside.bodies[2].origin = Vec3(6.0, 0.5, -1.0);
-    const Image gone_aside = drawn(scene, aside);   // the shadow map is made for both
+    const Image gone_aside = drawn(scene, aside);   // the shadow map is fitted to both
     for (const Vec3& place :
          {Vec3(0.0, -5000.0, 0.0), Vec3(3000.0, 0.5, 0.0), Vec3(-3000.0, 0.5, 0.0), Vec3(0.0, 0.5, -3000.0)})
         for (const bool from_start : {true, false}) {
@@ -423,8 +427,8 @@ TEST(Light, ALostBodyChangesNothingAroundTheRest) {
         }
 }
 
-// Where nothing changes, no pixel changes: neither shadow texels nor depths nor darkening follow a body elsewhere.
-TEST(Light, RestingThingsStayStillWhileOthersFly) {
+// Pixels without a change stay the same: neither shadow texels nor depths nor AO depend on a body elsewhere.
+TEST(Light, RestingBodiesLookTheSameWhileOthersFly) {
     SceneDescription scene = shadow_scene();
     scene.bodies[1].position.y() = 0.5;
     scene.bodies.push_back(ball_body(Vec3(3.0, 0.4, -1.0), 0.4, {80, 180, 90}));
@@ -442,7 +446,7 @@ TEST(Light, RestingThingsStayStillWhileOthersFly) {
     }
 }
 
-// The plane's cheap shader takes over where neither shadow nor darkening reaches: to the same result.
+// The plane's cheap shader, used where neither shadow nor AO is, gives the same result.
 TEST(Light, ThePlaneHasNoSeamWhereNothingTouchesIt) {
     SceneDescription scene = shadow_scene();
     const Image with = drawn(scene);
@@ -475,7 +479,7 @@ std::vector<double> block_means(const Image& image) {
     return means;
 }
 
-// A gradient of some levels over the whole picture: by the nearest level it is stairs, whose edges are bands.
+// A gradient of some levels over the whole image: rounded to the nearest level, it would have visible bands.
 TEST(Light, SkyAndGroundHaveNoBands) {
     SceneDescription sky = empty_scene(), ground = empty_scene();
     sky.camera.target = Vec3(0.0, 3.0, 0.0);

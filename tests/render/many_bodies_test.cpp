@@ -1,4 +1,4 @@
-// Many bodies, most of them small in the picture: what is left out, and what is made coarser.
+// Many bodies, most of them small on the screen: culling and levels of detail.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -16,7 +16,8 @@
 namespace tumble {
 namespace {
 
-/// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall of a box.
+/// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall made of
+/// a box.
 SceneDescription crowded_scene() {
     Random random(3);
     SceneDescription scene = empty_scene();
@@ -37,7 +38,7 @@ SceneDescription crowded_scene() {
     return scene;
 }
 
-TEST(ManyBodies, LeavingOutWhatIsHiddenChangesNoByte) {
+TEST(ManyBodies, CullingChangesNoByte) {
     const SceneDescription scene = crowded_scene();
     RenderOptions everything;
     everything.draw_hidden = true;
@@ -51,7 +52,7 @@ TEST(ManyBodies, LeavingOutWhatIsHiddenChangesNoByte) {
     EXPECT_LT(fine, 0.7 * double(coarse)) << "by pixel much more is found hidden";
 }
 
-TEST(ManyBodies, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
+TEST(ManyBodies, PartialRedrawHasTheBytesOfAFullRedraw) {
     for (const int samples : {1, 4}) {   // with 4: smooth edges
         SceneDescription scene = crowded_scene();
         scene.output.samples = samples;
@@ -61,7 +62,7 @@ TEST(ManyBodies, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
         Snapshot snapshot = first_snapshot(scene);
         Random random(9);
         Image frame, truth;
-        for (const int moved : {0, 1, 5, 60, 3000, 2}) {   // beyond a quarter all darkening is looked at again
+        for (const int moved : {0, 1, 5, 60, 3000, 2}) {   // above a quarter, all AO is checked again
             for (int i = 0; i < moved; ++i) {
                 BodyState& body = snapshot.bodies[1 + std::size_t(random.between(0.0, 4000.0))];
                 body.origin += random.vector(0.4);
@@ -89,8 +90,9 @@ TEST(ManyBodies, HundredThousandFitTheAtlas) {
     }
 }
 
-// A face that is small in the picture has one value, the formula's at its middle; growing, it goes over without a jump.
-TEST(ManyBodies, DarkeningGoesOverFromOneValueToAll) {
+// A face that is small on the screen has one value, the formula's at its center; it changes to all texels without a
+// jump.
+TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
     double last = 0.0;
     for (double pixels = 0.0; pixels < 12.0; pixels += 0.01) {
         const double detail = darkening_detail(pixels, 4.0, 8.0);
@@ -128,7 +130,7 @@ TEST(ManyBodies, DarkeningGoesOverFromOneValueToAll) {
     EXPECT_LE(far_high, near_high);
 }
 
-TEST(SurfaceDistance, OfATriangle) {
+TEST(TriangleDistance, OfATriangle) {
     const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
     EXPECT_DOUBLE_EQ(distance_to_triangle({0.5, 0.5, 3.0}, a, b, c), 3.0);            // above it
     EXPECT_DOUBLE_EQ(distance_to_triangle({-3.0, -4.0, 0.0}, a, b, c), 5.0);          // beyond a corner
@@ -137,7 +139,7 @@ TEST(SurfaceDistance, OfATriangle) {
     EXPECT_DOUBLE_EQ(distance_to_triangle({5.0, 0.0, 4.0}, a, b, c), 5.0);
 }
 
-// The other way round than NearSurface: all triangles, one after the other.
+// An alternative to NearSurface: all triangles, one after the other.
 double distance(const Vec3& point, const TriangleMesh& mesh) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& t : mesh.triangles)
@@ -167,7 +169,7 @@ TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
     EXPECT_LT(last, asset->indices.size() / 8);
 }
 
-// Wherever a mesh is in the picture, a point of it that is off by as much as its level may be lands within a quarter of a
+// At any place on the screen, a point of a mesh that deviates as much as its level allows is within a quarter of a
 // pixel of its true place.
 TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
@@ -188,7 +190,7 @@ TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
         const Vec3 point = center + random.turn(0.1) * Vec3::UnitX() * look.bound_radius;
         const Vec3 off = random.turn(0.1) * Vec3::UnitX() * deviation_of_level(look, level);
         const double pixels = (view.pixel(point + off) - view.pixel(point)).norm();
-        EXPECT_LE(pixels, most_detail_error * 1.05);   // the deviation itself brings it nearer
+        EXPECT_LE(pixels, most_detail_error * 1.05);   // the deviation itself moves it nearer
         worst = std::max(worst, pixels);
     }
     EXPECT_GT(worst, 0.15) << "finer than needed";

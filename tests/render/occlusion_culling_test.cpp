@@ -1,4 +1,4 @@
-// What is left out of the drawing must really be hidden: checked by rays.
+// Culled bodies are really hidden: checked by rays.
 #include "example_scenes.h"
 
 #include "render/render_scene_builder.h"
@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-// Does the segment from the eye to `point` pass through the box well before its end?
+// True if the segment from the eye to `point` passes through the box well before its end.
 bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
     return passes_through(box, eye, point - eye, 1.0 - 1e-6);
 }
@@ -35,7 +35,7 @@ struct Heap {
     }
 };
 
-TEST(Visibility, FacesLeftOutAreBehindOtherBoxesOrTurnedAway) {
+TEST(OcclusionCulling, CulledFacesAreHiddenOrTurnedAway) {
     const Heap heap;
     int left_out = 0, checked = 0;
     for (std::size_t i = 1; i < heap.scene.bodies.size(); ++i) {
@@ -64,7 +64,7 @@ TEST(Visibility, FacesLeftOutAreBehindOtherBoxesOrTurnedAway) {
     EXPECT_GT(checked, 1000);
 }
 
-TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
+TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnOnce) {
     const Heap heap;
     const CascadeFitter stage(heap.scene, heap.looks, heap.view, 1024);
     const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
@@ -74,7 +74,7 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
     ASSERT_EQ(darkening.atlas().windows.size(), 1u);
     const PlaneOcclusionTile& window = darkening.atlas().windows[0];
     const PlaneAxes axes = plane_axes(planes[0].normal);
-    // Of the four texels around a place, the least open.
+    // The darkest of the four texels around a place.
     const auto least_open = [&](const Vec3& point) {
         const Vec3 from_origin = point - heap.snapshot.bodies[window.body].origin;
         const int i = int(std::floor(axes.u.dot(from_origin) / window.cell - window.low_a));
@@ -122,7 +122,7 @@ TEST(Visibility, GroundLeftOutIsBehindBoxesOrUntouchedAndTheRestIsDrawnOnce) {
     EXPECT_LT(left_out, 24000) << "of 26400: some ground is touched";
 }
 
-TEST(Visibility, ABoxAroundTheEyeHidesNothing) {
+TEST(OcclusionCulling, ABoxAroundTheEyeHidesNothing) {
     SceneDescription scene = empty_scene();
     scene.bodies = {box_body(scene.camera.eye, Vec3(4.0, 4.0, 4.0), {1, 2, 3}),
                     box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3})};

@@ -1,4 +1,4 @@
-// Drawing only what changed gives the bytes of drawing everything.
+// Partial redraw gives the bytes of a full redraw.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -17,13 +17,13 @@ enum class Ground { plane, large_body };
 SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
     Random random(seed);
     SceneDescription scene = empty_scene();
-    scene.output.width = 232;   // not a whole number of tiles
+    scene.output.width = 232;   // not a multiple of the tile size
     scene.output.height = 152;
     scene.output.samples = seed % 2 == 0 ? 4 : 1;
     scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 5.0), random.between(5.0, 9.0));
     scene.camera.target = Vec3(0.0, 0.8, 0.0);
     scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.15, 1.0), random.between(-1.0, 0.6));
-    scene.light.shadows = seed % 4 != 2;   // without, nothing hides what darkening alone changes
+    scene.light.shadows = seed % 4 != 2;   // without shadows, changes of AO are not hidden
     scene.bodies.push_back(ground_plane({176, 180, 184}, seed % 3 == 0 ? Pattern::checker : Pattern::grid));
     if (ground == Ground::large_body) {   // larger than the near shadow map
         const double size = std::pow(10.0, random.between(1.2, 2.5));
@@ -56,12 +56,12 @@ bool is_ground(const SceneDescription& scene, std::size_t body) {
 }
 
 void place(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
-    const double spread = random.between(0.6, 3.0);   // close together they darken each other
+    const double spread = random.between(0.6, 3.0);   // close together they occlude each other
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
         if (is_ground(scene, i)) continue;
         snapshot.bodies[i].origin =
             Vec3(random.between(-spread, spread), random.between(-0.1, spread), random.between(-spread, spread));
-        if (random.chance(0.1)) snapshot.bodies[i].origin *= 6.0;   // out of view, its shadow perhaps not
+        if (random.chance(0.1)) snapshot.bodies[i].origin *= 6.0;   // outside the view, its shadow perhaps inside
         if (random.chance(0.05)) snapshot.bodies[i].origin = scene.camera.eye + random.vector(1.0);
         snapshot.bodies[i].orientation = random.turn();
         if (random.chance(0.3)) {   // on the ground
@@ -91,7 +91,7 @@ std::size_t different_pixels(const Image& a, const Image& b) {
     return count;
 }
 
-// Nothing differs outside of what the renderer says that it has changed.
+// Nothing differs outside the regions that the renderer reports as changed.
 void expect_unchanged_elsewhere(const Image& before, const Image& after, const std::vector<Rectangle>& changed) {
     Image painted = before;
     for (const Rectangle& r : changed)
@@ -99,7 +99,7 @@ void expect_unchanged_elsewhere(const Image& before, const Image& after, const s
     EXPECT_EQ(painted, after);
 }
 
-// The part of all pictures that was redrawn.
+// Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
     RenderOptions everything;
     everything.full_redraw = true;
@@ -132,12 +132,12 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawInRandomScenes) {
     EXPECT_LT(draw_partly(20, Ground::plane), 0.8) << "of the pictures: the test must have something to leave out";
 }
 
-// Grounds in both shadow maps.
+// Large receivers in both shadow maps.
 TEST(PartialRedraw, HasTheBytesOfAFullRedrawOnLargeGrounds) {
     EXPECT_LT(draw_partly(12, Ground::large_body), 0.97) << "of the pictures";
 }
 
-// So high that it darkens nothing: its shadow alone changes the ground, in the near map and in the far one.
+// So high that it occludes nothing: only its shadow changes the receiver, in the near map and in the far one.
 TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
     RenderOptions everything;
     everything.full_redraw = true;
@@ -160,9 +160,9 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
     }
 }
 
-// What was drawn before must not tell: the window of the ground's darkening was wide, then long, then both, and what had never been
-// sent of it showed as grey slabs on the ground.
-TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
+// Earlier frames have no influence, for example if the ground's AO tile was wide, then long, then both: texels that
+// were never uploaded must not be read.
+TEST(PartialRedraw, EarlierFramesHaveNoInfluence) {
     SceneDescription scene = empty_scene();
     scene.output.width = 232;
     scene.output.height = 152;
@@ -182,8 +182,9 @@ TEST(PartialRedraw, ARendererThatHasDrawnMuchDrawsWhatANewOneDoes) {
     }
 }
 
-// Nor may what the sides now out of sight looked like: a thin side seen edge-on had the darkening of the next tile in the atlas.
-TEST(PartialRedraw, ThinSidesHaveTheirOwnDarkening) {
+// Nor has the earlier look of sides that are out of sight: a thin side seen edge-on must not have the AO of the next
+// tile in the atlas.
+TEST(PartialRedraw, ThinSidesHaveTheirOwnOcclusion) {
     SceneDescription scene = empty_scene();
     scene.output.width = 232;
     scene.output.height = 152;
@@ -220,7 +221,7 @@ TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
     EXPECT_EQ(frame, copy);
 }
 
-TEST(PartialRedraw, FillsAnImageOfAnotherSizeWhollyAndLeavesTheRestOfOneThatFits) {
+TEST(PartialRedraw, ReplacesAnImageOfAnotherSizeAndUpdatesOneThatFits) {
     const SceneDescription scene = random_scene(1);
     Renderer renderer(scene, {});
     Snapshot snapshot = first_snapshot(scene);
@@ -241,7 +242,7 @@ TEST(DirtyTiles, MarksTheTilesOfAHull) {
     const std::array<Vec3, 3> triangle = {at(40.0, 40.0), at(120.0, 40.0), at(40.0, 120.0)};
     marks.mark_hull(triangle);
     EXPECT_TRUE(marks.at(2, 2));
-    EXPECT_TRUE(marks.at(7, 2));    // the corner at the right
+    EXPECT_TRUE(marks.at(7, 2));    // the corner on the right
     EXPECT_TRUE(marks.at(2, 7));
     EXPECT_TRUE(marks.at(4, 4));
     EXPECT_FALSE(marks.at(7, 5));   // beyond the long side
@@ -250,7 +251,7 @@ TEST(DirtyTiles, MarksTheTilesOfAHull) {
     EXPECT_FALSE(marks.all());
     const std::array<Vec3, 2> behind = {at(0.0, 0.0), Vec3(-at(0.0, 0.0))};
     marks.mark_hull(behind);
-    EXPECT_TRUE(marks.all()) << "what goes past the eye may be anywhere";
+    EXPECT_TRUE(marks.all()) << "a hull beside the eye may be anywhere";
 }
 
 }  // namespace

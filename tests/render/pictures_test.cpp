@@ -1,5 +1,5 @@
-// Draws one picture of every kind of scene; each must come out without an error and with something in it.
-// With TUMBLE_TEST_PICTURES naming a folder they are written there, to be looked at.
+// Draws one image of every kind of scene; each must be drawn without an error and have content. If TUMBLE_TEST_PICTURES
+// names a folder, they are written there, for inspection.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -37,8 +37,8 @@ std::size_t colors_in(const Image& image) {
     return colors.size();
 }
 
-// At a quarter of the scene's size, which is quick and shows what becomes of fine detail; to be looked at, also in
-// full.
+// At a quarter of the scene's size, which is quick and shows the effect on fine detail; for inspection also in full
+// size.
 void draw(SceneDescription scene, const std::string& name) {
     const bool wanted = std::getenv("TUMBLE_TEST_PICTURES") != nullptr;
     if (wanted) write_if_wanted(drawn(scene), name);

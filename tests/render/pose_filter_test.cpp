@@ -1,4 +1,4 @@
-// Which movements are too small to draw.
+// Movements that are too small to draw.
 #include "example_scenes.h"
 
 #include "render/scene/pose_filter.h"
@@ -20,7 +20,7 @@ double pixel_at_box(const SceneDescription& scene) {
     return view.pixel_size() * (8.0 - std::sqrt(0.75));
 }
 
-TEST(PoseFilter, FollowsWhatMovesByMoreThanTheTolerance) {
+TEST(PoseFilter, FollowsMovementsAboveTheTolerance) {
     const SceneDescription scene = one_box();
     const double pixel = pixel_at_box(scene);
     for (const bool far : {false, true}) {
@@ -35,7 +35,7 @@ TEST(PoseFilter, FollowsWhatMovesByMoreThanTheTolerance) {
     }
 }
 
-// Every frame of it was drawn.
+// A scene without bodies: only the first frame is drawn.
 TEST(PoseFilter, ASceneWithoutBodiesIsDrawnOnce) {
     const SceneDescription scene = empty_scene();
     PoseFilter poses(scene);
@@ -44,7 +44,7 @@ TEST(PoseFilter, ASceneWithoutBodiesIsDrawnOnce) {
     EXPECT_FALSE(poses.follow(snapshot));
 }
 
-TEST(PoseFilter, CountsTurnsByTheWayOfTheFarthestPoint) {
+TEST(PoseFilter, MeasuresRotationsByTheFarthestPoint) {
     const SceneDescription scene = one_box();
     const double reach = 2.0 * std::sqrt(0.75);
     for (const bool far : {false, true}) {
@@ -53,12 +53,12 @@ TEST(PoseFilter, CountsTurnsByTheWayOfTheFarthestPoint) {
         poses.follow(snapshot);
         const double length = (far ? 1.01 : 0.99) * drawn_tolerance * pixel_at_box(scene) / reach;   // of dq = 2 sin(a / 4)
         snapshot.bodies[1].orientation = Quat(Eigen::AngleAxisd(4.0 * std::asin(0.5 * length), Vec3::UnitY()));
-        snapshot.bodies[1].orientation.coeffs() *= -1.0;   // the same turn
+        snapshot.bodies[1].orientation.coeffs() *= -1.0;   // the same rotation
         EXPECT_EQ(poses.follow(snapshot), far);
     }
 }
 
-// Small steps add up: no drawn pose is ever further from the true one than the tolerance.
+// Small steps add up: a drawn pose never differs from the true one by more than the tolerance.
 TEST(PoseFilter, StaysWithinTheToleranceOfASlowMovement) {
     const SceneDescription scene = one_box();
     const double most = drawn_tolerance * pixel_at_box(scene);
@@ -75,7 +75,7 @@ TEST(PoseFilter, StaysWithinTheToleranceOfASlowMovement) {
     EXPECT_NEAR(followed, 25, 1);
 }
 
-TEST(PoseFilter, MovesPlanesExactlyAndIgnoresWhatIsNotDrawn) {
+TEST(PoseFilter, MovesPlanesExactlyAndIgnoresHiddenBodies) {
     SceneDescription scene = one_box();
     scene.bodies[1].surface.visible = false;
     PoseFilter poses(scene);
@@ -84,7 +84,7 @@ TEST(PoseFilter, MovesPlanesExactlyAndIgnoresWhatIsNotDrawn) {
     snapshot.bodies[1].origin.x() += 1.0;
     EXPECT_FALSE(poses.follow(snapshot)) << "an invisible body changes no picture";
     snapshot.bodies[0].origin.y() += 1e-9;
-    EXPECT_TRUE(poses.follow(snapshot)) << "a plane goes on for ever";
+    EXPECT_TRUE(poses.follow(snapshot)) << "a plane is infinite";
 }
 
 TEST(PoseFilter, AnInvisibleBodyMovesItsCord) {

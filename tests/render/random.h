@@ -1,4 +1,4 @@
-// Random numbers for scenes. The standard leaves the distributions' algorithms open; these are the same everywhere.
+// Random numbers for scenes. The standard leaves the algorithms of distributions open; these are the same everywhere.
 #pragma once
 
 #include "scene/description/description.h"

@@ -1,4 +1,4 @@
-// Where things land in the picture, and that the same picture comes out every time and by either way in.
+// Places of bodies in the image, and equality of images in every run and with every backend.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -80,13 +80,13 @@ TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
     }
 }
 
-// Each part where the body's pose puts it, in its own colour, and as if it were a body of its own.
+// Each part is where the body's pose places it, in its own color, and looks like a body of its own.
 TEST(Renderer, DrawsAllPartsOfABody) {
     SceneDescription scene = empty_scene();
     const Quat quarter(Eigen::AngleAxisd(0.5 * EIGEN_PI, Vec3::UnitZ()));
     CompoundPart left, right;
     left.shape = SphereShape{0.5};
-    left.position = Vec3(0.0, 1.5, 0.0);   // turned by the body: to the left
+    left.position = Vec3(0.0, 1.5, 0.0);   // rotated by the body: to the left
     right.shape = BoxShape{Vec3(0.6, 1.0, 1.0)};
     right.position = Vec3(0.0, -1.5, 0.0);
     right.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
@@ -142,8 +142,8 @@ TEST(Renderer, HasTheSkyAboveTheGroundAndTopRowFirst) {
     EXPECT_EQ(above[3], 255);
 }
 
-// The pinhole formula of camera_view.h: a small ball's middle is where it says, to a pixel.
-TEST(Renderer, PutsThingsWhereThePinholeFormulaSays) {
+// The pinhole formula of camera.h: the center of a small ball is at the predicted pixel.
+TEST(Renderer, FollowsThePinholeFormula) {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(3.0, 2.5, 5.0);
     scene.camera.target = Vec3(0.2, 0.4, -0.3);
@@ -173,14 +173,14 @@ TEST(Renderer, PutsThingsWhereThePinholeFormulaSays) {
 TEST(Renderer, FarFromTheOriginDrawsTheSame) {
     SceneDescription scene = mixed_scene();
     scene.cords.clear();
-    const Image here = drawn(scene), there = drawn(moved(scene, Vec3(4e6, 0.0, -2e6)));  // even cells of the grid
+    const Image here = drawn(scene), there = drawn(moved(scene, Vec3(4e6, 0.0, -2e6)));  // whole cells of the grid
     int different = 0;
     for (std::size_t i = 0; i < here.pixels.size(); ++i)
         different += std::abs(int(here.pixels[i]) - int(there.pixels[i])) > 8 ? 1 : 0;
     EXPECT_LT(different, 150) << "of " << here.pixels.size();
 }
 
-// With everything white before black, a pixel is the share of its samples that are covered.
+// With white bodies before black, a pixel is the covered share of its samples.
 TEST(Renderer, AveragesTheSamplesOfAPixel) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(1.0); // ");

@@ -1,4 +1,4 @@
-// Shaders compiled in turns: each once, whoever comes, and to the same picture.
+// Distributed shader compilation: each shader once, by any process, with the same image.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -69,7 +69,7 @@ TEST_F(Turns, EachPartRunsInOneProcessAndAllWaitForIt) {
     }
 }
 
-TEST_F(Turns, AProcessThatDiesIsNotWaitedForWithoutEnd) {
+TEST_F(Turns, ADeadProcessIsNotWaitedForWithoutEnd) {
     const pid_t id = fork();
     if (id == 0) {
         const std::function<void()> part = [] { _exit(0); };

@@ -1,4 +1,4 @@
-// Shaders as files: found, put together, and complained about by name.
+// Shader files: found, assembled, and named in errors.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -43,7 +43,7 @@ TEST(Shaders, ABrokenIncludedFileIsNamedToo) {
     EXPECT_NE(message.find("lighting.glsl:" + std::to_string(line)), std::string::npos) << message;
 }
 
-TEST(Shaders, AMissingOneIsNamedWithWhoWantedIt) {
+TEST(Shaders, AMissingOneIsNamedWithTheIncludingFile) {
     ShaderCopy shaders;
     shaders.remove("shadow.glsl");
     const std::string message = failure(shaders.options());
@@ -86,7 +86,7 @@ TEST(Shaders, DefinesComeAfterTheVersionAndFilesOnce) {
     EXPECT_EQ(source.with_file_names("note 0:7\n"), "note 0:7\n");
 }
 
-// llvmpipe reads a uniform of a fragment shader lane by lane, at forty instructions each.
+// llvmpipe reads a uniform of a fragment shader lane by lane, with forty instructions each.
 TEST(Shaders, FragmentsReadNoUniforms) {
     int fragments = 0;
     for (const auto& entry : std::filesystem::directory_iterator(find_shader_folder())) {

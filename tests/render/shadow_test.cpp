@@ -1,4 +1,4 @@
-// Edges of shadows in pictures that are coarser than the shadow map, against exact areas.
+// Edges of shadows in images that are coarser than the shadow map, compared with exact areas.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -28,7 +28,7 @@ SceneDescription shadow_scene(int width, int height, bool on_box) {
     return scene;
 }
 
-/// Does the box hold some of the way from here along the direction (the slabs of Kay and Kajiya 1986)?
+/// True if the ray meets the box (the slabs of Kay and Kajiya 1986).
 bool hits(const BodyDescription& box, const Vec3& from, const Vec3& direction) {
     const Vec3 at = box.rotation.conjugate() * (from - box.position), way = box.rotation.conjugate() * direction;
     const Vec3 half = 0.5 * std::get<BoxShape>(box.shape).size;
@@ -45,10 +45,10 @@ double linear(const Image& image, int x, int y) { return srgb_to_linear(image.at
 
 struct Edges {
     int pixels = 0;
-    double rms = 0.0;   // error of the share that is in shadow
+    double rms = 0.0;   // error of the share in shadow
 };
 
-/// Pixels of the ground that are partly in shadow: how much of each, and how much the picture says.
+/// Pixels of the ground that are partly in shadow: their exact share, and the share in the image.
 Edges shadow_edges(int width, int height, bool on_box) {
     SceneDescription scene = shadow_scene(width, height, on_box);
     const Image image = drawn(scene);
@@ -60,7 +60,7 @@ Edges shadow_edges(int width, int height, bool on_box) {
     EXPECT_LT(dark, 0.6);
     Edges edges;
     double squares = 0.0;
-    constexpr int rays = 12;   // to a side of the pixel
+    constexpr int rays = 12;   // per side of the pixel
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             int count = 0, of_body = 0;
@@ -79,8 +79,8 @@ Edges shadow_edges(int width, int height, bool on_box) {
     return edges;
 }
 
-// All or nothing would be off by .29. The map's own filter, of less than a pixel, left .22 to .25.
-TEST(Shadows, EdgesOfSmallPicturesHaveTheirShare) {
+// Unfiltered shadows would have an error of 0.29, the map's own filter of less than a pixel 0.22 to 0.25.
+TEST(Shadows, EdgesInSmallImagesHaveExactCoverage) {
     for (const bool on_box : {false, true})
         for (const int height : {60, 90, 180}) {
             const Edges edges = shadow_edges(height * 16 / 9, height, on_box);

@@ -1,4 +1,4 @@
-// Boxes thinner than a pixel: how much of them each column of pixels shows, and redrawing.
+// Boxes thinner than a pixel: their coverage of each column of pixels, and partial redraw.
 #include "drawing.h"
 #include "example_scenes.h"
 #include "random.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double distance = 10.0;
 
-/// Seen straight on, before a white ground that stands upright and throws no light back; without shadows.
+/// Seen straight on, before a white upright ground that reflects no light; without shadows.
 SceneDescription before_a_wall() {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(0.0, 0.0, distance);
@@ -32,8 +32,8 @@ BodyDescription rod(const Vec3& position, double length, double width, double an
     return box_body(position, Vec3(length, width, width), {20, 20, 20}, turn);
 }
 
-// What a column loses of its light is the rod's share of it, w / cos(a) pixels, wherever the pixels' middles are.
-TEST(Rods, TakeTheirShareOfEachColumn) {
+// The light that a column loses is the rod's coverage of it, w / cos(a) pixels, for any place of the pixel centers.
+TEST(ThinGeometry, HaveTheirCoverageOfEachColumn) {
     for (const double width : {0.12, 0.3, 0.6, 0.9})
         for (const double degrees : {0.0, 3.0, 17.0, 44.0}) {
             SceneDescription scene = before_a_wall();
@@ -63,7 +63,7 @@ TEST(Rods, TakeTheirShareOfEachColumn) {
         }
 }
 
-TEST(Rods, AreHiddenByWhatStandsBeforeThem) {
+TEST(ThinGeometry, AreHiddenByBodiesInFrontOfThem) {
     SceneDescription scene = before_a_wall();
     scene.bodies.push_back(box_body(Vec3(0.0, 0.0, 1.0), Vec3(2.0, 2.0, 0.2), {200, 60, 60}));
     const Image without = drawn(scene);
@@ -78,15 +78,15 @@ TEST(Rods, AreHiddenByWhatStandsBeforeThem) {
               brightness_at(without, scene, Vec3(2.0, 2.0 * std::tan(0.2), 0.0)));
 }
 
-// Specks stand in crowds: among them there is nothing to see beside a rod.
-TEST(Rods, AreLongAndThin) {
+// Specks come in crowds, which leave no visible background beside a rod.
+TEST(ThinGeometry, AreLongAndThin) {
     EXPECT_TRUE(is_rod(Vec3(0.3, 20.0, 0.01)));
     EXPECT_FALSE(is_rod(Vec3(0.3, 0.3, 0.3))) << "a speck";
     EXPECT_FALSE(is_rod(Vec3(0.3, 20.0, 20.0))) << "a card";
     EXPECT_FALSE(is_rod(Vec3(1.0, 20.0, 1.0))) << "two pixels wide";
 }
 
-TEST(Rods, DrawingWhatChangedGivesTheBytesOfDrawingAll) {
+TEST(ThinGeometry, PartialRedrawHasTheBytesOfAFullRedraw) {
     RenderOptions everything;
     everything.full_redraw = true;
     for (unsigned seed = 0; seed < 12; ++seed) {

@@ -1,4 +1,4 @@
-// Grids and scatters: the copies are where they should be, differ by the seed and by nothing else.
+// Grids and scatters: places of the copies, and their dependence on the seed only.
 #include "scene/load.h"
 #include "scene/keys/random.h"
 #include "scene/description/shape_bounds.h"
@@ -31,7 +31,7 @@ std::vector<double> numbers(const std::vector<BodyDescription>& list) {
     return result;
 }
 
-TEST(Grid, IsCentredAndGrowsUpwards) {
+TEST(Grid, IsCenteredAndGrowsUpward) {
     const auto list =
         bodies("position = [10, 20, 30]\ngrid = { count = [3, 2, 2], spacing = [2, 5, 4] }\nname = \"crate\"");
     ASSERT_EQ(list.size(), 12u);
@@ -69,7 +69,7 @@ TEST(Grid, JitterAndTiltStayWithinTheirBounds) {
         EXPECT_NEAR(list[i].rotation.norm(), 1.0, 1e-15);
     }
     EXPECT_TRUE((most.array() <= jitter.array() + 1e-12).all());
-    EXPECT_TRUE((most.array() >= 0.95 * jitter.array()).all());   // and they fill them
+    EXPECT_TRUE((most.array() >= 0.95 * jitter.array()).all());   // and the bounds are reached
     EXPECT_LT((sum / 1000.0).norm(), 0.02);
     EXPECT_LE(most_tilt, 15.0 + 1e-9);
     EXPECT_GT(most_tilt, 14.0);
@@ -81,7 +81,7 @@ TEST(Grid, TheSameSeedGivesTheSameBytesAndAnotherGivesOthers) {
     EXPECT_NE(numbers(bodies(lines, 7)), numbers(bodies(lines, 8)));
 }
 
-TEST(Grid, APaletteChangesNothingButColours) {
+TEST(Grid, APaletteChangesOnlyColors) {
     const std::string lines = "grid = { count = [5, 5, 5], spacing = 4, jitter = 0.1, tilt = 5 }\n";
     const auto plain = bodies(lines), colored = bodies(lines + "colors = [\"#ff0000\", \"#00ff00\", \"#0000ff\"]");
     EXPECT_EQ(numbers(plain), numbers(colored));
@@ -102,7 +102,7 @@ TEST(Grid, TwoTablesOfOneSceneDiffer) {
     EXPECT_NE(list[0].position, list[1].position);
 }
 
-TEST(Copies, ScaleIsUniformWithinItsRange) {
+TEST(Arrays, ScaleIsUniformWithinItsRange) {
     const auto list = bodies("grid = { count = [10, 10, 10], spacing = 8 }\nscale = [0.5, 2]");
     double least = 1e9, most = 0.0;
     for (const BodyDescription& b : list) {
@@ -118,7 +118,7 @@ TEST(Copies, ScaleIsUniformWithinItsRange) {
     EXPECT_GT(most, 1.95);
 }
 
-TEST(Copies, MeshesOfOneSizeAreShared) {
+TEST(Arrays, MeshesOfOneSizeAreShared) {
     const std::string mesh = "{ type = \"mesh\", file = \"" TUMBLE_SOURCE_DIR "/assets/meshes/gem.obj\" }";
     std::set<const MeshAsset*> alike, sizes;
     for (const auto& b : bodies("grid = { count = [20, 20, 1], spacing = 4 }", 1, mesh)) {
@@ -139,7 +139,7 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             "position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3,
             shape);
         ASSERT_EQ(list.size(), 300u);
-        std::vector<BoundingSphere> spheres;   // in the world
+        std::vector<BoundingSphere> spheres;   // world frame
         for (const BodyDescription& b : list) {
             const Vec3 offset = b.position - Vec3(5, 10, 0);
             EXPECT_LE(std::fabs(offset.x()), 4.0);
@@ -156,7 +156,7 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             }
         }
         EXPECT_GE(nearest, 0.05) << shape;
-        EXPECT_LT(nearest, 0.2) << shape;   // as near as asked, not farther
+        EXPECT_LT(nearest, 0.2) << shape;   // as near as allowed, not farther
     }
 }
 
@@ -195,7 +195,7 @@ TEST(Random, RotationsAreUniform) {
         small += q.angularDistance(Quat::Identity()) < M_PI / 2.0;
     }
     EXPECT_LT(mean.norm(), 0.03);
-    // The angle has density (1 - cos a) / pi: a quarter turn or less comes with probability 1/2 - 1/pi.
+    // The angle has density (1 - cos a) / pi: a quarter turn or less has probability 1/2 - 1/pi.
     EXPECT_NEAR(small / count, 0.5 - 1.0 / M_PI, 0.01);
 }
 

@@ -1,4 +1,4 @@
-// Mesh files of the kinds that assimp imports in a child process: the same shapes, and no harm from malformed ones.
+// Mesh files of the formats that assimp imports in a child process: the same shapes, and no harm from malformed files.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
 
@@ -53,7 +53,7 @@ TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
 }
 
 TEST_F(AssimpImport, NoOtherFileIsOpened) {
-    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // an open would wait for ever
+    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // opening it would wait
     const std::string scene = "<?xml version=\"1.0\"?><irr_scene><node type=\"mesh\"><attributes>"
                               "<string name=\"Mesh\" value=\"fifo.obj\"/></attributes></node></irr_scene>";
     EXPECT_NE(error_of("scene.irr", scene), "no error");
@@ -66,7 +66,7 @@ TEST_F(AssimpImport, MoreThanItHolds) {
 
 TEST_F(AssimpImport, ACrashIsAnError) {
     std::string nodes, ends;
-    for (int i = 0; i < 200'000; ++i) {   // its reader of nodes calls itself for each
+    for (int i = 0; i < 200'000; ++i) {   // its reader of nodes is recursive
         nodes += "<node>";
         ends += "</node>";
     }

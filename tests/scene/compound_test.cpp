@@ -1,4 +1,4 @@
-// Compounds in scene files: what they become, and what is refused, with its place.
+// Compounds in scene files: results, and errors with their positions.
 #include "core/error.h"
 #include "mesh_files.h"
 #include "scene/load.h"
@@ -18,7 +18,7 @@ protected:
     const std::vector<CompoundPart>& parts(const SceneDescription& scene, std::size_t body = 0) const {
         return *std::get<CompoundShape>(scene.bodies[body].shape).parts;
     }
-    /// An @ marks the place of the mistake; it is taken out.
+    /// An @ marks the position of the error; it is removed.
     void expect_error(const std::string& marked, const std::string& phrase) const {
         const std::size_t mark = marked.find('@');
         const std::string before = marked.substr(0, mark);
@@ -36,7 +36,7 @@ protected:
     }
 };
 
-TEST_F(Compounds, PartsHaveShapesPlacesAndMatter) {
+TEST_F(Compounds, PartsHaveShapesPlacesAndDensities) {
     const SceneDescription scene = parsed(R"(density = 500.0
 shape = { type = "compound", parts = [
   { shape = { type = "box", size = [1, 2, 3] }, position = [4, 5, 6], rotation = { axis = [0, 1, 0], angle = 90 } },
@@ -52,7 +52,7 @@ shape = { type = "compound", parts = [
     EXPECT_EQ(list[1].density, 7800.0);
     EXPECT_EQ(list[1].color->r, 255);
     EXPECT_EQ(scene.bodies[0].density, 500.0);
-    // The box is 3 x 2 x 1 as turned.
+    // The rotated box is 3 x 2 x 1.
     const Bounds bounds = local_bounds(scene.bodies[0].shape);
     EXPECT_LT((bounds.min - Vec3(-0.5, -0.5, -0.5)).norm(), 1e-14);
     EXPECT_LT((bounds.max - Vec3(5.5, 6.0, 6.5)).norm(), 1e-14);
@@ -60,7 +60,7 @@ shape = { type = "compound", parts = [
     EXPECT_NEAR(ball.radius, (Vec3(5.5, 6.0, 6.5) - ball.center).norm(), 1e-14);
 }
 
-TEST_F(Compounds, CompoundsWithinCompoundsAreTakenApart) {
+TEST_F(Compounds, NestedCompoundsAreFlattened) {
     const SceneDescription scene = parsed(R"(shape = { type = "compound", parts = [ { position = [0, 0, 1], rotation = { axis = [0, 0, 1], angle = 90 }, density = 2.0, shape = { type = "compound", parts = [
     { shape = { type = "box", size = [1, 1, 1] }, position = [1, 0, 0] },
     { shape = { type = "box", size = [1, 1, 1] }, position = [2, 0, 0], density = 3.0 } ] } } ] })");

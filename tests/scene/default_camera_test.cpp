@@ -24,7 +24,7 @@ BodyDescription ground() {
     return body;
 }
 
-/// Where a point appears: within +-1 in both directions when it is in the picture; third, its depth.
+/// Position of a point in the image: within +-1 in both directions if it is visible; third, its depth.
 Vec3 in_picture(const SceneDescription& scene, const CameraDescription& camera, const Vec3& p) {
     const Vec3 forward = (camera.target - camera.eye).normalized();
     const Vec3 right = forward.cross(camera.up).normalized(), up = right.cross(forward);
@@ -34,7 +34,7 @@ Vec3 in_picture(const SceneDescription& scene, const CameraDescription& camera, 
     return {d.dot(right) / d.dot(forward) / tangent / aspect, d.dot(up) / d.dot(forward) / tangent, d.dot(forward)};
 }
 
-/// The largest part of the half picture that the corners of the bodies reach.
+/// The largest part of the half image that corners of bodies reach.
 double used(const SceneDescription& scene, const CameraDescription& camera) {
     double most = 0.0;
     for (const BodyDescription& body : scene.bodies) {
@@ -67,7 +67,7 @@ TEST(DefaultCamera, FillsThePictureAtAnyScale) {
 }
 
 TEST(DefaultCamera, LeavesAsMuchRoomAboveAsBelow) {
-    SceneDescription scene;   // a long row: its width decides the distance, and its height has room to spare
+    SceneDescription scene;   // a long row: its width determines the distance, with space above and below
     for (int i = -20; i <= 20; ++i) scene.bodies.push_back(box_at(Vec3(i, 0.5, -0.3 * i), {1, 1, 1}));
     const CameraDescription camera = default_camera(scene, {});
     double top = -1e9, bottom = 1e9, left = 1e9, right = -1e9;
@@ -103,7 +103,7 @@ TEST(DefaultCamera, ShowsTheGroundBeneathAFallingBody) {
     EXPECT_LE(used(scene, camera), 1.0);
 }
 
-TEST(DefaultCamera, ShowsAllOfAKinematicBodysWay) {
+TEST(DefaultCamera, ShowsTheWholePathOfAKinematicBody) {
     SceneDescription scene;
     BodyDescription body = box_at({0, 0, 0}, {1, 1, 1}, BodyType::kinematic);
     body.keyframes = {{0.0, {0, 0, 0}, Quat::Identity()}, {1.0, {30, 0, 0}, Quat::Identity()}};
@@ -113,7 +113,7 @@ TEST(DefaultCamera, ShowsAllOfAKinematicBodysWay) {
 }
 
 // A frictionless box thrown at 45 degrees, up and along x: x = v t, y = v t - g t^2 / 2, until it slides on at y = 0.5.
-TEST(DefaultCamera, ShowsTheWayOfWhatIsThrown) {
+TEST(DefaultCamera, ShowsTheTrajectoryOfAThrownBody) {
     constexpr double v = 8.0, g = 9.81;
     SceneDescription scene;
     scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
@@ -131,8 +131,8 @@ TEST(DefaultCamera, ShowsTheWayOfWhatIsThrown) {
     EXPECT_TRUE(default_camera(scene, {}).eye.isApprox(default_camera(scene, {}, 0.0).eye));
 }
 
-TEST(DefaultCamera, WaysEndAtOtherBodiesAndWithFriction) {
-    SceneDescription stopped;   // by a pile in its way, 6 m ahead
+TEST(DefaultCamera, TrajectoriesEndAtOtherBodiesAndByFriction) {
+    SceneDescription stopped;   // by a pile in its path, 6 m ahead
     stopped.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1}), box_at({6, 1, 0}, {2, 2, 2})};
     const double near = default_camera(stopped, {}).eye.norm();
     stopped.bodies[1].velocity = Vec3(10.0, 0.0, 0.0);
@@ -151,15 +151,15 @@ TEST(DefaultCamera, WaysEndAtOtherBodiesAndWithFriction) {
     EXPECT_GT(std::fabs(in_picture(walled, default_camera(walled, {}, 5.0), {25.0, 0.5, 0}).x()), 1.0);
 }
 
-// A bullet leaves: a picture of all its way would show nothing.
-TEST(DefaultCamera, LetsGoWhatFliesFarAway) {
+// A bullet leaves: bodies would be invisible in an image of its whole trajectory.
+TEST(DefaultCamera, IgnoresBodiesThatFlyFarAway) {
     SceneDescription scene;
     scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
     scene.bodies[1].velocity = Vec3(900.0, 0.0, 0.0);
     EXPECT_LT(default_camera(scene, {}, 5.0).eye.norm(), 200.0);
 }
 
-// Frame n is the same however long the clip is.
+// Frame n is the same for any length of the clip.
 TEST(DefaultCamera, DoesNotDependOnTheCommandLinesDuration) {
     const std::string text = "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\nvelocity = [5, 0, 0]\n";
     SceneOverrides shorter;
@@ -171,15 +171,15 @@ TEST(DefaultCamera, DoesNotDependOnTheCommandLinesDuration) {
     EXPECT_TRUE((followed.camera.eye - followed.camera.target).isApprox(in_file.camera.eye - in_file.camera.target));
 }
 
-/// Does a line of sight from the eye to the point pass over the rim of a bin of this half width and height?
+/// True if the line of sight from the eye to the point passes over the rim of a bin of this half width and height.
 bool over_the_rim(const Vec3& eye, const Vec3& point, double half, double height) {
     const double rises = (height - point.y()) / (eye.y() - point.y());   // part of the way up to the eye
     const Vec3 at = point + rises * (eye - point);
     return std::fabs(at.x()) < half && std::fabs(at.z()) < half;
 }
 
-// What falls into a bin made of boxes, or of one mesh, is in sight where it lies.
-TEST(DefaultCamera, LooksIntoWhatHoldsTheRest) {
+// Bodies that fall into a bin, made of boxes or of one mesh, are visible at rest.
+TEST(DefaultCamera, LooksIntoContainers) {
     SceneDescription bin;
     bin.bodies = {ground(), box_at({2, 1, 0}, {0.2, 2, 4}, BodyType::fixed), box_at({-2, 1, 0}, {0.2, 2, 4}, BodyType::fixed),
                   box_at({0, 1, 2}, {4, 2, 0.2}, BodyType::fixed), box_at({0, 1, -2}, {4, 2, 0.2}, BodyType::fixed)};
@@ -189,7 +189,7 @@ TEST(DefaultCamera, LooksIntoWhatHoldsTheRest) {
 
     const Vec3 before = default_camera(bin, {}).eye;
     for (BodyDescription& body : bin.bodies)
-        if (body.type == BodyType::fixed) body.surface.visible = false;   // nothing hides them
+        if (body.type == BodyType::fixed) body.surface.visible = false;   // nothing hides the bodies
     EXPECT_FALSE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
     EXPECT_LT(default_camera(bin, {}).eye.y() / default_camera(bin, {}).eye.norm(), 0.8 * before.y() / before.norm());
 
@@ -217,7 +217,7 @@ TEST(DefaultCamera, AWideFloorMadeOfABoxDoesNotPushItAway) {
     EXPECT_LT((default_camera(scene, {}).eye).norm(), 30.0);
 }
 
-TEST(DefaultCamera, AFixedThingBesideTheMovingOnesIsInThePicture) {
+TEST(DefaultCamera, AFixedBodyBesideMovingOnesIsInView) {
     SceneDescription scene;
     scene.bodies = {box_at({9, 1, 0}, {2, 2, 2}, BodyType::fixed), box_at({0, 2, 0}, {1, 1, 1})};
     EXPECT_LE(used(scene, default_camera(scene, {})), 1.0);
@@ -247,7 +247,7 @@ TEST(DefaultCamera, FollowsTheLens) {
     }
 }
 
-TEST(DefaultCamera, FillsInWhatTheFileLeavesOut) {
+TEST(DefaultCamera, FillsInMissingKeys) {
     const std::string body = "\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\nposition = [5, 0, 0]\n";
     const auto whole = parse_scene("format = 1" + body, "a.toml").camera;
     const auto eye = parse_scene("format = 1\n[camera]\neye = [0, 0, 50]" + body, "a.toml").camera;

@@ -1,4 +1,4 @@
-// glTF files: what is read of them, what is refused, and which other files they may open.
+// glTF files: supported content, errors, and the other files that they may open.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
 
@@ -22,7 +22,7 @@ const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 const std::vector<std::uint16_t> faces{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 std::string tetrahedron() { return bytes_of(corners) + bytes_of(faces); }
 
-/// The parts of a document with one mesh; a test replaces those that it is about.
+/// The parts of a document with one mesh; a test replaces the parts under test.
 struct Document {
     std::string nodes = R"([{"mesh":0}])", roots = "[0]";
     std::string primitives = R"([{"attributes":{"POSITION":0},"indices":1}])";
@@ -119,7 +119,7 @@ TEST_F(Gltf, StripsFansAndUnindexedTriangles) {
     };
     EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":5})"), Vec3(0, 0, 1));                // a strip
     EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"indices":1,"mode":6})"), Vec3(0, 0, 1));    // a fan
-    EXPECT_EQ(area(R"({"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));                       // the fourth is left over
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));                       // the fourth is incomplete
     EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":1},{"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));   // lines
 }
 
@@ -216,7 +216,7 @@ TEST_F(Gltf, CountsAreCheckedBeforeAnythingIsMade) {
 TEST_F(Gltf, NodesAreAForest) {
     Document document;
     document.nodes = "[";
-    for (int i = 1; i < 64; ++i) document.nodes += fmt::format(R"({{"children":[{},{}]}},)", i, i);   // twice as many a level
+    for (int i = 1; i < 64; ++i) document.nodes += fmt::format(R"({{"children":[{},{}]}},)", i, i);   // twice as many per level
     document.nodes += R"({"mesh":0}])";
     EXPECT_EQ(error_of(document), "has node 1 twice in its tree of nodes");
     document.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])";
@@ -264,7 +264,7 @@ TEST_F(Gltf, ManyNodesOfOneMeshAreCountedBeforeTheyAreMade) {
     EXPECT_EQ(error_of(document), "has more than 5000000 triangles");
 }
 
-TEST_F(Gltf, WhatIsNoGltfOrOfAnotherKind) {
+TEST_F(Gltf, OtherFilesAndVersionsAreRefused) {
     EXPECT_EQ(error_of("{"), "is not JSON (a mistake at byte 2 of 1)");
     std::string zeros = "[0";
     for (int i = 0; i < 10'000'000; ++i) zeros += ",0";

@@ -1,4 +1,4 @@
-// Files that are broken, by accident or on purpose: an error each, no crash, no endless loop, nothing printed.
+// Files that are broken, by accident or on purpose: an error each, no crash, no endless loop, no output.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
 
@@ -32,7 +32,7 @@ protected:
     }
 };
 
-TEST_F(HostileMesh, FilesThatAreNone) {
+TEST_F(HostileMesh, OtherFilesAreRefused) {
     EXPECT_EQ(error_of(folder() / "none.obj"), "does not exist");
     EXPECT_EQ(error_of(folder()), "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     std::filesystem::create_directory(folder() / "folder.obj");
@@ -125,7 +125,7 @@ TEST_F(HostileMesh, Ply) {
     expect_error("a.ply", start + "element nothing 18446744073709551615\nend_header\n", "no triangles");   // at once
 }
 
-TEST_F(HostileMesh, PlyPromisesMoreThanItHolds) {
+TEST_F(HostileMesh, APlyWithMissingDataIsRefused) {
     const std::string start = "ply\nformat binary_little_endian 1.0\n";
     const std::string points = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
     const std::string nine(36, '\0');
@@ -164,7 +164,7 @@ TEST_F(HostileMesh, CoordinatesThatAreNotNumbers) {
 }
 
 TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {
-    // Whatever comes of it, it comes as a mesh or as an error, and without a word on the terminal.
+    // The result is a mesh or an error, without output to the terminal.
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     std::mt19937 random(1);

@@ -1,4 +1,4 @@
-// Mesh files written by the tests, each in a folder of its own that goes away again.
+// Mesh files written by the tests, each in a temporary folder.
 #pragma once
 
 #include "../support/folder.h"
@@ -18,7 +18,7 @@ protected:
     }
     const std::filesystem::path& folder() const { return folder_.path(); }
 
-    /// A cube of edge 2 about the origin, in OBJ, with its faces given apart so that tests can leave some out.
+    /// A cube of edge 2 about the origin, in OBJ, with separate faces so that tests can omit some.
     static std::string cube_points() {
         return "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
     }

@@ -1,4 +1,4 @@
-// What comes out of good mesh files: surfaces welded, closed and turned outward, with normals that make sense.
+// Results of valid mesh files: surfaces welded, closed and oriented outward, with plausible normals.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/mesh/mesh_normals.h"
@@ -68,7 +68,7 @@ TEST_F(MeshLoader, TheCradlesTrackIsWhereTheBallsSlide) {
     for (const Vec3& v : track.vertices) {
         EXPECT_NEAR(std::fabs(v.z()), 0.5, 1e-12);
         const double x = std::fabs(v.x()) - 1.0, radius = std::hypot(x, v.y() - 2.5);
-        EXPECT_GE(x, -1e-9);   // the floor is one even face
+        EXPECT_GE(x, -1e-9);   // the floor is one flat face
         EXPECT_NEAR(radius, radius < 2.78 ? 2.75 : 2.81, 1e-6);
         if (radius < 2.78) ++upper;
         EXPECT_LE(std::atan2(x, 2.5 - v.y()), M_PI / 3.0 + 1e-6);
@@ -82,7 +82,7 @@ TEST_F(MeshLoader, ACubeIsExactAndHasHardEdges) {
     EXPECT_EQ(cube.asset->surface.vertices.size(), 8u);
     EXPECT_EQ(cube.asset->surface.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(cube.closedness.signed_volume, 8.0);
-    EXPECT_EQ(cube.asset->vertices.size(), 24u);   // three normals a corner
+    EXPECT_EQ(cube.asset->vertices.size(), 24u);   // three normals per corner
     expect_drawable(*cube.asset);
 }
 
@@ -95,7 +95,7 @@ TEST_F(MeshLoader, DecimalsOfTheFileAreKeptExactly) {   // through assimp's floa
 
 TEST_F(MeshLoader, ARoundSurfaceWithoutNormalsIsSmooth) {
     const auto knot = load_mesh(asset("knot.ply"));
-    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->surface.vertices.size());   // one normal a point
+    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->surface.vertices.size());   // one normal per point
     const auto egg = load_mesh(asset("egg.gltf"));
     EXPECT_EQ(egg.asset->vertices.size(), egg.asset->surface.vertices.size());
     for (const MeshAsset::Vertex& v : egg.asset->vertices) {
@@ -121,7 +121,7 @@ TEST_F(MeshLoader, AGemKeepsItsFlatFacets) {
 TEST_F(MeshLoader, StlFacetsOfARoundTubeAreSmoothed) {
     std::string stl = "solid tube\n";
     const auto corner = [](int k, double z) {
-        const double a = k * M_PI / 12.0;   // 24 sides: 15 degrees an edge
+        const double a = k * M_PI / 12.0;   // 24 sides: 15 degrees per edge
         return fmt::format("vertex {:.6f} {:.6f} {}\n", std::cos(a), std::sin(a), z);
     };
     for (int k = 0; k < 24; ++k) {
@@ -147,7 +147,7 @@ TEST_F(MeshLoader, AnInsideOutMeshIsTurned) {
     expect_drawable(*mesh.asset);
 }
 
-// Whichever faces of a cube are wound the other way (all: it agrees with itself), beside a small tetrahedron that is right.
+// Any subset of a cube's faces is wound the other way (all: consistent), beside a small correct tetrahedron.
 TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
     const std::array<std::string, 6> outward = {"1 4 3 2", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"};
     const std::array<std::string, 6> inward = {"2 3 4 1", "8 7 6 5", "5 6 2 1", "6 7 3 2", "7 8 4 3", "8 5 1 4"};
@@ -161,8 +161,8 @@ TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
     }
 }
 
-// Of an open piece the larger part decides.
-TEST_F(MeshLoader, OpenPiecesAreTurnedAsMostOfThemAre) {
+// Of an open component the larger part decides.
+TEST_F(MeshLoader, OpenComponentsAreTurnedLikeMostOfTheirArea) {
     const std::string strip = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\n";
     for (const auto& [faces, up] : {std::pair{"f 1 2 3 4\nf 2 5 6 3\nf 8 7 5 6\n", 1.0}, std::pair{"f 1 2 3 4\nf 3 6 5 2\nf 6 8 7 5\n", -1.0}}) {
         const auto mesh = load_mesh(write("strip.obj", strip + faces));
@@ -172,7 +172,7 @@ TEST_F(MeshLoader, OpenPiecesAreTurnedAsMostOfThemAre) {
     }
 }
 
-TEST_F(MeshLoader, WhatHasOneSideOnlyStaysAsItIs) {
+TEST_F(MeshLoader, AOneSidedSurfaceIsUnchanged) {
     std::string strip;   // a Moebius strip of 12 quads
     for (int k = 0; k < 12; ++k) {
         const double a = k * M_PI / 6.0, half = 0.5 * a;
@@ -203,7 +203,7 @@ TEST_F(MeshLoader, PointsThatNoFaceUsesAndFacesWithoutAreaAreLeftOut) {
 }
 
 TEST_F(MeshLoader, ASliverThatClosesAGapCountsForClosedness) {
-    // The cube with a point in the middle of edge 1-2, which one of its faces uses and the sliver 1, 2, 9 mends.
+    // The cube with a point at the center of edge 1-2, which one of its faces uses; the sliver 1, 2, 9 closes the gap.
     const auto mesh = load_mesh(write("a.obj", cube_points() + "v 0 -1 -1\nf 1 4 3 2\nf 5 6 7 8\nf 1 9 2 6 5\nf 1 2 9\n"
                                                "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
     EXPECT_TRUE(mesh.closedness.closed());
@@ -236,8 +236,9 @@ TEST_F(MeshLoader, NodesOfAGltfMoveTurnAndMirrorTheirMeshes) {
     expect_drawable(*mirrored.asset);
 }
 
-TEST_F(MeshLoader, AMirroredSheetStillShowsTheSideItWasMadeWith) {
-    // One triangle in x and y, seen from +z; mirrored in y its corners go round the other way, its face looks the same.
+TEST_F(MeshLoader, AMirroredSheetKeepsItsFrontSide) {
+    // One triangle in x and y, seen from +z; mirrored in y its corners are in reverse order, and its face is oriented
+    // as before.
     const auto sheet = [](const char* scale) {
         return fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
             "nodes":[{{"mesh":0,"scale":{}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
@@ -284,7 +285,7 @@ TEST_F(MeshLoader, PlyInItsThreeEncodingsIsTheSame) {
     }
 }
 
-TEST_F(MeshLoader, WeldsWhatIsNearerThanABillionthOfTheSize) {
+TEST_F(MeshLoader, WeldsVerticesCloserThanABillionthOfTheSize) {
     const auto same = weld({{0, 0, 0}, {1, 0, 0}, {1, 5e-10, 0}, {1, 5e-9, 0}, {0, 0, 0}, {0, 0, 1}});
     EXPECT_EQ(same, (std::vector<std::uint32_t>{0, 1, 1, 3, 0, 5}));
     EXPECT_EQ(weld({{3, 3, 3}, {3, 3, 3}}), (std::vector<std::uint32_t>{0, 0}));

@@ -1,4 +1,4 @@
-// Meshes in scenes: found beside the scene file, checked for the body that uses them.
+// Meshes in scenes: found relative to the scene file, and checked for the body that uses them.
 #include "core/error.h"
 #include "mesh_files.h"
 #include "scene/load.h"

@@ -1,4 +1,4 @@
-// What the command line says in place of the file.
+// Options of the command line that override the file.
 #include "core/error.h"
 #include "scene/load.h"
 
@@ -67,7 +67,7 @@ TEST(Overrides, AnotherFrameRateChecksTheFilesStepAgain) {
               "0.000505050505050505 s (given a step of 0.0005 s)");
 }
 
-TEST(Overrides, AnotherFrameRateMayMendTheFilesStep) {
+TEST(Overrides, AnotherFrameRateMayFitTheFilesStep) {
     SceneOverrides overrides;
     overrides.fps = 50.0;
     EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 0.0005\n", overrides).simulation.steps_per_frame, 40);

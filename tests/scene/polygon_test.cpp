@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// The vector areas of the triangles, summed, and the sum of their sizes: equal when nothing folds over.
+/// The vector areas of the triangles, summed, and the sum of their sizes: equal if no triangle folds over.
 void expect_cut(const std::vector<Vec3>& corners, double tolerance = 1e-12) {
     Vec3 whole = Vec3::Zero(), sum = Vec3::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i) whole += 0.5 * corners[i].cross(corners[(i + 1) % corners.size()]);
@@ -51,7 +51,7 @@ double turn(const Vec3& a, const Vec3& b, const Vec3& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The same ears by the plainest means: each corner in turn against all the others. For polygons in x and y.
+/// The same ears by the simplest method: each corner in order against all others. For polygons in x and y.
 std::vector<std::array<std::uint32_t, 3>> cut_plainly(const std::vector<Vec3>& p) {
     std::vector<std::uint32_t> left;
     for (std::uint32_t i = 0; i < p.size(); ++i) left.push_back(i);
@@ -77,7 +77,7 @@ std::vector<std::array<std::uint32_t, 3>> cut_plainly(const std::vector<Vec3>& p
     return triangles;
 }
 
-TEST(Polygon, EarsAreThoseOfALookAtEveryCorner) {
+TEST(Polygon, EarsEqualThoseOfTheSimpleMethod) {
     std::mt19937 random(7);
     const auto fraction = [&] { return double(random()) / 4294967296.0; };
     for (std::size_t n = 4; n < 80; ++n) {
@@ -88,20 +88,21 @@ TEST(Polygon, EarsAreThoseOfALookAtEveryCorner) {
             tangle.push_back({fraction(), fraction(), 0});                                             // crosses itself
             lattice.push_back({double(random() % 5), double(random() % 5), 0});                        // points more than once
             cluster.push_back({1e-3 * fraction(), 1e-3 * fraction(), 0});                              // all in one cell
-            fine.push_back({1.0 + std::ldexp(random() % 9, -46), 1.0 + std::ldexp(random() % 9, -46), 0});   // as rounding allows
+            fine.push_back({1.0 + std::ldexp(random() % 9, -46), 1.0 + std::ldexp(random() % 9, -46), 0});   // within rounding
         }
         for (auto* p : {&star, &tangle, &lattice, &cluster, &fine}) {
-            double area = 0.0;   // as the cut sees it: those that turn clockwise are seen from below
+            double area = 0.0;   // projected in the same way: clockwise polygons are seen from below
             for (std::size_t i = 0; i < p->size(); ++i) area += turn((*p)[0], (*p)[i], (*p)[(i + 1) % p->size()]);
             if (area < 0.0) for (Vec3& v : *p) v.y() = -v.y();
-            if (area == 0.0) continue;   // no side is seen
+            if (area == 0.0) continue;   // no side is visible
             EXPECT_EQ(cut_polygon(*p), cut_plainly(*p)) << n;
         }
     }
 }
 
 TEST(Polygon, DozensOfLargeOnesTakeASecond) {
-    // 40 combs of 2000 corners, whose teeth hide most ears. No time is asserted, but the plain way takes over a minute.
+    // 40 combs of 2000 corners, whose teeth hide most ears. No time is asserted, but the simple method takes over a
+    // minute.
     std::vector<Vec3> comb;
     for (int i = 0; i < 1000; ++i) comb.push_back({double(i), i % 2 ? 0.0 : -1000.0, 0});
     for (int i = 999; i >= 0; --i) comb.push_back({double(i), i % 2 ? 1.0 : -999.5, 0});
@@ -109,7 +110,7 @@ TEST(Polygon, DozensOfLargeOnesTakeASecond) {
     expect_cut(comb, 1e-6);
 }
 
-TEST(Polygon, WhatIsNotSimpleIsCutAllTheSame) {
+TEST(Polygon, APolygonThatIsNotSimpleIsCutAsWell) {
     EXPECT_EQ(cut_polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);   // a bow tie
     EXPECT_EQ(cut_polygon(std::vector<Vec3>(6, Vec3(1, 2, 3))).size(), 4u);            // all in one point
     EXPECT_TRUE(cut_polygon({{0, 0, 0}, {1, 0, 0}}).empty());

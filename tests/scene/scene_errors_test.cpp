@@ -1,5 +1,5 @@
-// Every mistake the format forbids is answered with the place of the mistake. In the texts below an @ marks that place
-// (it is taken out before parsing), and the phrase follows the location in the message.
+// Every violation of the format is reported with its position. In the texts below an @ marks that position (it is
+// removed before parsing), and the phrase follows the location in the message.
 #include "core/error.h"
 #include "scene/load.h"
 
@@ -43,7 +43,7 @@ void expect_errors(const std::vector<Mistake>& mistakes) {
     }
 }
 
-/// A scene with one body, of whose table these are further lines.
+/// A scene with one body whose table contains these lines.
 std::string body(const std::string& lines) {
     return "format = 1\n[materials.wood]\n[materials.steel]\n[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\n" +
            lines;
@@ -199,8 +199,8 @@ TEST(SceneErrors, OfMaterials) {
         {"format = 1\n[materials.wood]\ndensity = @0", "density must be above 0"},
         {"format = 1\n[materials.wood]\nrestitution = @1.5", "restitution must be from 0 to 1 (given 1.5)"},
         {"format = 1\n[materials.wood]\nfriction = @-0.1", "friction must be from 0 to 1000000 (given -0.1)"},
-        {"format = 1\n[materials.wood]\ncolor = @\"red\"", "color must be a colour \"#rrggbb\" (given \"red\")"},
-        {"format = 1\n[materials.wood]\ncolor = @[1, 0, 0]", "color must be a colour"},
+        {"format = 1\n[materials.wood]\ncolor = @\"red\"", "color must be a color \"#rrggbb\" (given \"red\")"},
+        {"format = 1\n[materials.wood]\ncolor = @[1, 0, 0]", "color must be a color"},
         {"format = 1\n[materials.wood]\npattern = @\"dots\"",
          "pattern must be one of \"plain\", \"grid\", \"checker\""},
         {"format = 1\n[materials]\nwood = @3", "wood must be a table"},
@@ -237,7 +237,7 @@ TEST(SceneErrors, OfBodies) {
         {body("mass = 1\ndensity = @1"), "density and mass exclude each other"},
         {body("name = @\"\""), "name must not be empty"},
         {body("name = \"a\"\n[[body]]\nname = @\"a\"\nshape = { type = \"sphere\", radius = 1 }"),
-         "name must be unique, and another body is called so (given \"a\")"},
+         "name must be unique, and another body has it (given \"a\")"},
         {body("position = [0, @1e10, 0]"), "position must be"},
         {body("rotation = @[1, 0.1, 0, 0]"), "rotation must be a quaternion of length 1 (given one of length 1.00499)"},
         {body("rotation = @[0, 0, 0, 0]"), "(given one of length 0)"},
@@ -269,8 +269,8 @@ TEST(SceneErrors, OfKeyframes) {
 
 TEST(SceneErrors, OfCopies) {
     expect_errors({
-        {body("scale = @[1, 2]"), "scale goes with a grid or a scatter"},
-        {body("colors = @[\"#ffffff\"]"), "colors goes with a grid or a scatter"},
+        {body("scale = @[1, 2]"), "scale needs a grid or a scatter"},
+        {body("colors = @[\"#ffffff\"]"), "colors needs a grid or a scatter"},
         {body("grid = @{ count = [1, 1, 1] }"), "a grid needs \"spacing\""},
         {body("grid = @{ spacing = 1 }"), "a grid needs \"count\""},
         {body("grid = { count = [@0, 1, 1], spacing = 1 }"), "count must be from 1 to 1000000 (given 0)"},
@@ -286,7 +286,7 @@ TEST(SceneErrors, OfCopies) {
         {body("scatter = @{ count = 100, size = [2, 2, 2] }"), "copies found a place without touching another"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\nscale = @[2, 1]"), "smaller factor first"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\nscale = @2"), "scale must be an array of 2 numbers"},
-        {body("grid = { count = [1, 1, 1], spacing = 1 }\ncolors = @[]"), "at least one colour"},
+        {body("grid = { count = [1, 1, 1], spacing = 1 }\ncolors = @[]"), "at least one color"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\ncolors = [\"#ffffff\", @\"blue\"]"), "(given \"blue\")"},
         {body("grid = { count = [1, 1, 1], spacing = 1 }\nname = \"a\"\n[[body]]\nname = @\"a.0\"\nshape = { type = "
               "\"sphere\", radius = 1 }"),

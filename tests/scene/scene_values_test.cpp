@@ -132,7 +132,7 @@ TEST(SceneValues, Settings) {
     EXPECT_DOUBLE_EQ(scene.step(), 1.0 / 240.0);
 }
 
-TEST(SceneValues, BodiesTakeFromTheirMaterialWhatTheyDoNotSayThemselves) {
+TEST(SceneValues, BodiesTakeMissingKeysFromTheirMaterial) {
     const SceneDescription scene = parse(everything);
     ASSERT_EQ(scene.bodies.size(), 4u);
 
@@ -167,10 +167,10 @@ TEST(SceneValues, BodiesTakeFromTheirMaterialWhatTheyDoNotSayThemselves) {
     EXPECT_EQ(box.surface.pattern, Pattern::grid);
     EXPECT_EQ(box.integrator, IntegratorKind::symplectic_euler);
     EXPECT_FALSE(ball.integrator.has_value());   // the simulation's
-    EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);   // 0.7071 is near enough to be made unit
+    EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);   // 0.7071 is close enough to be normalized
 }
 
-TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnLooks) {
+TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnDefaults) {
     const BodyDescription floor = parse(everything).bodies[0];
     const auto& plane = std::get<PlaneShape>(floor.shape);
     EXPECT_TRUE(plane.normal.isApprox(Vec3(0, 0.6, 0.8), 1e-15));
@@ -181,7 +181,7 @@ TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnLooks) {
     EXPECT_GT(int(floor.surface.color.r), 0xc0);
 }
 
-TEST(SceneValues, KeyframesKeepThePoseTheyDoNotSay) {
+TEST(SceneValues, KeyframesKeepMissingPartsOfThePose) {
     const BodyDescription paddle = parse(everything).bodies[3];
     EXPECT_EQ(paddle.type, BodyType::kinematic);
     EXPECT_EQ(paddle.interpolation, Interpolation::linear);

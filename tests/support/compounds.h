@@ -1,4 +1,4 @@
-// Bodies of several shapes, made in the test.
+// Compounds built in code.
 #pragma once
 
 #include "scene/description/description.h"

@@ -1,4 +1,4 @@
-// Meshes made in the test, with known volumes and tensors.
+// Meshes built in code, with known volumes and inertia tensors.
 #pragma once
 
 #include "scene/description/description.h"
@@ -61,7 +61,7 @@ inline TriangleMesh grid_mesh(int n, double half, double slope) {
     return m;
 }
 
-/// Hills and hollows .8 m high and deep, 6 by 5 m apart, in a wide bowl.
+/// Hills and hollows 0.8 m high and deep, 6 by 5 m apart, in a wide bowl.
 inline double wavy_height(double x, double z) { return 0.4 * std::sin(x) * std::cos(1.3 * z) + 0.03 * (x * x + z * z); }
 
 /// The same grid at that height.

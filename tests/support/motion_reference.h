@@ -1,5 +1,5 @@
-// One body under gravity, drag and a force at a point, in extended precision: the classical Runge-Kutta method in steps so
-// small that its error is far below a double's rounding. Shares no code with the simulation.
+// One body under gravity, drag and a force at a point, in extended precision: the classical Runge-Kutta method in steps
+// so small that its error is far below a double's rounding. Shares no code with the simulation.
 #pragma once
 
 #include "core/vector.h"
@@ -18,7 +18,7 @@ struct ReferenceBody {
     Vector gravity{0, 0, 0};
     Vector wind{0, 0, 0};
     Real drag = 0;                      // F = drag |u| u
-    Vector point{0, 0, 0};              // body frame, from the centre of mass
+    Vector point{0, 0, 0};              // body frame, from the center of mass
     Vector force{0, 0, 0};              // at the point
     bool force_turns = false;           // with the body
     std::array<Real, 13> y{};           // x, q (w, x, y, z), v, L

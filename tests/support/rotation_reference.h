@@ -1,4 +1,4 @@
-// Torque-free rotation by Taylor series in higher precision: what the double-precision code is measured against.
+// Torque-free rotation by Taylor series in higher precision: the reference for the double-precision code.
 // Independent of it: body momentum and quaternion are integrated from Euler's equations, step by step.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Small scenes written as values, for tests of the simulation that need no file.
+// Small scenes built in code, for tests of the simulation without files.
 #pragma once
 
 #include "scene/description/description.h"

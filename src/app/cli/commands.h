@@ -1,5 +1,5 @@
-// What each command is told, and does. The functions return the exit code where there is more to say than "done";
-// errors leave them as InputError (exit code 2) or RunError (1).
+// Parameters and entry points of the commands. A function returns the exit code if the command has several outcomes;
+// errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
 #include "output/image_compare.h"
@@ -15,19 +15,19 @@ namespace tumble {
 
 struct RenderCommand {
     std::filesystem::path scene;
-    std::optional<std::filesystem::path> clip;     // neither this nor frames nor AOVs: the scene's name with .mp4
+    std::optional<std::filesystem::path> clip;     // without this, frames and AOVs: the scene's name with .mp4
     std::optional<std::filesystem::path> frames;   // folder
     AovSet aovs;
-    std::optional<std::filesystem::path> aov_folder;   // in place of the frames' folder
+    std::optional<std::filesystem::path> aov_folder;   // instead of the frames' folder
     SceneOverrides overrides;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    double start = 0.0;   // s of the scene: what comes before is not drawn
+    double start = 0.0;   // s, scene time; earlier frames are not drawn
     double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
-    double shutter = 0.0;   // degrees: 360 is open all the time, 0 a moment
-    int blur_samples = 8;   // moments of an open shutter
-    std::optional<int> threads;   // of the simulation; see simulation_threads.h
-    int workers = 1;      // processes that draw
+    double shutter = 0.0;   // degrees: 360 is always open, 0 a single moment
+    int blur_samples = 8;   // moments while the shutter is open
+    std::optional<int> threads;   // of the simulation; see thread_budget.h
+    int workers = 1;      // render processes
     bool quiet = false;
 };
 void run_render(const RenderCommand& command);
@@ -55,7 +55,7 @@ struct CompareCommand {
     std::optional<std::filesystem::path> difference;
     CompareOptions options;
 };
-/// 0 alike, 1 different, 2 nothing can be said.
+/// Returns 0 if the pictures are alike, 1 if they differ, 2 if they cannot be compared.
 int run_compare(const CompareCommand& command);
 
 struct InfoCommand {
@@ -65,9 +65,9 @@ struct InfoCommand {
 void run_info(const InfoCommand& command);
 
 struct DoctorCommand {
-    double time_limit = 30.0;   // s for each program and driver: a cold driver takes seconds on a busy machine
+    double time_limit = 30.0;   // s for each program and driver: a driver without caches takes seconds on a busy machine
 };
-/// 0 when clips can be rendered here, else 1.
+/// Returns 0 if clips can be rendered, else 1.
 int run_doctor(const DoctorCommand& command);
 
 }  // namespace tumble

@@ -18,7 +18,7 @@
 namespace tumble {
 namespace {
 
-/// Row by row: pictures of any size take little memory.
+/// Row by row, so that pictures of any size take little memory.
 Comparison compared(const CompareCommand& command) {
     if (command.difference) {
         OutputPlan plan;
@@ -56,7 +56,7 @@ void print(const Comparison& result) {
     finish_standard_output();
 }
 
-// 1 says "different" here: whatever kept us from telling must not look like that.
+// Exit code 1 means "different", so every failure of the comparison itself must be 2.
 int cannot_tell(const std::string& words) {
     say("{}\n", words);
     return 2;
@@ -66,7 +66,7 @@ int cannot_tell(const std::string& words) {
 
 int run_compare(const CompareCommand& command) try {
     const CompareOptions& options = command.options;
-    if (!(options.fraction >= 0.0 && options.fraction <= 1.0))   // not a number passes CLI11's range
+    if (!(options.fraction >= 0.0 && options.fraction <= 1.0))   // CLI11's range check lets NaN through
         throw InputError(fmt::format("--fraction: must be between 0 and 1 (was {})", options.fraction));
     const Comparison result = compared(command);
     print(result);

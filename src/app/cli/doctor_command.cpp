@@ -32,10 +32,10 @@ namespace {
 struct Finding {
     bool good = false;
     std::string text;
-    bool can_be_installed = true;   // getting it (again) is the remedy
+    bool can_be_installed = true;   // true if an installation is the remedy
 };
 
-/// Listens to children until they end: not for longer than the limit, and not after Ctrl-C.
+/// Waits for child processes until they end, the time limit is reached, or Ctrl-C is pressed.
 class Patience {
 public:
     explicit Patience(double limit) : limit_(limit) {}
@@ -47,7 +47,7 @@ public:
 
     bool interrupted() const { return interrupted_; }
 
-    /// Of a child that was stopped.
+    /// The finding for a child that was stopped.
     Finding late(const std::string& what) const {
         return {false, fmt::format("{} does not answer (ended after {:g} s)", what, limit_), false};
     }
@@ -65,11 +65,11 @@ private:
     bool interrupted_ = false;
 };
 
-constexpr int failed = 1, out_of_memory = 3;   // exit codes of a look
+constexpr int failed = 1, out_of_memory = 3;   // exit codes of a check
 
-/// The life of the child that looks.
+/// Runs a check in the child process.
 [[noreturn]] void look_and_tell(const std::function<std::string()>& look, int pipe) {
-    ::setpgid(0, 0);   // Ctrl-C reaches it only through us
+    ::setpgid(0, 0);   // Ctrl-C must reach it only through the parent
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     sigset_t none;
     sigemptyset(&none);
@@ -92,7 +92,7 @@ constexpr int failed = 1, out_of_memory = 3;   // exit codes of a look
     ::_exit(code);   // no destructors of the parent's objects, no second flush of its streams
 }
 
-/// Runs `look` in a process of its own: a broken driver that crashes or hangs is a finding too.
+/// Runs `look` in a process of its own: a driver that crashes or hangs is a finding as well.
 Finding in_own_process(const std::function<std::string()>& look, Patience& patience) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) return {false, "cannot make a pipe"};
@@ -126,7 +126,7 @@ Finding try_drawing(GlBackend backend, Patience& patience) {
         Snapshot snapshot;
         Image image;
         renderer.render(snapshot, image);
-        if (image.width != 32 || image.height != 32) throw RunError("the picture has another size than asked for");
+        if (image.width != 32 || image.height != 32) throw RunError("the picture has a different size than requested");
         return renderer.driver();
     };
     return in_own_process(look, patience);
@@ -157,7 +157,7 @@ Finding look_for_ffmpeg(Patience& patience) try {
     return {false, error.what()};
 }
 
-/// One line of the report, and one more with the remedy where it is needed.
+/// Prints one line of the report, and another one with the remedy if needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
     put("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : finding.can_be_installed ? "MISSING" : "FAILS",
         safe_lines(finding.text));
@@ -188,7 +188,7 @@ int run_doctor(const DoctorCommand& command) {
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
     const bool able = shaders.good && osmesa.good && ffmpeg.good;
-    put("{}\n", able ? "Everything is there: tumble render works here." : "tumble render does not work here yet.");
+    put("{}\n", able ? "All requirements are met: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
 }
 

@@ -28,15 +28,16 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t waiting_frames = 4;
 
-/// A pipe without a writer would be waited for.
+/// Opening a pipe without a writer would wait.
 void check_regular(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-        throw InputError({path.string(), 0, 0}, "is no regular file, but a pipe or device");
+        throw InputError({path.string(), 0, 0}, "is not a regular file, but a pipe or device");
 }
 
-/// Number of frames, all there from 0 on and all of one size. Throws InputError naming the file that is not.
+/// Number of frames. Precondition: they are numbered from 0 without gaps and have one size; throws InputError naming a
+/// file that violates it.
 std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
     const std::vector<std::int64_t> numbers = frames_in(folder);
     if (numbers.empty())
@@ -46,7 +47,7 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
         const fs::path path = frame_path(folder, n);
         if (numbers[i] != n)
             throw InputError({path.string(), 0, 0},
-                             fmt::format("the frame is missing (the frames must count from 0 to the last, {})",
+                             fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
                                          frame_path(folder, numbers.back()).filename().string()));
         check_regular(path);
         const PictureSize this_size = read_png_size(path);
@@ -59,8 +60,8 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
     return static_cast<std::int64_t>(numbers.size());
 }
 
-/// Bytes, of at most this many frames: those that wait, the one that is read and the one that is written, which is there as
-/// ffmpeg takes it in three copies: made, given away, and in the pipe.
+/// Bytes of at most this many frames: those in the queue, the one being read, and the one being written. ffmpeg holds
+/// the last one in three copies: converted, passed on, and in the pipe.
 std::uint64_t pictures_on_their_way(const PictureSize& size, const VideoFormat& format, std::int64_t frames) {
     const auto images = std::uint64_t(std::min<std::int64_t>(frames, waiting_frames + 2));
     return images * 4 * std::uint64_t(size.width) * std::uint64_t(size.height) +

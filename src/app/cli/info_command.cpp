@@ -18,8 +18,8 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t listed_bodies = 24;    // a screenful; the groups tell of the rest
-constexpr double trial_seconds = 0.25;       // of stepping, to guess the time that the whole will take
+constexpr std::size_t listed_bodies = 24;    // a screenful; the groups summarize all bodies
+constexpr double trial_seconds = 0.25;       // of stepping, to estimate the time of the whole run
 
 const char* type_text(BodyType type) {
     switch (type) {
@@ -30,7 +30,7 @@ const char* type_text(BodyType type) {
     return "";
 }
 
-/// The kind of shape alone, for the groups, and with its measures, for the list.
+/// The kind of shape, for the groups, and its dimensions, for the list.
 struct ShapeText {
     std::string kind, measures;
 };
@@ -70,7 +70,7 @@ void print_head(const SceneDescription& scene) {
                scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
     put("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
                scene.output.samples, scene.light.shadows ? "on" : "off");
-    put("  camera    from {} to {}, {:.4g} degrees high{}\n", vector_text(scene.camera.eye),
+    put("  camera    from {} to {}, {:.4g} degrees vertical field of view{}\n", vector_text(scene.camera.eye),
                vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
     put("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
     if (scene.wind)
@@ -94,7 +94,7 @@ void print_groups(const SceneDescription& scene, const World& world) {
     put("\n{} bodies\n", scene.bodies.size());
     for (const auto& [key, group] : groups) {
         put("  {:>7} {} {}", group.count, type_text(key.first), key.second);
-        if (key.first == BodyType::dynamic) put(", {:.6g} kg in all", group.mass);
+        if (key.first == BodyType::dynamic) put(", {:.6g} kg in total", group.mass);
         put("\n");
     }
 }
@@ -118,7 +118,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     put("  hull: vertices of the convex shape that collides\n");
 }
 
-/// Steps the world for a moment, and takes that for the whole: heaps that form later cost more.
+/// Steps the world for a moment and extrapolates; heaps that form later cost more.
 std::string simulation_cost(const SceneDescription& scene, World& world) {
     const std::int64_t frames = scene.frame_count() - 1;
     if (frames <= 0) return "nothing to simulate";
@@ -133,7 +133,7 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
         return fmt::format("the simulation fails: {}", error.what());
     }
     const double seconds = wall_seconds() - start;
-    return fmt::format("about {:.3g} s on one thread, by its first {} frames", seconds * double(frames) / double(done),
+    return fmt::format("about {:.3g} s on one thread, estimated from the first {} frames", seconds * double(frames) / double(done),
                        done);
 }
 
@@ -148,7 +148,7 @@ void print_cost(const SceneDescription& scene, World& world) {
     put("  simulation  {}\n", simulation_cost(scene, world));
     put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
                1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
-    put("  memory      about {} for the pictures of each drawing process and {} for those of ffmpeg, for any number of frames\n",
+    put("  memory      about {} for the pictures of each render process and {} for those of ffmpeg, for any number of frames\n",
                memory_text(memory.worker), memory_text(memory.encoder));
 }
 

@@ -10,8 +10,8 @@
 
 int main(int argc, char** argv) {
     tumble::open_missing_standard_streams();
-    // A file that grows beyond the user's limit, and a pipe whose reader is gone, are then errors of the write that met
-    // them, like a full disk.
+    // A file beyond the user's size limit, and a pipe without a reader, then give an error of the write, like a full
+    // disk.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     try {

@@ -22,9 +22,9 @@
 namespace tumble {
 namespace {
 
-constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder keep up with no more of them
+constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder cannot keep more busy
 
-/// "1280x720" to two numbers. Their range is the scene's affair.
+/// "1280x720" to two numbers. Their range is checked with the scene.
 void read_size(const std::string& text, SceneOverrides& overrides) {
     int width = 0, height = 0;
     const char* const last = text.data() + text.size();
@@ -48,14 +48,14 @@ AovSet read_aovs(const std::string& text) {
         const std::size_t end = std::min(text.find(',', first), text.size());
         const std::string name = text.substr(first, end - first);
         const std::optional<Aov> aov = aov_named(name);
-        if (!aov) throw InputError(fmt::format("--aov: there is no '{}' (there are {})", safe_text(name), names_of(all)));
+        if (!aov) throw InputError(fmt::format("--aov: unknown name '{}' (known: {})", safe_text(name), names_of(all)));
         aovs.add(*aov);
         first = end + 1;
     }
     return aovs;
 }
 
-/// What the user may say on the command line; each command takes what it knows.
+/// All options of the command line; each command uses those that it declares.
 struct CommandLine {
     RenderCommand render;
     SimulateCommand simulate;
@@ -66,7 +66,7 @@ struct CommandLine {
     std::string render_size, info_size, aovs;
 };
 
-// CLI::Range lets what is no number through.
+// CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most) {
     return CLI::Validator(
         [=](const std::string& text) {
@@ -77,7 +77,7 @@ CLI::Validator number_within(double least, double most) {
         "");
 }
 
-/// An option with one of a few names as its value.
+/// An option with one of a list of names as its value.
 template <class T>
 CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, const std::vector<std::pair<std::string, T>>& choices,
                         const std::string& help) {
@@ -94,7 +94,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, 
     }, help);
 }
 
-// An empty name is what a script's unset variable leaves.
+// An empty name comes from an unset variable of a script.
 CLI::Validator some_name() {
     return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
 }
@@ -113,15 +113,15 @@ template <class Threads>
 void add_run(CLI::App& command, Threads& threads, const std::string& unless_told, bool& quiet) {
     command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", unless_told));
-    command.add_flag("--quiet", quiet, "Say nothing but errors");
+    command.add_flag("--quiet", quiet, "Print errors only");
 }
 
 void add_quality(CLI::App& command, VideoQuality& quality) {
     add_choice<VideoQuality>(command, "--quality", quality,
                              {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
-                             "Of the clip: draft is fast to encode and leaves specks where something has passed,\n"
-                             "normal is for showing, best looks like the frames. A GIF has one setting (time and size:\n"
-                             "docs/explanation/output.md)")
+                             "Quality of the clip. draft: fast to encode, leaves specks behind moving bodies;\n"
+                             "normal: for viewing; best: looks like the frames (docs/explanation/output.md has\n"
+                             "time and size). A GIF has one setting")
         ->option_text("draft|normal|best [normal]");
 }
 
@@ -136,9 +136,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->check(some_name())
         ->type_name("DIR");
     command->add_option("--aov", line.aovs,
-                        "Write more than colour, exact for every pixel: some of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
+                        "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
-    command->add_option("--aov-folder", c.aov_folder, "Where to, in place of the folder of --frames")
+    command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
         ->check(some_name())->type_name("DIR");
     command->add_option("--size", line.render_size, "Picture size, in place of the scene's")
         ->check(some_name())->type_name("WxH");
@@ -147,21 +147,21 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(number_within(limits::duration.min, limits::duration.max))->option_text("S [0]");
     command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
-    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}}, "How to reach OpenGL: osmesa (the default) draws on the CPU; egl takes a GPU\nwhere there is one, and makes the same pixels on the CPU where there is none")
+    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}}, "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, else it draws the same pixels on the CPU")
         ->option_text("osmesa|egl");
-    command->add_option("--speed", c.speed, "Of the motion in the clip: 0.25 is slow motion (the clip lasts four times as long,\n"
+    command->add_option("--speed", c.speed, "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
                         "at the same frames per second), 2 twice as fast")
         ->check(number_within(slowest_speed, fastest_speed))->option_text("X [1]");
     command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
         ->check(number_within(0.0, 360.0))->option_text("DEGREES [0]");
-    command->add_option("--blur-samples", c.blur_samples, "Moments that are averaged while it is open")
+    command->add_option("--blur-samples", c.blur_samples, "Moments averaged while the shutter is open")
         ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
     add_quality(*command, c.clip_options.quality);
     command->add_flag_callback("--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
-                               "Store what does not change once and show it longer, which costs nothing; players show\n"
+                               "Store an unchanged picture once and show it longer, which costs nothing; players show\n"
                                "the same, but tools that count stored frames find fewer");
     c.workers = std::min(machine_threads(), enough_workers);
-    command->add_option("--workers", c.workers, "Processes that draw, one a core; the result is the same for any number")
+    command->add_option("--workers", c.workers, "Render processes, one per core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, "by the bodies", c.quiet);
     command->footer(
@@ -177,7 +177,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     return command;
 }
 
-// "-" is standard output, as in other programs.
+// "-" is standard output.
 CLI::Validator or_standard_output() {
     return {[](std::string& name) {
                 if (name == "-") name = "/dev/stdout";
@@ -191,7 +191,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
     add_scene(*command, c.scene);
     command->add_option("--trajectory", c.trajectory,
-                        "CSV: one row per frame and moving body, with its centre of mass, orientation\nand velocities; - is standard output")
+                        "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - is standard output")
         ->check(some_name())->transform(or_standard_output())->type_name("T.csv");
     command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
         ->check(some_name())->transform(or_standard_output())->type_name("E.csv");
@@ -205,7 +205,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->type_name("NAME");
     command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")->type_name("MODE");
     command->add_option("--impact-law", c.overrides.impact_law,
-                        "propagating or simultaneous: what several contacts at once do")->type_name("NAME");
+                        "propagating or simultaneous: the rule for several contacts at once")->type_name("NAME");
     add_frames_of_time(*command, c.overrides);
     c.threads = machine_threads();
     add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
@@ -218,14 +218,14 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
 
 CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     EncodeCommand& c = line.encode;
-    CLI::App* command = app.add_subcommand("encode", "Make a clip of frames that are there already");
+    CLI::App* command = app.add_subcommand("encode", "Make a clip from existing frames");
     command->add_option("frames", c.frames, "The folder with frame_000000.png, frame_000001.png and so on")
         ->required()->type_name("DIR");
     command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
         ->required()->type_name("CLIP");
     command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
     add_quality(*command, c.quality);
-    command->add_flag("--quiet", c.quiet, "Say nothing but errors");
+    command->add_flag("--quiet", c.quiet, "Print errors only");
     command->footer("Example:\n  tumble encode out -o clip.mp4 --fps 30");
     return command;
 }
@@ -243,11 +243,11 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         ->check(number_within(0.0, 1.0))->option_text("F [0.0001]");
     command->add_option("--cluster", c.options.cluster, "Rule cluster: pixels of any 8 x 8 that may differ by more")
         ->check(CLI::Range(0, 64))->option_text("N [4 + 64 F]");
-    command->add_option("--window", c.options.window, "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off by 64 times that breaks it, too")
+    command->add_option("--window", c.options.window, "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off by 64 times that breaks it as well")
         ->check(number_within(0.0, 255.0))->option_text("L [tolerance / 2 + 255 F]");
     command->footer(
-        "Pictures are alike where all three rules hold; each one that does not is named, with its figure, its limit\n"
-        "and its place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
+        "Pictures are alike if all three rules hold. A rule that fails is named with its value, its limit and its\n"
+        "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
         "small object moved by one pixel (cluster), a lost shadow or a shifted color (window) do not. The 8 x 8 pixels\n"
         "begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
         "Example:\n  tumble compare golden.png frame_000100.png --diff difference.png");
@@ -255,7 +255,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
 }
 
 CLI::App* add_info(CLI::App& app, CommandLine& line) {
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds and what it will cost");
+    CLI::App* command = app.add_subcommand("info", "Describe a scene and estimate its cost");
     add_scene(*command, line.info.scene);
     command->add_option("--size", line.info_size, "Picture size, in place of the scene's")
         ->check(some_name())->type_name("WxH");
@@ -266,7 +266,7 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
 
 void add_doctor(CLI::App& app, CommandLine& line) {
     CLI::App* command =
-        app.add_subcommand("doctor", "Look whether everything is there that rendering needs, and how to get what is not");
+        app.add_subcommand("doctor", "Check the requirements of rendering, and name a remedy for each that is not met");
     command->add_option("--time-limit", line.doctor.time_limit, "Seconds that each program and driver may take to answer")
         ->check(number_within(0.001, 1e6))->option_text(fmt::format("S [{:g}]", line.doctor.time_limit));
 }
@@ -284,10 +284,10 @@ int run_command_line(int argc, char** argv) {
         "  tumble doctor                                     is everything there?\n"
         "  tumble info assets/scenes/falling_boxes.toml      what is in the scene?\n"
         "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4\n"
-        "\"tumble COMMAND --help\" tells more. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
+        "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
         "or bad input. Messages and progress go to standard error.");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return fmt::format("error: {} (\"tumble --help\" and \"tumble COMMAND --help\" tell more)\n",
+        return fmt::format("error: {} (see \"tumble --help\" and \"tumble COMMAND --help\")\n",
                            safe_text(error.what(), path_text_bytes));
     });
     const CLI::App* render = add_render(app, line);

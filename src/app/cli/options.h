@@ -1,4 +1,4 @@
-// The command line: which command, with which options. The only place where their names and help texts stand.
+// The command line: the commands and their options. The only place with their names and help texts.
 #pragma once
 
 namespace tumble {

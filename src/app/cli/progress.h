@@ -1,4 +1,4 @@
-// How far a run is: a bar on a terminal, a plain line now and then elsewhere. On standard error.
+// Progress of a run, on standard error: a bar on a terminal, otherwise a line every few seconds.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,15 @@ namespace tumble {
 
 class Progress {
 public:
-    /// Of `total` frames; a quiet one says nothing.
+    /// Of `total` frames; `quiet` disables all output.
     Progress(std::int64_t total, bool quiet);
-    /// Takes the bar away, so that what is said next begins on a clean line.
+    /// Erases the bar, so that the next message begins on a clean line.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Says how many frames are done, if it was not said a moment ago. Cheap enough for every frame.
+    /// Shows the number of finished frames, unless the last update was a moment ago. Cheap enough to call for every
+    /// frame.
     void update(std::int64_t done);
 
 private:

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What was written, and where the time went.
+/// Outputs of a run, and the time that its stages took.
 struct Summary {
     const SceneDescription& scene;
     const FrameRange& frames;
@@ -54,13 +54,13 @@ struct Summary {
 
     std::string every_so_manieth() const {
         if (video->frames_in_clip() == frames.count()) return "";
-        return fmt::format(" (every {}. of {}: the format holds no more)",
+        return fmt::format(" (one in {} of {}: the format holds no more)",
                            video_format(*clip, clip_fps).frame_step, frames.count());
     }
 
     std::string stored() const {
         if (video->frames_stored() == video->frames_in_clip()) return "";
-        return fmt::format(", stored as {} (what does not change is shown longer)", video->frames_stored());
+        return fmt::format(", stored as {} (unchanged pictures are shown longer)", video->frames_stored());
     }
 
     void print_times() const {
@@ -79,7 +79,7 @@ struct Summary {
         say("{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
     }
 
-    /// Frames of an earlier, longer clip would be stitched to this one by `tumble encode`.
+    /// Warns of frames of an earlier, longer clip, because `tumble encode` would append them to this one.
     void print_older(const char* what, const std::vector<std::int64_t>& there, const fs::path& where,
                      fs::path (&path)(const fs::path&, std::int64_t)) const {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
@@ -89,17 +89,17 @@ struct Summary {
     }
 };
 
-/// The folder that the AOVs go to, if any are asked for.
+/// The folder of the AOVs, if any are requested.
 std::optional<fs::path> aov_folder(const RenderCommand& command) {
     if (command.aovs.empty() && command.aov_folder)
-        throw InputError("--aov-folder: --aov must say what to write there, as in --aov depth,normal");
+        throw InputError("--aov-folder: needs --aov with the AOVs to write, as in --aov depth,normal");
     if (command.aovs.empty()) return std::nullopt;
     if (!command.aov_folder && !command.frames)
-        throw InputError("--aov: --frames or --aov-folder must say where to write it");
+        throw InputError("--aov: needs --frames or --aov-folder for the folder to write to");
     return command.aov_folder ? command.aov_folder : command.frames;
 }
 
-/// Throws InputError where outputs would replace each other or what is read.
+/// Throws InputError if an output would replace another one or an input.
 void check_outputs(const RenderCommand& command, const FileList& inputs, const FrameRange& frames,
                    const std::optional<fs::path>& clip, const std::optional<fs::path>& aovs_to) {
     OutputPlan plan;
@@ -125,7 +125,7 @@ void run_render(const RenderCommand& command) {
     std::optional<fs::path> clip = command.clip;
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
-    // What can be wrong with the outputs is found out before anything is simulated or written.
+    // All checks of the outputs come before the simulation and before anything is written.
     PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
     const FrameOutputs& forms = work.forms;
     if (clip) {
@@ -138,9 +138,9 @@ void run_render(const RenderCommand& command) {
     const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
     const int workers = workers_that_fit(scene, work, wanted_workers);
     if (workers < wanted_workers && !command.quiet)
-        say("note: {} in place of {} processes draw, for there is no memory for more\n", workers, wanted_workers);
+        say("note: {} render processes in place of {}, because there is no memory for more\n", workers, wanted_workers);
     Interrupt interrupt;   // before any thread or process is made
-    // Before any thread. They open OpenGL while the bodies are built.
+    // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world(scene, divided(timing, shutter.parts), threads);

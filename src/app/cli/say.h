@@ -1,4 +1,4 @@
-// Words for the user. Standard error tells of the run and is not part of it; standard output is what was asked for.
+// Text for the user. Standard error carries messages about the run; standard output carries requested results.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// On standard error, as it is. Whether it can be written changes nothing.
+/// Prints to standard error. A failure of the write has no effect.
 void say_text(std::string_view text);
 
 template <class... Values>
@@ -16,7 +16,7 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     say_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// On standard output. Throws RunError where it cannot be written.
+/// Prints to standard output. Throws RunError if it cannot be written.
 void put_text(std::string_view text);
 
 template <class... Values>
@@ -24,7 +24,7 @@ void put(fmt::format_string<Values...> format, Values&&... values) {
     put_text(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// What was put may wait until here. Throws RunError where it cannot be written.
+/// Flushes standard output. Throws RunError if it cannot be written.
 void finish_standard_output();
 
 }  // namespace tumble

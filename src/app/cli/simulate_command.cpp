@@ -16,11 +16,11 @@
 namespace tumble {
 namespace {
 
-constexpr double interrupt_period = 0.02;   // s between two looks for Ctrl-C: frames may take a microsecond each
+constexpr double interrupt_period = 0.02;   // s between checks for Ctrl-C, because a frame may take only a microsecond
 
 void write_vector(TableWriter& table, const Vec3& v) { table.number(v.x()).number(v.y()).number(v.z()); }
 
-/// One row per frame and body that can move, in scene order.
+/// One row per frame and movable body, in scene order.
 class TrajectoryTable {
 public:
     TrajectoryTable(const std::filesystem::path& path, const SceneDescription& scene)
@@ -67,7 +67,7 @@ private:
     TableWriter table_;
 };
 
-/// Looks for Ctrl-C and shows the progress, without asking the system at every frame.
+/// Checks for Ctrl-C and shows the progress, without a system call per frame.
 class Watch {
 public:
     Watch(std::int64_t frames, bool quiet) : progress_(frames, quiet) {}

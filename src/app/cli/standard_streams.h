@@ -1,12 +1,13 @@
-// The three descriptors that every program is started with, or should be.
+// The three standard descriptors of a program.
 #pragma once
 
 namespace tumble {
 
-/// Opens /dev/null in the place of standard input, output and error where they are closed (">&-"): the next file, pipe or
-/// socket would get that number, and what is written to standard error would go there. Call it before anything is opened.
+/// Opens /dev/null for standard input, output and error if they are closed (">&-"). Otherwise the next file, pipe or
+/// socket would get that number and receive, for example, the messages for standard error. Call it before anything is
+/// opened.
 ///
-/// Standard output is opened for reading: what should go there and cannot is an error of the write, as it was.
+/// Standard output is opened for reading, so that a write to it is still an error.
 void open_missing_standard_streams();
 
 }  // namespace tumble

@@ -25,7 +25,7 @@ std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<co
     return part;
 }
 
-/// A row a number: 0 is the background; bodies and cords by their index in the scene.
+/// One row per number: 0 is the background; bodies and cords by their index in the scene.
 void AovFolder::write_table() const {
     TableWriter table(segmentation_table_path(folder_), "id,kind,index,name");
     table.integer(0).text("background").text("").text("").end_row();

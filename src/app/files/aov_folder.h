@@ -1,4 +1,4 @@
-// Where the AOVs go: aov_000000.npz, aov_000001.npz, ... and, with segmentation, the table of what its numbers mean.
+// The AOV files aov_000000.npz, aov_000001.npz, ... and, with segmentation, the table of its numbers.
 #pragma once
 
 #include "output/temporary_file.h"
@@ -14,26 +14,26 @@
 
 namespace tumble {
 
-/// The file of frame n. Six digits, more where needed.
+/// The file of frame n. Six digits, more if needed.
 std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t frame);
 
-/// The table of what the numbers of a segmentation mean.
+/// The table of the numbers of a segmentation.
 std::filesystem::path segmentation_table_path(const std::filesystem::path& folder);
 
-/// The numbers of those that are in a folder, ascending.
+/// The frame numbers of the files in a folder, ascending.
 std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder);
 
 class AovFolder {
 public:
-    /// A folder that is there (frame_folder.h). The scene must outlive it.
+    /// `folder` must exist (frame_folder.h). The scene must outlive it.
     AovFolder(const std::filesystem::path& folder, const SceneDescription& scene, const AovSet& aovs)
         : folder_(folder), scene_(scene), aovs_(aovs) {}
 
     const std::filesystem::path& path() const { return folder_; }
     const AovSet& aovs() const { return aovs_; }
 
-    /// One frame's file, written and not yet published; the table is written before the first. Throws RunError naming the
-    /// file.
+    /// Writes the file of one frame, without publishing it; the table is written before the first one. Throws RunError
+    /// naming the file.
     std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
 private:

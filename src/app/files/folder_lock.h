@@ -1,15 +1,15 @@
-// One run at a time writes frames into a folder.
+// Ensures that only one run at a time writes frames into a folder.
 #pragma once
 
 #include <filesystem>
 
 namespace tumble {
 
-/// Holds a folder while it lives, by a lock on a hidden file in it; the lock ends with the process, however that ends, and
-/// a file that a killed process left is taken over.
+/// Holds a folder during its lifetime, by a lock on a hidden file in it. The lock ends with the process, even if it is
+/// killed; a file that a killed process left is taken over.
 class FolderLock {
 public:
-    /// Throws RunError where another run holds the folder, or no file can be made in it.
+    /// Throws RunError if another run holds the folder, or if no file can be made in it.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

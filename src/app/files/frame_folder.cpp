@@ -20,7 +20,7 @@ fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder 
 
 std::vector<std::int64_t> frames_in(const fs::path& folder) { return numbers_in(folder, "frame_", ".png"); }
 
-/// Of six digits or more.
+/// A number of six digits or more.
 std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after) {
     if (!name.starts_with(before) || !name.ends_with(after) || name.size() < before.size() + after.size())
         return std::nullopt;

@@ -11,24 +11,24 @@
 
 namespace tumble {
 
-/// The file of frame n. Six digits, more where needed.
+/// The file of frame n. Six digits, more if needed.
 std::filesystem::path frame_path(const std::filesystem::path& folder, std::int64_t frame);
 
-/// The numbers of the frames that are in the folder, ascending. Throws InputError where it is no folder.
+/// The frame numbers of the files in the folder, ascending. Throws InputError if it is no folder.
 std::vector<std::int64_t> frames_in(const std::filesystem::path& folder);
 
-/// The same of any files whose name is `before`, a number of six digits or more, and `after`.
+/// The same for any files whose name is `before`, a number of six digits or more, and `after`.
 std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::string_view before, std::string_view after);
 
-/// The number in such a name; nothing where it is none.
+/// The number in such a name; empty for another name.
 std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after);
 
-/// A folder to write frames into, for this run alone: made where it is missing, and taken away again if nothing ever came
-/// into it.
+/// A folder for the frames of this run only. It is made if missing, and removed again if no file was ever written into
+/// it.
 class FrameFolder {
 public:
-    /// Removes what killed runs left half-written of frames and AOVs. Throws RunError where the folder cannot be made or
-    /// written into, or another run writes into it.
+    /// Removes unfinished frames and AOVs of killed runs. Throws RunError if the folder cannot be made or written into,
+    /// or if another run writes into it.
     explicit FrameFolder(const std::filesystem::path& folder);
     ~FrameFolder();
     FrameFolder(const FrameFolder&) = delete;

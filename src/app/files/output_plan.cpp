@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// Linux's null device: what is written there together is not mixed.
+/// Linux's null device: it may be the target of several outputs.
 bool swallows_all(const struct stat& status) { return S_ISCHR(status.st_mode) && status.st_rdev == makedev(1, 3); }
 
 }  // namespace
@@ -55,7 +55,7 @@ OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path
     Output output{option, name, std::nullopt, std::nullopt};
     if (target.descriptor) {
         struct stat status {};
-        // Later a file of our own might have this number.
+        // A file that is opened later might get this number.
         if (::fstat(*target.descriptor, &status) != 0)
             throw RunError(fmt::format("cannot write '{}': {}", safe_path(name), std::generic_category().message(errno)));
         if (!swallows_all(status)) output.file = File{status.st_dev, status.st_ino};
@@ -112,7 +112,7 @@ void OutputPlan::add(const OutputSeries& series) {
         if (number < series.first || number >= series.end || !fs::exists(status)) continue;
         Output output = look_at(series.option, name);
         compare_with_inputs(output);
-        // Two names of one file in a folder are no harm: each is replaced by itself.
+        // Two names of one file in a folder are harmless: each is replaced by itself.
         if (fs::is_regular_file(status)) output.place.reset();
         compare_with_outputs(output);
         if (fs::is_symlink(status)) outputs_.push_back(output);

@@ -1,5 +1,5 @@
-// What a run reads and writes, compared before anything is written: no output may be something that is read, and no two
-// may be one file, however their names are spelt and whatever links lead there.
+// Inputs and outputs of a run, compared before anything is written. No output may be an input, and no two outputs may
+// be one file, for any spelling of their names and through any links.
 #pragma once
 
 #include <sys/types.h>
@@ -13,31 +13,31 @@
 
 namespace tumble {
 
-/// Frames or AOVs: one file a number.
+/// Frames or AOVs: one file per number.
 struct OutputSeries {
     std::string option;
     std::filesystem::path folder;
-    std::string_view before, after;                                                     // the number in a name
+    std::string_view before, after;                                                     // parts of a name around the number
     std::filesystem::path (*path)(const std::filesystem::path& folder, std::int64_t);   // the file of a number
-    std::int64_t first = 0, end = 0;                                                    // of the numbers
+    std::int64_t first = 0, end = 0;                                                    // range of the numbers
 };
 
-/// All members throw InputError; outputs may be added in any order, after all inputs.
+/// All members throw InputError. Outputs may be added in any order, after all inputs.
 class OutputPlan {
 public:
-    /// Devices and pipes do not count.
+    /// Devices and pipes are ignored.
     void add_input(const std::filesystem::path& file);
     void add(const std::string& option, const std::filesystem::path& file);
     void add(const OutputSeries& series);
 
 private:
-    /// A file that is there.
+    /// An existing file.
     struct File {
         dev_t device;
         ino_t number;
         friend bool operator==(const File&, const File&) = default;
     };
-    /// A name, there or not: the folder nearest to it that is there, and the rest of the way.
+    /// A name that may not exist: its nearest existing folder, and the remaining path.
     struct Place {
         File folder;
         std::filesystem::path rest;
@@ -51,7 +51,7 @@ private:
         std::string option;
         std::filesystem::path name;
         std::optional<Place> place;   // of the name that will be replaced or made; none: written in place
-        std::optional<File> file;     // that is there
+        std::optional<File> file;     // the existing file
     };
 
     static std::optional<File> file_at(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-// Files that are written wait here until they are on the disk, and get their names in the order in which they were put.
+// Queue of written files that wait until they are on the disk; they get their final names in the order of the queue.
 #pragma once
 
 #include "app/threads/bounded_queue.h"
@@ -14,24 +14,24 @@
 
 namespace tumble {
 
-/// Where one file at a time is waited for, a journaling file system commits each by itself, which takes longer than drawing
-/// a frame; those that are waited for together share a commit (measured in docs/explanation/output.md).
+/// With one file at a time, a journaling file system commits each separately, which takes longer than drawing a frame.
+/// Files that are waited for together share a commit (measured in docs/explanation/output.md).
 class PublishQueue {
 public:
-    static constexpr int threads = 4;   // that wait at once: with them PNG frames come as fast as without waiting
+    static constexpr int threads = 4;   // concurrent waits: with this number, PNG frames come as fast as without waiting
 
     PublishQueue() : files_(waiting_files) {}
 
-    /// Hands on a file that is written. False: the queue was cancelled, and the file is dropped. By one thread.
+    /// Takes a written file. False: the queue was canceled, and the file is dropped. Call it from one thread only.
     bool put(std::unique_ptr<TemporaryFile> file);
 
-    /// The work of each of the threads, until the queue is closed and empty, or cancelled. Throws RunError.
+    /// The work of each thread, until the queue is closed and empty, or canceled. Throws RunError.
     void run(StageTime& time);
 
     void close() { files_.close(); }
     void cancel();
 
-    /// How many files have their names.
+    /// Number of files with their final names.
     std::int64_t published() const { return published_; }
 
 private:
@@ -45,7 +45,7 @@ private:
 
     BoundedQueue<Waiting> files_;
     std::int64_t put_ = 0;
-    std::mutex mutex_;   // of published_ where it is waited for
+    std::mutex mutex_;   // guards waits for published_
     std::condition_variable turn_;
     std::atomic<std::int64_t> published_{0};
     bool cancelled_ = false;

@@ -13,10 +13,10 @@
 namespace tumble {
 namespace {
 
-// Enough to even out frames of different cost, few enough to be nothing beside one frame's pixels.
+// Enough to smooth frames of different cost; small relative to one frame's pixels.
 constexpr std::size_t waiting_poses = 8;
-constexpr std::size_t waiting_pose_bytes = 16 << 20;   // or fewer, where there are very many bodies
-// Each holds a slot of the process that drew it: more waiting here than there are slots would not make it go on.
+constexpr std::size_t waiting_pose_bytes = 16 << 20;   // lower limit for scenes of very many bodies
+// Each holds a slot of the process that drew it, so a number above that of the slots would have no effect.
 constexpr std::size_t waiting_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
 
@@ -94,7 +94,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 
 void Pipeline::simulate() {
     const bool ahead = aovs_ != nullptr && aovs_->aovs().has(Aov::motion);
-    std::optional<MotionBlurFrame> waiting;   // where motion is wanted: for the poses of the next frame
+    std::optional<MotionBlurFrame> waiting;   // with motion AOVs, a frame waits for the poses of the next one
     for (std::int64_t n = 0; n < frames_.end; ++n) {
         MotionBlurFrame exposure = expose(n);
         if (waiting) waiting->aovs->next = exposure.aovs->now;
@@ -114,7 +114,7 @@ MotionBlurFrame Pipeline::expose(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
     MotionBlurFrame exposure;
     exposure.frame = frame;
-    // What the shutter of the last frame does not see needs not be simulated.
+    // The last frame is simulated only while its shutter is open.
     const int parts = frame + 1 < frames_.end ? shutter_.parts : shutter_.moments;
     for (int part = 0; part < parts; ++part) {
         if (frame > 0 || part > 0) world_.advance_frame();
@@ -124,7 +124,7 @@ MotionBlurFrame Pipeline::expose(std::int64_t frame) {
     return exposure;
 }
 
-/// The poses of the frame that would follow the last one.
+/// The poses of the frame after the last one.
 Snapshot Pipeline::after_the_last() {
     const StageTimer timer(times_.simulation);
     for (int part = shutter_.moments - 1; part < shutter_.parts; ++part) world_.advance_frame();
@@ -137,7 +137,7 @@ bool Pipeline::hand_on(const Frame& frame) {
     return video_ == nullptr || for_video_.push(frame);
 }
 
-// The slot of a frame is free when its file is written; until it is on the disk may take longer than drawing the next.
+// A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
         auto file = timed(times_.files, [&] {
@@ -167,7 +167,7 @@ void Pipeline::write_video() {
         else video_->write(frame->video);
         ++filmed_;
     }
-    // After a stop the queue ends too, but the clip is not whole.
+    // After a stop the queue ends as well, but the clip is not complete.
     if (filmed_ != frames_.count()) return;
     const StageTimer timer(times_.video);
     video_->finish();

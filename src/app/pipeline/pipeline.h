@@ -1,12 +1,12 @@
-// The whole street at work at once:
+// The pipeline; all stages run concurrently:
 //
-//   simulation ──poses──> drawing processes ──frames──┬──> PNG files
-//                                                     ├──> AOV files
-//                                                     └──> video (ffmpeg)
+//   simulation ──poses──> render processes ──frames──┬──> PNG files
+//                                                    ├──> AOV files
+//                                                    └──> video (ffmpeg)
 //
-// What a frame becomes (planes for ffmpeg, a PNG file, its AOVs) is made where it is drawn; here it is only written. Each arrow is a
-// bounded queue: a slow stage makes the ones before it wait, and memory stays flat however long the clip is. The first error
-// of any stage stops all of them.
+// The outputs of a frame (planes for ffmpeg, a PNG file, its AOVs) are made in the render process; here they are only
+// written. Each arrow is a bounded queue: a slow stage makes earlier ones wait, so memory does not grow with the length
+// of the clip. The first error of any stage stops all of them.
 #pragma once
 
 #include "app/files/aov_folder.h"
@@ -28,7 +28,7 @@ namespace tumble {
 class Interrupt;
 class TaskGroup;
 
-/// What the stages used; they overlap, so that the sum is more than the run.
+/// Work of the stages; they overlap, so the sum exceeds the time of the run.
 struct PipelineTimes {
     StageTime simulation;
     DrawingTimes drawing;
@@ -37,15 +37,15 @@ struct PipelineTimes {
 
 class Pipeline {
 public:
-    /// Simulates the frames up to the range's end and draws those in it; each goes to the outputs that are there (null: not
-    /// asked for).
-    /// The world's frames are the parts of the shutter. All are used while run() lasts; the drawer must make the forms that
-    /// the outputs want.
+    /// Simulates the frames up to the end of the range and draws those in it. Each goes to the given outputs (null: not
+    /// requested). The frames of the world are the parts of the shutter. All arguments must outlive run(); the render
+    /// pool must make the outputs that are requested.
     Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder, VideoWriter* video,
              AovFolder* aovs = nullptr, Shutter shutter = {});
 
-    /// Runs to the end, calling `report` about twenty times a second with the number of finished frames.
-    /// Throws the first error of any stage; RunError when interrupted. Frames published by then are whole, and stay.
+    /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
+    /// first error of any stage, or RunError after an interrupt. Frames that are published by then are complete and
+    /// stay.
     void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
 
     const PipelineTimes& times() const { return times_; }
@@ -74,7 +74,7 @@ private:
     PipelineTimes times_;
 };
 
-/// Waits for the stages of a run: reports, and stops them when the user interrupts. Throws their first error.
+/// Waits for the stages of a run, reports, and stops them after an interrupt. Throws their first error.
 void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report);
 
 }  // namespace tumble

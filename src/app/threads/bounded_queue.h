@@ -1,4 +1,4 @@
-// The link between two stages: values in order, at most so many of them waiting.
+// The link between two stages: an ordered queue with a maximum length.
 #pragma once
 
 #include <condition_variable>
@@ -10,13 +10,13 @@
 
 namespace tumble {
 
-/// For any number of threads at both ends. A full queue makes its filler wait, which is what keeps memory flat.
+/// For any number of threads at both ends. push() waits while the queue is full, which bounds memory.
 template <typename T>
 class BoundedQueue {
 public:
     explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-    /// Waits for room. False: the queue was cancelled, and the value is dropped.
+    /// Waits for space. False: the queue was canceled, and the value is dropped.
     bool push(T value) {
         std::unique_lock lock(mutex_);
         has_room_.wait(lock, [&] { return cancelled_ || values_.size() < capacity_; });
@@ -27,7 +27,7 @@ public:
         return true;
     }
 
-    /// Waits for a value. Nothing: the queue was closed and is empty, or was cancelled.
+    /// Waits for a value. Empty: the queue was closed and is empty, or was canceled.
     std::optional<T> pop() {
         std::unique_lock lock(mutex_);
         has_value_.wait(lock, [&] { return cancelled_ || closed_ || !values_.empty(); });
@@ -39,14 +39,14 @@ public:
         return value;
     }
 
-    /// No more values will come; those that wait are still taken.
+    /// No more values will come; those in the queue are still delivered.
     void close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;
         has_value_.notify_all();
     }
 
-    /// Everybody stops: what waits is dropped.
+    /// Wakes all waiting threads and drops the values in the queue.
     void cancel() {
         const std::lock_guard lock(mutex_);
         cancelled_ = true;

@@ -1,13 +1,13 @@
-// Ctrl-C and its relatives, taken in order between two pieces of work instead of in the middle of one.
+// Ctrl-C and similar signals, handled between two pieces of work instead of at any instruction.
 #pragma once
 
 #include <signal.h>
 
 namespace tumble {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP wait in this thread and in those it starts, until pending() takes one.
-/// A signal that waits at its end is dropped: the work is over, and its result or error is still to be told.
-/// A signal that was ignored before (nohup) stays ignored.
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP are blocked in this thread and in those it starts, until pending()
+/// takes one. A signal that is pending at its end is dropped, because the work is over and its result or error has to
+/// be reported. A signal that was ignored at construction (nohup) stays ignored.
 class Interrupt {
 public:
     Interrupt();
@@ -15,7 +15,7 @@ public:
     Interrupt(const Interrupt&) = delete;
     Interrupt& operator=(const Interrupt&) = delete;
 
-    /// True when one has come. From then on the next one ends the program at once.
+    /// True if a signal has come. After that, another one ends the program at once.
     bool pending();
 
 private:

@@ -1,11 +1,11 @@
-// How long the stages of a run worked: the seconds between taking something up and putting it down, without waiting.
+// Working time of the stages of a run: seconds between taking up a piece of work and finishing it, without waiting.
 #pragma once
 
 #include <atomic>
 
 namespace tumble {
 
-/// Sums of one stage over all its threads, in s. `cpu` leaves out threads that a library runs on its own.
+/// Sums of one stage over all its threads, s. `cpu` excludes threads that a library starts.
 struct StageTime {
     std::atomic<double> wall{0.0}, cpu{0.0};
 
@@ -15,10 +15,10 @@ struct StageTime {
     }
 };
 
-/// Seconds of a clock that only goes forward.
+/// Seconds of a monotonic clock.
 double wall_seconds();
 
-/// Adds its own lifetime to a stage.
+/// Adds its own lifetime to the time of a stage.
 class StageTimer {
 public:
     explicit StageTimer(StageTime& stage);

@@ -1,5 +1,4 @@
-// Threads that work as one: when one of them fails, or the user interrupts, all of them stop, and the first error is
-// the one that is reported.
+// A group of threads: if one of them fails, or after an interrupt, all of them stop, and the first error is reported.
 #pragma once
 
 #include <chrono>
@@ -15,24 +14,25 @@ namespace tumble {
 class TaskGroup {
 public:
     TaskGroup() = default;
-    /// Stops what still runs and waits for it.
+    /// Stops the running stages and waits for them.
     ~TaskGroup();
     TaskGroup(const TaskGroup&) = delete;
     TaskGroup& operator=(const TaskGroup&) = delete;
 
-    /// What to do, once, to make the stages come to an end: cancel a queue, stop a program. Say so before start().
+    /// Action that makes the stages end, such as canceling a queue or stopping a program; called once. Register it
+    /// before start().
     void on_stop(std::function<void()> action);
 
-    /// Runs a stage in a thread of its own. An exception that leaves it stops the group.
+    /// Runs a stage in a thread of its own. An exception that leaves the stage stops the group.
     void start(std::function<void()> stage);
 
     /// Makes all stages end soon. Only the first reason is kept.
     void stop(std::exception_ptr why);
 
-    /// Waits at most so long; true when every stage has ended.
+    /// Waits at most this long; true if every stage has ended.
     bool wait(std::chrono::milliseconds at_most);
 
-    /// Waits for every stage, then throws the first error, if there was one.
+    /// Waits for every stage, then throws the first error, if any.
     void finish();
 
 private:

@@ -1,14 +1,14 @@
-// How many threads the simulation gets beside the processes that draw, where nobody says. The result is the same for any number.
+// Default number of simulation threads beside the render processes. The result is the same for any number.
 #pragma once
 
 #include <cstddef>
 
 namespace tumble {
 
-/// More threads, or processes, than this are a mistake.
+/// Upper limit of numbers of threads or processes; more are considered a mistake.
 inline constexpr int most_threads = 256;
 
-/// One a core.
+/// Number of processor cores.
 int machine_threads();
 
 /// At least 1, at most `cores`.

@@ -1,5 +1,5 @@
-// Which frames of a scene are drawn: all, or those from a moment on. What comes before is simulated, so that frame n is the
-// same whichever frame was the first.
+// The frames of a scene that are drawn: all, or those from a time on. Earlier frames are simulated, so that frame n
+// does not depend on the first drawn frame.
 #pragma once
 
 #include "scene/description/description.h"
@@ -9,7 +9,7 @@
 namespace tumble {
 
 struct FrameRange {
-    std::int64_t first = 0, end = 0;   // by their numbers in the scene, which begin with 0
+    std::int64_t first = 0, end = 0;   // frame numbers in the scene, from 0
     std::int64_t count() const { return end - first; }
 };
 

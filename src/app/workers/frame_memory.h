@@ -1,6 +1,6 @@
-// The memory that pictures surely take, known before anything is drawn: a run that cannot fit is refused, in place of a
-// machine that swaps or a process that the system ends. What depends on the pictures (how well they compress) and on the
-// bodies is not in it.
+// Lower bound of the memory of frames, known before drawing. A run that cannot fit is refused, instead of a machine
+// that swaps or a process that the system ends. Memory that depends on the content of the frames (compressed sizes) and
+// on the bodies is not included.
 #pragma once
 
 #include "app/workers/shared_frames.h"
@@ -13,26 +13,26 @@
 
 namespace tumble {
 
-/// What is made of how many pictures.
+/// The outputs, and the number of images per frame.
 struct PictureWork {
     FrameOutputs forms;
-    std::optional<VideoKind> clip;   // what the encoder makes
+    std::optional<VideoKind> clip;   // kind of the clip, for the encoder
     std::int64_t frames = 1;
-    int moments = 1;                 // of a frame: more with motion blur
+    int moments = 1;                 // per frame: above 1 with motion blur
 };
 
 struct PictureMemory {
-    std::uint64_t worker = 0, encoder = 0;   // bytes: of each drawing process, of the ffmpeg program
+    std::uint64_t worker = 0, encoder = 0;   // bytes: of each render process, of the ffmpeg program
     std::uint64_t total(int workers) const { return std::uint64_t(workers) * worker + encoder; }
 };
 
 PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work);
 
-/// Bytes that the ffmpeg program takes for pictures of this size.
+/// Memory of the ffmpeg program for frames of this size, bytes.
 std::uint64_t encoder_memory(VideoKind kind, int width, int height);
 
-/// Of so many workers, as many as there is memory for: pictures do not depend on their number. `own` bounds each process,
-/// `shared` all together. Throws RunError where there is none for one.
+/// Largest number of workers, up to the given one, that fit into memory: frames do not depend on their number. `own`
+/// bounds each process, `shared` all together. Throws RunError if not even one fits.
 int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers,
                      const AvailableMemory& own = available_memory(), const AvailableMemory& shared = shared_memory());
 

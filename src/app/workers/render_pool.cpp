@@ -17,27 +17,27 @@
 namespace tumble {
 namespace {
 
-// One is filled, one waits for its turn, one is read; those that the queues behind hold make the worker wait.
+// One is filled, one waits for its turn, one is read; slots held by later queues make the worker wait.
 constexpr int slots_of_worker = 4;
 
-/// In memory that all processes see. Null where there is only one.
+/// In memory shared by all processes. Null with a single process.
 std::shared_ptr<ShaderCompileSchedule> make_turns(int workers) {
     if (workers < 2) return nullptr;
     void* const memory = mmap(nullptr, sizeof(ShaderCompileSchedule), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) return nullptr;   // then each compiles everything
+    if (memory == MAP_FAILED) return nullptr;   // each process then compiles everything
     return {new (memory) ShaderCompileSchedule, [](ShaderCompileSchedule* turns) { munmap(turns, sizeof *turns); }};
 }
 
 }  // namespace
 
-/// The free slots of a worker. They come back from the outputs, whenever the last of those lets go.
+/// The free slots of a worker. A slot returns when the last output has released it.
 class RenderPool::Slots : public std::enable_shared_from_this<Slots> {
 public:
     explicit Slots(std::shared_ptr<SharedFrames> memory) : memory_(std::move(memory)) {
         for (int i = 0; i < slots_of_worker; ++i) free_.push_back(i);
     }
 
-    /// Waits for one; nothing: it was stopped. It is free again when the last copy of the pointer is gone.
+    /// Waits for a slot; null: it was stopped. The slot is free again when the last copy of the pointer is gone.
     std::shared_ptr<const int> take() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return stopped_ || !free_.empty(); });
@@ -67,7 +67,7 @@ private:
     std::condition_variable changed_;
     std::vector<int> free_;
     bool stopped_ = false;
-    std::shared_ptr<SharedFrames> memory_;   // lives as long as a slot of it is read
+    std::shared_ptr<SharedFrames> memory_;   // lives as long as one of its slots is read
 };
 
 RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
@@ -114,15 +114,16 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
     stop();
 }
 
-/// What to draw; false: the frame shows what the one before shows, which it may not where it is the first (`anew`).
+/// Selects the poses to draw; false: the frame equals the previous one, which is not allowed for the first frame
+/// (`anew`).
 bool RenderPool::follow(MotionBlurFrame& exposure, bool anew) {
     if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
     if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
     return !exposure.moments.empty() || exposure.aovs;
 }
 
-/// The poses to draw of the picture; false: it is that of the frame before. Where nothing moves while the shutter is
-/// open, one moment is left.
+/// Selects the poses to draw of the picture; false: it equals that of the previous frame. If nothing moves while the
+/// shutter is open, one moment is left.
 bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
     bool first = false, later = false;
     for (std::size_t i = 0; i < exposure.moments.size(); ++i)
@@ -132,7 +133,7 @@ bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
     return first || later || moved_before;
 }
 
-/// The life of the thread that looks after one worker.
+/// Main function of the thread that serves one worker.
 void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
                   std::int64_t first) {
     Slots& slots = *slots_[worker];
@@ -149,7 +150,7 @@ void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, 
         }
         return std::nullopt;
     };
-    // The slot comes first: who has a pose can always finish it, and the frames behind it wait for no one else.
+    // The slot is taken first: a thread with a pose can then always finish it, so later frames never wait for a slot.
     while (const std::shared_ptr<const int> slot = slots.take()) {
         const std::optional<MotionBlurFrame> pose = next_pose();
         if (!pose) return;

@@ -1,9 +1,9 @@
-// Poses in, finished frames out in order: all that the pipeline knows of drawing. Behind it work one process a core
-// (draw_worker.h); whichever is free takes the next pose. The pixels do not depend on their number: every frame is what
-// a full redraw of its poses would be, and the poses are chosen (drawn_poses.h) before they are handed out.
+// Takes poses and delivers finished frames in order; the pipeline's only interface to drawing. It has one render
+// process per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of
+// processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
-// A frame in which nothing drawn has moved is not drawn: it repeats the one before. AOVs (aov_maker.h) are of the true
-// poses: where only those have moved, the picture is repeated, but not the AOVs.
+// A frame in which nothing drawn has moved is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
+// true poses: if only those have moved, the picture is repeated, but not the AOVs.
 #pragma once
 
 #include "app/threads/bounded_queue.h"
@@ -25,15 +25,15 @@
 
 namespace tumble {
 
-/// One finished frame of the clip in all its forms, shared by the outputs that read it.
+/// One finished frame of the clip with all its outputs, shared by their writers.
 struct Frame {
     std::int64_t number = 0;
-    bool repeated = false;                   // the same picture as the frame before it
-    std::shared_ptr<const std::byte> video;  // as a VideoPixels has it; null where it is not asked for
-    std::span<const std::byte> png;          // the file; lives as long as `slot`
+    bool repeated = false;                   // the same picture as the previous frame
+    std::shared_ptr<const std::byte> video;  // in the form of VideoPixels; null if not requested
+    std::span<const std::byte> png;          // the file; valid as long as `slot`
     std::shared_ptr<const void> slot;
-    std::span<const std::byte> aovs;         // the file (aov_file.h); lives as long as `aov_slot`
-    std::shared_ptr<const void> aov_slot;    // null where no AOVs are asked for
+    std::span<const std::byte> aovs;         // the file (aov_file.h); valid as long as `aov_slot`
+    std::shared_ptr<const void> aov_slot;    // null if no AOVs are requested
 };
 
 struct DrawingTimes {
@@ -44,22 +44,22 @@ class ReorderBuffer;
 
 class RenderPool {
 public:
-    /// Starts the processes: call it before the program has any other thread. Frames have so many moments at most.
-    /// The scene must outlive it. Throws RunError.
+    /// Starts the processes. Precondition: the program has no other thread. `moments`: largest number per frame. The
+    /// scene must outlive it. Throws RunError.
     RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
            int most_moments = 1);
     ~RenderPool();
 
-    /// Takes poses until their queue ends, and hands each finished frame on, in the order of the poses. Stops early
-    /// when `hand_on` says false. Of the frames before `first` only the poses are followed: what rests by then is drawn as if
-    /// all had been. Throws RunError naming the frame where drawing fails or a process dies.
+    /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
+    /// `hand_on` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
+    /// look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
              std::int64_t first = 0);
 
-    /// Ends the processes at once, from any thread; run() then comes back.
+    /// Ends the processes at once, from any thread; run() then returns.
     void abandon();
 
-    /// Waits for the processes to end; the sum of what they used.
+    /// Waits for the processes to end; returns the sum of their usage.
     ProcessEnd finish();
 
     std::vector<pid_t> processes() const;
@@ -74,11 +74,11 @@ private:
     std::shared_ptr<ShaderCompileSchedule> turns_;
     std::vector<std::unique_ptr<RenderProcess>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
-    std::mutex pose_mutex_;                       // the next pose to draw: one taker at a time
+    std::mutex pose_mutex_;                       // serializes taking the next pose
     PoseFilter drawn_poses_;
     AovChanges aov_changes_;
     FrameOutputs forms_;
-    bool moves_ = false;                          // while the shutter was open for the frame before
+    bool moves_ = false;                          // whether bodies moved while the shutter was open for the previous frame
     std::int64_t drawn_ = 0;
 };
 

@@ -30,17 +30,17 @@ namespace tumble {
 namespace {
 
 constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;   // bytes
-// A worker without a job has nothing to do but to end, which takes it milliseconds.
+// A worker without a job ends within milliseconds.
 constexpr auto longest_end = std::chrono::seconds(1);
 
 struct Job {
     std::int64_t frame = 0;
     int slot = 0;
-    std::size_t moments = 1;   // none: no picture is wanted
+    std::size_t moments = 1;   // 0: no picture is requested
     bool aovs = false;
 };
 
-/// Messages are whole or not there (SOCK_SEQPACKET). False: nobody is at the other end.
+/// Messages arrive completely or not at all (SOCK_SEQPACKET). False: the other end is closed.
 template <typename T>
 bool send_message(int socket, const T& message) {
     ssize_t n = 0;
@@ -65,7 +65,7 @@ WorkTime timed(const Work& work) {
     return {time.wall.load(), time.cpu.load()};
 }
 
-/// The child's whole life: its OpenGL, and its last frame in all forms.
+/// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
     FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, SharedFrames& memory)
@@ -93,7 +93,7 @@ public:
 private:
     void make_picture(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { expose(job); });
-        const bool partly = !blurred_before_ && job.moments == 1;   // else another picture came before
+        const bool partly = !blurred_before_ && job.moments == 1;   // otherwise the previous picture was a different one
         const std::vector<Rectangle> changed =
             partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
         const Image& picture = job.moments == 1 ? image_ : blurred_;
@@ -135,7 +135,7 @@ private:
     AovPoses aov_poses_;
 };
 
-/// What went wrong, without the "error: " that the program puts before it again.
+/// The error text without the prefix "error: ", which the program adds.
 std::string reason(const std::exception& error) {
     std::string_view text = error.what();
     constexpr std::string_view prefix = "error: ";
@@ -145,15 +145,15 @@ std::string reason(const std::exception& error) {
 
 [[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
                        SharedFrames& memory, int socket) {
-    ::setpgid(0, 0);   // Ctrl-C reaches it only through us
+    ::setpgid(0, 0);   // Ctrl-C must reach it only through the program
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    // What a frame needs is taken again for the next: given back to the system, it would come as hundreds of new pages.
-    // Larger blocks do go back.
+    // Keeps freed memory for the next frame: returned to the system, it would come back as hundreds of new pages.
+    // Larger blocks are returned.
     ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
     ::mallopt(M_TRIM_THRESHOLD, kept_memory);
-    ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: a core for each worker
+    ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: one core per worker
 
     Job job;
     bool asked = false;
@@ -161,13 +161,13 @@ std::string reason(const std::exception& error) {
         FrameMaker maker(scene, options, forms, memory);
         while ((asked = receive_message(socket, job)))
             if (!send_message(socket, maker.make(job))) break;
-        ::_exit(0);   // nor those of its own OpenGL, which takes milliseconds to let go of what ends anyway
+        ::_exit(0);   // skips destructors of OpenGL, which would take milliseconds to free memory that ends with the process
     } catch (const std::exception& error) {
         const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
         memory.write_words(out_of_memory ? "out of memory" : reason(error));
         DrawnFrame failure;
         failure.failed = true;
-        // Where OpenGL could not be opened, no frame has been asked for yet.
+        // If OpenGL could not be opened, no frame may have been requested yet.
         if (asked || receive_message(socket, job)) send_message(socket, failure);
     }
     ::_exit(0);   // no destructors of the parent's objects, no second flush of its streams
@@ -185,9 +185,10 @@ RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions&
     const pid_t program = ::getpid();
     id_ = ::fork();
     if (id_ == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGKILL);   // a worker that hangs or was stopped does not outlive the program either
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);   // a worker that hangs or was stopped ends with the program as well
         if (::getppid() != program) ::_exit(0);
-        // The program's end of a socket, kept open here, would hide the program's end from that worker.
+        // A copy of the program's end of a socket in this process would keep the other worker from noticing the
+        // program's end.
         ::close(ends[0]);
         for (const int socket : other_sockets) ::close(socket);
         work(scene, options, forms, *memory_, ends[1]);
@@ -226,7 +227,7 @@ void RenderProcess::kill() {
 }
 
 ProcessEnd RenderProcess::finish() {
-    if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes it for its last job
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes the closed socket as the end of its jobs
     if (id_ < 0) return {};
     if (!ends_within(id_, longest_end)) kill();
     const std::lock_guard lock(id_mutex_);

@@ -1,6 +1,6 @@
-// A process that draws: forked before the first OpenGL call and before any thread, with an OpenGL of its own that uses
-// one core. (Two contexts in one process wait for each other in llvmpipe.) It makes of each frame what the outputs want
-// and leaves it in shared memory. It writes no files, so that it can be stopped at any time.
+// A render process: forked before the first OpenGL call and before any thread, with its own OpenGL context on one core.
+// (Two contexts in one process wait for each other in llvmpipe.) It makes the outputs of each frame and leaves them in
+// shared memory. It writes no files, so that it can be stopped at any time.
 #pragma once
 
 #include "app/timing/motion_blur.h"
@@ -18,39 +18,39 @@
 
 namespace tumble {
 
-/// Seconds of work, by the clock and of the processor.
+/// Working time, s: wall clock and processor.
 struct WorkTime {
     double wall = 0.0, cpu = 0.0;
 };
 
-/// What a worker tells of a frame that it has drawn.
+/// Report of a worker about a frame that it has drawn.
 struct DrawnFrame {
     std::int64_t frame = 0;
-    bool failed = false;           // the reason is in the memory's words
-    bool unchanged = false;        // the same picture as this worker's frame before
+    bool failed = false;           // the reason is in the shared memory
+    bool unchanged = false;        // the same picture as the previous frame of this worker
     std::size_t png_bytes = 0, aov_bytes = 0;   // of the files in the slot
     WorkTime drawing, conversion, png, aovs;
 };
 
 class RenderProcess {
 public:
-    /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it. The calling
-    /// program must have no other thread. Throws RunError when there are no more processes or no memory to be had.
+    /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it.
+    /// Precondition: the program has no other thread. Throws RunError if there are no more processes or no memory.
     RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
                int most_moments, std::span<const int> other_sockets = {});
-    /// Ends it, whatever it does.
+    /// Ends the process in any state.
     ~RenderProcess();
     RenderProcess(const RenderProcess&) = delete;
     RenderProcess& operator=(const RenderProcess&) = delete;
 
-    /// Draws one frame into the slot and waits for it: the picture where it has moments, the AOVs where it has their poses.
-    /// Throws RunError naming the frame where drawing fails, or the process has died.
+    /// Draws one frame into the slot and waits for it: the picture if it has moments, the AOVs if it has their poses.
+    /// Throws RunError naming the frame if drawing fails or the process has died.
     DrawnFrame draw(const MotionBlurFrame& exposure, int slot);
 
-    /// Asks it to end at once; from any thread. A draw() that waits then fails.
+    /// Ends the process at once, from any thread. A waiting draw() then fails.
     void kill();
 
-    /// Ends it and tells what it used. One that does not end within a second is killed.
+    /// Ends the process and returns its usage. One that does not end within a second is killed.
     ProcessEnd finish();
 
     const std::shared_ptr<SharedFrames>& memory() const { return memory_; }
@@ -62,7 +62,7 @@ private:
 
     std::shared_ptr<SharedFrames> memory_;
     pid_t id_ = -1;
-    std::mutex id_mutex_;   // kill() against the end of finish(), after which another process may have that number
+    std::mutex id_mutex_;   // guards kill() against the end of finish(), after which another process may have that number
     int socket_ = -1;
 };
 

@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::int64_t most_ahead = 4096;   // repeated frames that wait for a drawn one: small, but not without end
+constexpr std::int64_t most_ahead = 4096;   // bounds the repeated frames that wait for a drawn one, which are small
 
 }  // namespace
 
@@ -67,7 +67,7 @@ std::optional<Frame> ReorderBuffer::next() {
     return told_apart(std::move(waiting));
 }
 
-/// Frames come here in order, so that "the worker's frame before" is known by now.
+/// Frames arrive here in order, so the previous frame of the worker is known.
 Frame ReorderBuffer::told_apart(Waiting waiting) {
     Frame& frame = waiting.frame;
     TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);

@@ -1,4 +1,4 @@
-// Finished frames come from several workers; here they wait for those before them.
+// Reorder buffer: finished frames of several workers wait here for earlier frames.
 #pragma once
 
 #include "app/workers/render_pool.h"
@@ -15,26 +15,26 @@ namespace tumble {
 
 class ReorderBuffer {
 public:
-    /// Of so many workers, from a frame on, which must have all that is asked for.
+    /// `workers`: their number; `first`: the first frame, which must have all outputs.
     explicit ReorderBuffer(std::size_t workers, std::int64_t first = 0);
 
-    /// A frame that a worker has drawn; `unchanged`: it is the same picture as the frame it drew before.
+    /// Adds a drawn frame; `unchanged`: it is the same picture as the previous frame of this worker.
     void add(Frame frame, std::size_t worker, bool unchanged);
 
-    /// A frame that has AOVs of its own, and the picture of the one before it (none, where no pictures are drawn).
+    /// Adds a frame with its own AOVs and the picture of the previous frame (empty if no pictures are drawn).
     void add_with_last_picture(Frame frame);
 
-    /// A frame that is the same as the one before it. Waits while far too many are ahead. False: all is over.
+    /// Adds a frame that equals the previous one. Waits while too many are ahead. False: the buffer was stopped.
     bool add_repeated(std::int64_t number);
 
     /// A worker will add no more.
     void leave();
 
-    /// The first error ends everything.
+    /// Stores the first error and stops the buffer.
     void fail(std::exception_ptr error);
     void stop();
 
-    /// Waits for the next frame. Nothing: all workers have left, or it was stopped. Throws the first error.
+    /// Waits for the next frame. Empty: all workers have left, or it was stopped. Throws the first error.
     std::optional<Frame> next();
 
 private:
@@ -54,7 +54,7 @@ private:
     bool stopped_ = false;
     std::exception_ptr error_;
 
-    // A picture's number is that of the first frame that shows it: only next() looks at these.
+    // A picture's number is that of the first frame that shows it; only next() uses these.
     std::vector<std::int64_t> picture_of_worker_;
     Frame last_;
     std::int64_t last_picture_ = -1;

@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t page = 4096;                 // bytes: parts of different writers on pages of their own
+constexpr std::size_t page = 4096;                 // bytes: parts with different writers are on separate pages
 constexpr std::size_t numbers_of_moment = 4;       // time; x, y, z
 constexpr std::size_t numbers_of_body = 7;         // x, y, z; x, y, z, w
 
@@ -40,7 +40,7 @@ SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& fo
       aovs_size_(forms.aovs.empty() ? 0 : aov_file_bound(forms.aovs, scene.output.width, scene.output.height)),
       slot_size_(aovs_at_ + whole_pages(aovs_size_)),
       size_(slots_at_ + slot_size_ * std::size_t(slots)) {
-    // Pages that are never written take no memory: a PNG file is far smaller than the room for it.
+    // Pages that are never written take no memory, so the space for a PNG file may be far larger than the file.
     void* const memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED)
         throw RunError(fmt::format("no memory for frames ({} MiB): {}", size_ >> 20,

@@ -1,6 +1,6 @@
-// What a drawing process and the program share: room for the poses of the frame that is drawn, and slots, one for each frame
-// on its way out. Poses go in; what is made of the frame comes out: its pixels as ffmpeg takes them, its PNG file, its AOVs.
-// The memory has no name, so that none is left behind however the processes end.
+// Memory shared by a render process and the program: space for the poses of one frame, and slots, one for each frame
+// that is not yet written. The slot of a frame has its pixels for ffmpeg, its PNG file and its AOVs. The memory has no
+// name, so that it disappears with the processes.
 #pragma once
 
 #include "output/video_format.h"
@@ -15,7 +15,7 @@
 
 namespace tumble {
 
-/// What is made of every frame.
+/// The outputs of every frame.
 struct FrameOutputs {
     std::optional<PixelForm> video;
     bool png = false;
@@ -26,26 +26,26 @@ struct FrameOutputs {
 
 class SharedFrames {
 public:
-    /// Before the fork, for frames of so many moments. Throws RunError when there is not enough memory.
+    /// Call it before the fork, for frames with this many moments. Throws RunError if there is not enough memory.
     SharedFrames(const SceneDescription& scene, const FrameOutputs& forms, int slots, int most_moments);
     ~SharedFrames();
     SharedFrames(const SharedFrames&) = delete;
     SharedFrames& operator=(const SharedFrames&) = delete;
 
-    /// Of one moment of the frame to draw next: its time, origins and orientations, and the centre of mass of the body that
-    /// the camera follows, which is all that drawing needs. There is room for one frame's.
+    /// Writes one moment of the next frame to draw: time, origins and orientations, and the center of mass of the body
+    /// that the camera follows. There is space for one frame.
     void write_poses(std::size_t moment, const Snapshot& snapshot);
     void read_poses(std::size_t moment, Snapshot& snapshot) const;
 
-    /// Of the AOVs: those of the next frame only where the forms want motion.
+    /// Writes poses for the AOVs: those of the next frame only if motion is requested.
     void write_aov_poses(const AovPoses& poses);
     void read_aov_poses(AovPoses& poses) const;
 
     std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
-    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // room for the largest
-    std::span<std::byte> aovs(int slot) const { return part(slot, aovs_at_, aovs_size_); }   // likewise
+    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // space for the largest file
+    std::span<std::byte> aovs(int slot) const { return part(slot, aovs_at_, aovs_size_); }   // space for the largest file
 
-    /// Why a frame failed; cut short where it is long.
+    /// Stores the reason of a failure; a long one is cut.
     void write_words(const std::string& words);
     std::string words() const;
 

@@ -69,7 +69,7 @@ TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float r
 float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
     const Eigen::Vector3f away = position - occluder.center;
-    const float room = occluder.bound_radius + 2.0f * far_step;   // beyond, both probes are in the open
+    const float room = occluder.bound_radius + 2.0f * far_step;   // beyond it, both samples are unoccluded
     if (away.squaredNorm() > room * room) return 1.0f;
     const Eigen::Vector3f p = occluder.to_local * away, n = occluder.to_local * normal, half = occluder.half_size;
     const auto closed = [&](float step) {

@@ -1,9 +1,10 @@
-// Ambient occlusion in closed form: how much of the sky's light reaches a surface point past the bodies near it.
-// Each body is a box, a ball or a plane, so the distance d(x) to it is exact. From the point p with normal n two probes
-// are sent out to h_k = 0.22 h and h (h: the reach); in the open d(p + n h_k) >= h_k, in a gap it is less:
+// Ambient occlusion in closed form: the sky visibility of a surface point past the bodies near it.
+// Each body is a box, a ball or a plane, so the distance d(x) to it is exact. From the point p with normal n, two
+// samples are taken at the distances h_k = 0.22 h and h (h: the AO radius). Without an occluder d(p + n h_k) >= h_k; in
+// a gap it is less:
 //   open = product over bodies of (1 - strength * mean over k of clamp(1 - d(p + n h_k) / h_k, 0, 1))
-// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. No noise and nothing screen-space,
-// so nothing crawls; and what is out of sight darkens as well.
+// after Evans 2006, Fast Approximations for Global Illumination on Dynamic Scenes. There is no noise, and bodies
+// outside the view occlude as well, so nothing flickers as the camera moves.
 #pragma once
 
 #include "render/ambient_occlusion/occluders.h"
@@ -12,25 +13,24 @@
 
 namespace tumble {
 
-/// Surface points and what is left of their sky light, component by component so that the compiler makes vectors of
-/// them.
+/// Surface points and their sky visibility, as a structure of arrays so that the compiler vectorizes loops over them.
 struct SurfacePoints {
     std::vector<float> x, y, z;     // relative to the same point as occluders, m
     std::vector<float> nx, ny, nz;  // unit normals
-    std::vector<float> open;        // 1: all of the sky's light
+    std::vector<float> open;        // sky visibility; 1: unoccluded
 
     std::size_t size() const { return x.size(); }
     void clear();
     void add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
-    /// Some of others, as if nothing were near them.
+    /// Appends `count` points of others, unoccluded.
     void add(const SurfacePoints& others, std::size_t first, std::size_t count);
 };
 
-/// Multiplies each point's `open` by what a body leaves of it. `reach` is the receiving body's own, m: the smaller
-/// counts.
+/// Multiplies each point's `open` by its visibility past one body. `reach`: AO radius of the receiving body, m; the
+/// smaller one of the two bodies counts.
 void darken(SurfacePoints& points, const Occluder& occluder, float reach);
 
-/// The same of a single point: what its factor is.
+/// The same for a single point; returns the factor.
 float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach);
 
 /// The same for a plane: points q with normal . q + height = 0.
@@ -39,8 +39,8 @@ void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float pl
 float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
                  float plane_height, float reach);
 
-/// The shares of a point's sky light that a wholly closed gap takes, and where the first probe is, in parts of the
-/// reach.
+/// Share of a point's sky light that a closed gap takes, and the distance of the first sample in parts of the AO
+/// radius.
 inline constexpr float occlusion_strength = 0.72f;
 inline constexpr float near_probe = 0.22f;
 

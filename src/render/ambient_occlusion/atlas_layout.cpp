@@ -9,9 +9,9 @@ namespace tumble {
 namespace {
 
 constexpr int most_tile = 64;
-constexpr int most_ground_tile = 256;   // six of them in a row: a field of 60 m is as finely darkened by crates as a plane
+constexpr int most_ground_tile = 256;   // six of them in a row: crates occlude a receiver of 60 m as finely as a plane
 
-// How finely tiles are made: the first of these whose places fit the budget.
+// Resolutions of tiles; the first one with which all tiles fit the budget is taken.
 struct Fineness {
     double texels_per_reach;        // of a box's face
     int least_box_tile, ball_tile;  // texels across
@@ -21,14 +21,14 @@ constexpr Fineness ladder[] = {{OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 
 
 int box_tile(const RenderBody& look, const RenderScene& looks, const Fineness& fineness) {
     const double edge = 2.0 * look.half_size.maxCoeff();
-    const double reach = look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;   // of what darkens it
+    const double reach = look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;   // AO radius of its occluders
     const double texels = std::min(std::ceil(fineness.texels_per_reach * edge / reach) + 1.0, double(most_ground_tile));
     return std::clamp(int(texels), fineness.least_box_tile, look.ground ? most_ground_tile : most_tile);
 }
 
-// What finds no room any more stays open.
+// A body without room in the atlas stays unoccluded.
 bool lay_out(const RenderScene& looks, const Fineness& fineness, OcclusionAtlas& atlas) {
-    ShelfPacker shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is open, for whoever has no place
+    ShelfPacker shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is unoccluded, for bodies without a place
     bool all = true;
     atlas.places.assign(looks.bodies.size(), {});
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
@@ -36,7 +36,7 @@ bool lay_out(const RenderScene& looks, const Fineness& fineness, OcclusionAtlas&
         OcclusionPlace place;
         bool fits = look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.undarkened;
         if (fits) {
-            // stays open
+            // stays unoccluded
         } else if (look.fine_surface >= 0) {
             const OcclusionLightmap& surface = looks.fine_surfaces[std::size_t(look.fine_surface)];
             place.size = look.kind == DrawKind::ball ? surface.width : 1;

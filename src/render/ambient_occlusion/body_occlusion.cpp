@@ -11,7 +11,7 @@ namespace {
 
 constexpr int coarse_ball_tile = 4;   // texels across
 
-// A lattice of `from` x `from` values, stretched over one of `to` x `to` with the same corners.
+// Bilinear upsampling of from x from values to to x to values with the same corners.
 void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
     result.resize(std::size_t(to) * std::size_t(to));
     const float step = to > 1 ? float(from - 1) / float(to - 1) : 0.0f;
@@ -33,7 +33,7 @@ void BodyOcclusion::darken_points(const Surroundings& around, double reach) {
     for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
 }
 
-// As face_.darken() does, but only the texels that it can reach are looked at: of a ground they are few.
+// Like face_.darken(), but only for the texels within the occluder's AO radius: few of a large receiver.
 void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
                                 const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
     const Eigen::Vector3f from = occluder.center - corner;
@@ -57,7 +57,7 @@ void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f&
 std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                                      const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
     const int size = place.size;
-    // What stands on a ground darkens it as far as a plane, however thin it is.
+    // A body on a large receiver occludes it as far as a plane, also where the receiver is thin.
     const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
     std::uint8_t faces = 0;
     for (int face = 0; face < 6; ++face) {
@@ -115,7 +115,7 @@ bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& plac
     return store(place.x, place.y, place.size, place.size, points_.open.data());
 }
 
-// A run of texels, row after row over the atlas' whole width.
+// A run of texels, row after row over the whole width of the atlas.
 bool BodyOcclusion::make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                               const Surroundings& around, float detail, const Store& store) {
     const RenderMesh& mesh = looks_->meshes[look.mesh];

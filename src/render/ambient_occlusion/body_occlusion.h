@@ -1,4 +1,4 @@
-// The tiles of the occlusion atlas: how the sky's light reaches a body past its neighbours and the planes near it.
+// Sky visibility of bodies past their neighbors and the planes near them: the tiles of the AO atlas.
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"
@@ -9,33 +9,33 @@
 
 namespace tumble {
 
-/// Where a body is, relative to the same point as occluders.
+/// Pose of a body, relative to the same point as occluders.
 struct BodyPlace {
-    Vec3 origin, center;   // m; of the body's frame, and of the ball around the body
+    Vec3 origin, center;   // m; origin of the body's frame, and center of its bounding ball
     Mat3 axes;             // columns
 };
 
-/// What may darken it.
+/// Possible occluders of a body.
 struct Surroundings {
     const std::vector<Occluder>& occluders;
-    const std::vector<std::size_t>& near;    // which of them
+    const std::vector<std::size_t>& near;    // indices of the nearby ones
     const std::vector<PlaneInView>& planes;
 };
 
 class BodyOcclusion {
 public:
-    /// Takes shares for the texels from (x, y) on, row after row; true when that changes any.
+    /// Stores visibilities of the texels from (x, y) on, row after row; true when any of them changes.
     using Store = std::function<bool(int x, int y, int width, int height, const float* open)>;
 
-    /// `detail`: from 0, a value a face, a few for a ball or mesh, to 1, all texels.
+    /// `detail`: 0 (one value per face, a few for a ball or mesh) to 1 (all texels).
     explicit BodyOcclusion(const RenderScene& looks) : looks_(&looks) {}
 
-    /// Makes the wanted faces (bits as in Visibility), tiles in the order of make_box()'s faces, with a texel's centre at
-    /// each corner of a face. Returns those that changed.
+    /// Updates the wanted faces (bits as in Visibility): tiles in the order of make_box()'s faces, with the center of a
+    /// texel at each corner of a face. Returns the faces that changed.
     std::uint8_t make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
                           const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);
 
-    /// Have any texels changed?
+    /// True if any texel changed.
     bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
                    float detail, const Store& store);
     bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,

@@ -1,4 +1,4 @@
-// The distance of a point from a box around the origin.
+// The distance of a point from a box at the origin.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-// Quilez 2008, Distance functions: exact outside, and inside that to the nearest face, negative.
+// Quilez 2008, Distance functions: exact outside; inside, the negative distance to the nearest face.
 inline float box_distance(float x, float y, float z, float half_x, float half_y, float half_z) {
     const float qx = std::abs(x) - half_x, qy = std::abs(y) - half_y, qz = std::abs(z) - half_z;
     const float ox = std::max(qx, 0.0f), oy = std::max(qy, 0.0f), oz = std::max(qz, 0.0f);

@@ -28,7 +28,7 @@ bool LightmapOcclusion::reached_by_plane(const Ball& ball, const std::vector<Pla
     });
 }
 
-// Texels that nothing is near to, nor was, are open as they are from the start.
+// Texels without an occluder nearby, in this update and the last, keep their initial value of 1.
 void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
                            const std::vector<PlaneInView>& planes, const Store& store) {
     const OcclusionLightmap& surface = *body_.surface;
@@ -42,7 +42,8 @@ void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const Occ
             const Ball ball = ball_around(block.bounds);
             if (moved != nullptr && !moved->any(ball.center, ball.radius)) continue;
             near.find(ball.center, ball.radius, found_);
-            std::erase_if(found_, [&](std::size_t o) { return occluders[o].body == body_.body; });   // not by itself
+            // a body does not occlude itself
+            std::erase_if(found_, [&](std::size_t o) { return occluders[o].body == body_.body; });
             const bool by_planes = reached_by_plane(ball, planes);
             if (found_.empty() && !by_planes && touched_[i] == 0) continue;
             touched_[i] = !found_.empty() || by_planes ? 1 : 0;

@@ -1,4 +1,5 @@
-// How the bodies darken those that have a fine surface: block by block, where one is near or was.
+// Occlusion of the bodies that have a lightmap, updated block by block where an occluder is near or was near at the
+// previous update.
 #pragma once
 
 #include "render/lightmap/occlusion_lightmap.h"
@@ -11,25 +12,25 @@
 
 namespace tumble {
 
-/// A body with a fine surface, and where it is: relative to the same point as occluders.
+/// A body with a lightmap, and its place relative to the same point as occluders.
 struct LightmapBody {
     std::size_t body = 0;
     const OcclusionLightmap* surface = nullptr;
     Vec3 origin;   // m
     Mat3 axes;
-    double reach = 0.0;  // its own: how far planes darken it, m
+    double reach = 0.0;  // AO radius of this body, m
 };
 
 class LightmapOcclusion {
 public:
-    /// Where it is now.
+    /// Sets the place of the body.
     void place(const LightmapBody& body);
 
-    /// Takes shares for a block's texels, row after row.
+    /// Stores visibilities of a block's texels, row after row.
     using Store = std::function<void(const OcclusionLightmap::Block& block, const float* open)>;
 
-    /// Brings all blocks up to date. `moved`: finds those that moved since the last time, as they were and as they are; null:
-    /// any may have. `near`: finds all.
+    /// Updates all blocks. `moved`: finds the occluders that moved since the previous update, at both poses; null: any
+    /// may have moved. `near`: finds all.
     void update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
                 const std::vector<PlaneInView>& planes, const Store& store);
 
@@ -43,7 +44,7 @@ private:
 
     LightmapBody body_{};
     SurfacePoints all_, points_;   // of the whole surface; of a block
-    std::vector<char> touched_;    // blocks that something was near to
+    std::vector<char> touched_;    // blocks that have or had an occluder nearby
     std::vector<std::size_t> found_;
 };
 

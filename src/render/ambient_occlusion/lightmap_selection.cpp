@@ -9,19 +9,20 @@
 namespace tumble {
 namespace {
 
-// Beside a body that is so many times as far across as what moves darkens, vertices (of a ball its few texels) are too far
-// apart to tell how dark the places between them are.
-constexpr double large_of_reach = 4.0;   // its radius
+// Vertices (and the few texels of a ball) are too far apart to sample the AO of moving bodies on a body that is this
+// many times as large as their AO radius.
+constexpr double large_of_reach = 4.0;   // ratio of the body's radius to the AO radius
 
-// For all fine surfaces together; 28 bytes each, and five in the atlas. A field of 60 x 60 m under crates of 1 m has 230,000.
+// for all lightmaps together; 28 bytes each, and five in the atlas. A field of 60 x 60 m under crates of 1 m has
+// 230,000
 constexpr std::size_t most_texels = 1'200'000;
 
-// Coarser texels would tell no more than vertices do.
+// Coarser texels would resolve no more than vertices do.
 constexpr double fewest_per_reach = 1.0;
 
-constexpr int most_ball_texels = 512;   // to a side; a region of the atlas must not take all of it
+constexpr int most_ball_texels = 512;   // per side, so that one region cannot take the whole atlas
 
-// The median of what may move. 0: nothing does.
+// Median AO radius of the bodies that may move; 0 without such bodies.
 double movers_reach(const SceneDescription& scene, const RenderScene& looks) {
     std::vector<double> reaches;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
@@ -32,7 +33,7 @@ double movers_reach(const SceneDescription& scene, const RenderScene& looks) {
     return *middle;
 }
 
-// A mesh with charts, and its surface.
+// A mesh with charts, and its area.
 struct Charted {
     const MeshAsset* asset;
     std::size_t mesh;
@@ -74,7 +75,8 @@ void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks) {
             auto known = std::find_if(charted.begin(), charted.end(), [&](const Charted& c) { return c.asset == asset; });
             if (known == charted.end()) {
                 if (!chart(looks, look, cell, reach / fewest_per_reach, charted)) {
-                    look.undarkened = true;   // its values would lie many times as far apart as what moves darkens
+                    // its values would be many times farther apart than the AO radius of the moving bodies
+                    look.undarkened = true;
                     continue;
                 }
                 known = charted.end() - 1;

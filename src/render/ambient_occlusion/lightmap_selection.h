@@ -1,11 +1,12 @@
-// Which bodies get a fine surface: see fine_surface.h.
+// Selects the bodies that get a lightmap (occlusion_lightmap.h).
 #pragma once
 
 #include "render/scene/render_scene.h"
 
 namespace tumble {
 
-/// Gives one to fixed meshes and balls that are large beside what moves. Reaches and grounds must be known.
+/// Gives lightmaps to fixed meshes and balls that are large relative to moving bodies. AO radii and large receivers
+/// must be set before.
 void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks);
 
 }  // namespace tumble

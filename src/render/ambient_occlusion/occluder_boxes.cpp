@@ -8,11 +8,11 @@ namespace tumble {
 namespace {
 
 constexpr int cells_along_longest = 12;
-constexpr std::size_t most_boxes = 16;  // each costs every pixel near the body a distance
+constexpr std::size_t most_boxes = 16;  // every pixel near the body computes the distance to each of them
 
 using Cell = std::array<int, 3>;
 
-// The lattice of cells, and which of them are inside.
+// A grid of cells, each inside the mesh or not.
 class Lattice {
 public:
     explicit Lattice(const TriangleMesh& mesh) : bounds_(mesh.bounds()) {
@@ -40,9 +40,11 @@ private:
                std::size_t(c[0]);
     }
 
-    // Where the line along x through the cells' centres enters and leaves the mesh: inside after an odd number.
+    // Crossings of the mesh with the line along x through the cells' centers; a point is inside after an odd number of
+    // them.
     void fill_row(const TriangleMesh& mesh, int y, int z) {
-        // Slightly off the centres, by a fraction that no lattice of vertices shares: the line meets no edge.
+        // Offset from the centers by a fraction that no regular grid of vertices shares, so that the line meets no
+        // edge.
         const double line_y = bounds_.min.y() + (y + 0.5000317) * size_.y();
         const double line_z = bounds_.min.z() + (z + 0.5000731) * size_.z();
         std::vector<double> crossings;
@@ -71,7 +73,7 @@ private:
     std::vector<bool> inside_;
 };
 
-// Grows from a full cell as far as all cells stay full: along x, then y, then z.
+// Grows a box from a full cell as long as all cells in it are full: along x, then y, then z.
 OccluderBox take_box(Lattice& lattice, const Cell& first) {
     Cell high = {first[0] + 1, first[1] + 1, first[2] + 1};
     const auto full = [&](const Cell& from, const Cell& to) {

@@ -1,4 +1,4 @@
-// A closed mesh as a few boxes inside it, for ambient occlusion: a ring must not darken what lies in its hole.
+// A closed mesh approximated by a few boxes inside it, as occluders: a ring must not occlude a body in its hole.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// At most 16 disjoint boxes inside the mesh, the largest first; none for an open mesh, which has no inside.
-/// The mesh's bounds are cut into a lattice of about 12 cells along the longest edge; a cell counts as inside when its
-/// centre is, and full cells are joined greedily into boxes.
+/// At most 16 disjoint boxes inside the mesh, the largest first; none for an open mesh, which has no inside. The mesh's
+/// bounds are divided into a grid of about 12 cells along the longest edge. A cell is inside if its center is; the
+/// cells inside are joined greedily into boxes.
 std::vector<OccluderBox> make_mesh_occluders(const TriangleMesh& mesh);
 
 }  // namespace tumble

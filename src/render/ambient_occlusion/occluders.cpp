@@ -7,17 +7,17 @@
 namespace tumble {
 namespace {
 
-// A cell is this many times the largest influence in it: a search then looks into about thirteen.
+// Cell size over the largest influence in it: a search then visits about 13 cells.
 constexpr float cell_of_influence = 2.0f;
 
 float influence(const Occluder& o) { return o.bound_radius + 2.0f * o.reach; }
 
-// Neighbours along x are neighbours in the table. The factors are primes; cells that share a bucket cost a comparison.
+// The factors are primes. Cells along x are adjacent in the table; cells in one bucket cost a comparison.
 std::uint32_t bucket(std::int32_t x, std::int32_t y, std::int32_t z) {
     return std::uint32_t(x) + std::uint32_t(y) * 73856093u + std::uint32_t(z) * 83492791u;
 }
 
-// Beyond a thousand million cells all are one.
+// Coordinates are clamped to one thousand million cells.
 Eigen::Array3i cell_of(const Eigen::Array3f& at, float cell) {
     return (at / cell).floor().max(-1e9f).min(1e9f).cast<int>();
 }
@@ -86,7 +86,7 @@ void OccluderFinder::visit_near(const Eigen::Vector3f& center, float radius, Vis
         const Eigen::Array3i low = cell_of((at - reach).max(level.low), level.cell);
         const Eigen::Array3i high = cell_of((at + reach).min(level.high), level.cell);
         const Eigen::Array3d count = (high - low).cast<double>() + 1.0;
-        if (count.prod() > double(level.entries.size())) {   // looking at all is less
+        if (count.prod() > double(level.entries.size())) {   // looking at all entries costs less
             for (const Entry& entry : level.entries)
                 if (!look_at(entry)) return;
             continue;

@@ -13,19 +13,19 @@
 namespace tumble {
 namespace {
 
-// Pixels across the picture of a body's longest edge, or of the ball around a mesh: below the first its darkening is
+// Size on the screen, in pixels, of a body's longest edge or of a mesh's bounding ball: below the first value its AO is
 // coarse, above the second fine.
 struct Sizes {
     double few, all;
 };
 constexpr Sizes box_sizes{4.0, 8.0}, ball_sizes{6.0, 12.0}, mesh_sizes{24.0, 48.0};
 
-// Where more than this part of the bodies moved, all are looked at again: searching who is near one of them gains nothing.
+// Where more than this share of the bodies moved, all are checked again: a search for their neighbors would cost more.
 constexpr double most_moved = 0.25;
 
 int level(float open) { return int(255.0f * open + 0.5f); }
 
-// Texels to a side of the parts in which changes of a ground's face are told.
+// Texels per side of the parts in which changes of a large receiver's face are reported.
 constexpr int ground_part = 8;
 
 }  // namespace
@@ -40,9 +40,9 @@ struct AmbientOcclusion::State {
         Vec3 origin;
         Quat orientation;
     };
-    // What a body's texels were made from, beside the bodies around it.
+    // The state that a body's texels were made from, apart from the bodies around it.
     struct Made {
-        std::uint8_t faces = 0;   // up to date; 1 for what has no faces
+        std::uint8_t faces = 0;   // up to date; 1 for shapes without faces
         float detail = 0.0f;
     };
 
@@ -61,30 +61,30 @@ struct AmbientOcclusion::State {
     void update_fine(std::size_t body, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
     void store_ground(std::size_t body, int x, int y, int size, const float* open);
-    Vec3 center_of(std::size_t body) const {   // of the ball around it
+    Vec3 center_of(std::size_t body) const {   // of the bounding ball
         return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
     }
 
     const RenderScene& looks;
     const Vec3 reference;
     OcclusionAtlas atlas;
-    int body_rows = 1;                       // of the atlas; the windows come below
+    int body_rows = 1;                       // of the atlas; plane tiles are below them
     OcclusionChanges changes;
-    std::vector<Pose> poses;                 // of the last update
-    std::vector<Occluder> occluders, moved;  // of all bodies; those that moved, as they were and as they are
-    std::vector<std::uint32_t> first;        // occluder of each body, and the end
+    std::vector<Pose> poses;                 // of the previous update
+    std::vector<Occluder> occluders, moved;  // of all bodies; of those that moved, at both poses
+    std::vector<std::uint32_t> first;        // first occluder of each body, and the end
     OccluderFinder finder{{}};
-    bool anew = true;                        // everything is to be worked out
+    bool anew = true;                        // everything is to be recomputed
     bool moved_much = false;
     std::vector<Made> made;
     std::vector<PlaneInView> planes, near_planes;
     PlaneOcclusion plane_darkening;
     BodyOcclusion body_darkening{looks};
-    std::vector<std::size_t> found;          // what may darken the body at hand
-    std::vector<std::optional<LightmapOcclusion>> fine;   // of fine surfaces, when first seen
+    std::vector<std::size_t> found;          // possible occluders of the current body
+    std::vector<std::optional<LightmapOcclusion>> fine;   // lightmaps, made when first visible
 };
 
-// Takes in the new poses: the occluders, and which of them moved.
+// Takes over the poses: rebuilds the occluders and finds those that moved.
 void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
     const std::size_t bodies = looks.bodies.size();
     moved.clear();
@@ -137,14 +137,14 @@ void AmbientOcclusion::State::find_planes(const Snapshot& snapshot, const Camera
     planes = std::move(now);
 }
 
-// Those that something has moved near to or away from.
+// Marks the bodies near an occluder that moved.
 void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
     if (anew || moved_much) {
         for (Made& body : made) body.faces = 0;
         return;
     }
     if (moved.empty()) return;
-    for (std::size_t i = 0; i < made.size(); ++i)   // what is out of sight waits until it is seen
+    for (std::size_t i = 0; i < made.size(); ++i)   // hidden bodies are updated when they become visible
         if (made[i].faces != 0 &&
             (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 && movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
             made[i].faces = 0;
@@ -173,7 +173,7 @@ void AmbientOcclusion::State::update_windows(const Snapshot& snapshot) {
     atlas.windows = std::move(windows);
 }
 
-// `stride`: of the shares' rows.
+// `stride`: distance between rows of the visibilities.
 bool AmbientOcclusion::State::store(int x, int y, int width, int height, int stride, const float* open) {
     bool any = false;
     for (int row = y; row < y + height; ++row, open += stride) {
@@ -192,13 +192,13 @@ bool AmbientOcclusion::State::store(int x, int y, int width, int height, int str
     return any;
 }
 
-// A face of a box, part by part.
+// Stores a face of a box part by part.
 void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
     const int face = (x - atlas.places[body].x) / size;
     const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
     for (int j = 0; j < size; j += ground_part)
         for (int i = 0; i < size; i += ground_part) {
-            int i0 = size, i1 = -1, j0 = size, j1 = -1;   // of those that change
+            int i0 = size, i1 = -1, j0 = size, j1 = -1;   // bounds of the texels that change
             for (int b = j; b < std::min(j + ground_part, size); ++b)
                 for (int a = i; a < std::min(i + ground_part, size); ++a)
                     if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] != level(open[b * size + a])) {
@@ -209,7 +209,7 @@ void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int s
                     }
             if (i0 > i1) continue;
             store(x + i0, y + j0, i1 - i0 + 1, j1 - j0 + 1, size, open + j0 * size + i0);
-            // between texels: what lies nearer than one to a changed one, and a tenth for rounding
+            // interpolation: affects the area within one texel of a changed one, with a margin of 0.1
             changes.parts.push_back({body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
         }
 }
@@ -230,7 +230,7 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
 
     const Eigen::Vector3f center = middle.cast<float>();
     finder.find(center, float(look.bound_radius), found);
-    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // not by itself
+    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // a body does not occlude itself
     near_planes.clear();
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes.push_back(plane);
@@ -241,7 +241,7 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     };
     const auto keep_ground = [&](int x, int y, int width, int, const float* open) {
         store_ground(body, x, y, width, open);
-        return false;   // it is in the changes already
+        return false;   // already in the changes
     };
     std::uint8_t faces = 0;
     bool changed = false;
@@ -260,7 +260,7 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     if (changed) changes.bodies.push_back({body, faces});
 }
 
-// Only what moved, or all where much did, has been said so by forget_touched().
+// forget_touched() has marked the bodies near occluders that moved, or all if many moved.
 void AmbientOcclusion::State::update_fine(std::size_t body, const OccluderFinder& movers) {
     const RenderBody& look = looks.bodies[body];
     Made& known = made[body];

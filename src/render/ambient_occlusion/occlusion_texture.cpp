@@ -14,32 +14,32 @@ OcclusionTexture::OcclusionTexture(const GlFunctions& gl) : gl_(&gl), texture_(g
 
 void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int end_row) {
     gl_->BindTexture(GL_TEXTURE_2D, texture_.name());
-    // A power of two of rows: it grows seldom, and texture coordinates are exact whatever was drawn before.
+    // A power of two, so that it grows seldom and texture coordinates are exact independent of earlier frames.
     int rows = 256;
     while (rows < atlas.height) rows *= 2;
     if (rows > height_) {
         height_ = rows;
-        // Floats: llvmpipe gathers 32 bits of eight pixels at once, but single bytes one by one (-1.4 ms a frame).
+        // Floats: llvmpipe gathers 32 bits for eight pixels at once, but single bytes one by one (1.4 ms a frame more).
         gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, OcclusionAtlas::width, rows, 0, GL_RED, GL_FLOAT, nullptr);
         filled_ = 0;
     }
-    if (atlas.height > filled_) {  // rows that are open from the start have not changed, but are new here
+    if (atlas.height > filled_) {  // unoccluded rows have not changed, but are new in the texture
         first_row = std::min(first_row, filled_);
         end_row = filled_ = atlas.height;
     }
-    // The bodies' tiles fill their rows; below them only the windows are ever read.
+    // The bodies' tiles fill their rows; below them only plane tiles are read.
     int first_of_windows = atlas.height, columns = 0;
     for (const PlaneOcclusionTile& window : atlas.windows) {
         first_of_windows = std::min(first_of_windows, window.y);
         columns = std::max(columns, window.x + window.width);
     }
-    if (columns > columns_) {  // open ones have not changed, but are new here, too
+    if (columns > columns_) {  // unoccluded columns have not changed, but are new in the texture
         first_row = std::min(first_row, first_of_windows);
         end_row = std::max(end_row, atlas.height);
         columns_ = columns;
     }
     send(atlas, first_row, std::min(end_row, first_of_windows), OcclusionAtlas::width);
-    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);   // as far as any window may come to read them
+    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);   // all columns that a plane tile may read
 }
 
 void OcclusionTexture::send(const OcclusionAtlas& atlas, int first_row, int end_row, int columns) {

@@ -1,4 +1,4 @@
-// The occlusion atlas on the graphics side.
+// The AO atlas as an OpenGL texture.
 #pragma once
 
 #include "render/gl/gl_object.h"
@@ -12,12 +12,12 @@ class OcclusionTexture {
 public:
     explicit OcclusionTexture(const GlFunctions& gl);
 
-    /// Sends the rows that changed since the last time (all of them, when there are more rows than ever).
+    /// Uploads the rows that changed since the last call; all of them if the texture grew.
     void upload(const OcclusionAtlas& atlas, int first_row, int end_row);
 
     GLuint name() const { return texture_.name(); }
 
-    /// Rows that the texture has: at least the last atlas' height.
+    /// Rows of the texture: at least the height of the last atlas.
     int height() const { return height_; }
 
 private:
@@ -26,8 +26,8 @@ private:
     const GlFunctions* gl_;
     GlObject texture_;
     int height_ = 0, filled_ = 0;  // rows
-    int columns_ = 0;              // of the windows, that were sent
-    std::vector<float> shares_;    // on their way
+    int columns_ = 0;              // columns of plane tiles that were uploaded
+    std::vector<float> shares_;    // staging buffer
 };
 
 }  // namespace tumble

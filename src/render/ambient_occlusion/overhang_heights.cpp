@@ -9,7 +9,7 @@ namespace {
 
 constexpr float no_overhang = std::numeric_limits<float>::infinity();
 
-// The texels from low to high that are in 0 .. count - 1.
+// The texels from low to high within 0 .. count - 1.
 std::pair<int, int> texels(double low, double high, int count) {
     return {int(std::clamp(std::ceil(low), 0.0, double(count))), int(std::clamp(std::floor(high), -1.0, double(count - 1)))};
 }
@@ -21,7 +21,7 @@ Vec3 OverhangHeights::on_frame(const Vec3& point) const {
     return {frame_.u.dot(from) / frame_.cell, frame_.v.dot(from) / frame_.cell, frame_.normal.dot(from)};
 }
 
-// What the plane cuts off is below it.
+// Triangle parts behind the plane have heights below 0.
 void OverhangHeights::lower(int i, int j, double height) {
     if (!(height >= 0.0)) return;
     if (height_.empty()) height_.assign(std::size_t(frame_.width) * std::size_t(frame_.height), no_overhang);
@@ -32,10 +32,10 @@ void OverhangHeights::lower(int i, int j, double height) {
 void OverhangHeights::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 p = on_frame(a), pq = on_frame(b) - p, pr = on_frame(c) - p;
     const double area = pq.x() * pr.y() - pq.y() * pr.x();
-    if (area == 0.0) return;   // upright
+    if (area == 0.0) return;   // a vertical triangle
     const auto [i0, i1] = texels(p.x() + std::min({0.0, pq.x(), pr.x()}), p.x() + std::max({0.0, pq.x(), pr.x()}), frame_.width);
     const auto [j0, j1] = texels(p.y() + std::min({0.0, pq.y(), pr.y()}), p.y() + std::max({0.0, pq.y(), pr.y()}), frame_.height);
-    constexpr double edge = 1e-9;   // of the triangle: what lies on an edge belongs to both
+    constexpr double edge = 1e-9;   // relative to the triangle: a point on an edge belongs to both triangles
     for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
             const double x = i - p.x(), y = j - p.y();
@@ -96,7 +96,8 @@ float OverhangHeights::open_share(double a, double b, double radius, double heig
     double open = 0.0, all = 0.0;
     for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
-            // Less towards the rim, so that nothing jumps as the disc moves over the texels.
+            // The weight falls towards the edge of the disc, so that the share is continuous as the disc moves over the
+            // texels.
             const double weight = 1.0 - ((i - a) * (i - a) + (j - b) * (j - b)) / (reach * reach);
             if (!(weight > 0.0)) continue;
             all += weight;

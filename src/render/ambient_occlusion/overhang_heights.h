@@ -1,6 +1,7 @@
-// What the fixed bodies keep from a plane. Darkening multiplies body by body, as if nothing stood between: what lies in a bowl or on
-// a table would darken the floor below through it. So of each texel of a plane's window the lowest fixed surface above it is kept,
-// and what moves darkens the plane by the share of its middle that has no such roof below it.
+// Heights of fixed surfaces above a plane. Occlusion is a product over bodies and ignores surfaces in between: a body
+// in a bowl or on a table would darken the floor below through it. So the lowest fixed surface above each texel of a
+// plane tile is stored, and a moving body occludes the plane by the share of its footprint that has no such surface
+// below the body.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -11,9 +12,10 @@
 
 namespace tumble {
 
-/// A plane's window in the world: the texel (i, j) lies at corner + i across + j along.
+/// Place of a plane tile in the world: texel (i, j) is at corner + i across + j along.
 struct PlaneFrame {
-    Vec3 corner = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY(), normal = Vec3::UnitZ();   // m; unit, in the plane and out of it
+    // m; unit vectors, in the plane and out of it
+    Vec3 corner = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY(), normal = Vec3::UnitZ();
     double cell = 1.0;           // m
     int width = 0, height = 0;   // texels
     friend bool operator==(const PlaneFrame&, const PlaneFrame&) = default;
@@ -21,11 +23,11 @@ struct PlaneFrame {
 
 class OverhangHeights {
 public:
-    /// Builds it anew where the frame is another one. Fixed bodies stay where they are, in every snapshot.
+    /// Rebuilds the heights if the frame is a different one. Fixed bodies have the same pose in every snapshot.
     void update(const PlaneFrame& frame, const RenderScene& looks, const Snapshot& snapshot);
 
-    /// The share (0 to 1) of a disc that has no roof below `height` (m, of its middle above the plane). (a, b): its middle, in texels
-    /// from the corner; `radius`: m, at least a texel.
+    /// Share (0 to 1) of a disc without a fixed surface below `height` (m, of its center above the plane). (a, b): its
+    /// center, in texels from the corner; `radius`: m, at least a texel.
     float open_share(double a, double b, double radius, double height) const;
 
 private:
@@ -35,7 +37,7 @@ private:
     Vec3 on_frame(const Vec3& point) const;   // texels, texels, m above the plane
 
     PlaneFrame frame_{};
-    std::vector<float> height_;   // m; empty: no roof anywhere
+    std::vector<float> height_;   // m; empty without fixed surfaces above the plane
 };
 
 }  // namespace tumble

@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-constexpr int window_step = 16;       // texels; a window that moves has the whole plane drawn anew
-constexpr int update_block = 16;             // texels; what one moved body darkens is about so large
+constexpr int window_step = 16;       // texels; a tile that moves redraws the whole plane
+constexpr int update_block = 16;             // texels; about the size that one moved body affects
 
 }  // namespace
 
@@ -21,17 +21,18 @@ PlaneOcclusion::Texels PlaneOcclusion::touched(const Foot& foot, const PlaneOccl
     const auto last = [&](double at, double low, int count) {
         return std::min(double(count - 2), std::ceil((at + foot.radius) / window.cell - low));
     };
-    // Beside the window the numbers can be large, but then the range is empty.
+    // Outside the tile the numbers can be large, but then the range is empty.
     const double i0 = first(foot.a, window.low_a), i1 = last(foot.a, window.low_a, window.width);
     const double j0 = first(foot.b, window.low_b), j1 = last(foot.b, window.low_b, window.height);
     if (i0 > i1 || j0 > j1) return {0, -1, 0, -1};
     return {int(i0), int(i1), int(j0), int(j1)};
 }
 
-// Around all feet; where they do not fit, around those that are not lost, or where most of these are.
+// Places the tile around all footprints. If they do not fit: around those without outliers, or where most of them are.
 bool PlaneOcclusion::place(PlaneOcclusionTile& window, ShelfPacker& shelves) const {
     constexpr int largest = OcclusionAtlas::largest_window;
-    const auto distance = [](const Foot& foot) { return double(foot.occluder->center.norm()); };   // from the eye's first place
+    // distance from the first eye position
+    const auto distance = [](const Foot& foot) { return double(foot.occluder->center.norm()); };
     const auto limit_of_near = [&] {
         std::vector<double> distances;
         for (const Foot& foot : feet_) distances.push_back(distance(foot));
@@ -58,7 +59,7 @@ bool PlaneOcclusion::place(PlaneOcclusionTile& window, ShelfPacker& shelves) con
             least = *middle - 0.5 * (largest - 4) * window.cell;
             most = *middle + 0.5 * (largest - 4) * window.cell;
         }
-        // Whole steps: it seldom moves. Room for an open texel on either side.
+        // Whole steps, so that it seldom moves, with an unoccluded texel on either side.
         low = window_step * std::floor((least / window.cell - 1.0) / window_step);
         count = std::min(largest,
                          window_step * int(std::ceil((std::ceil(most / window.cell) - low + 2.0) / window_step)));
@@ -76,7 +77,7 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(look.plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v;
-    const Vec3 origin = state.origin - reference;  // the plane's coordinates count from here
+    const Vec3 origin = state.origin - reference;  // the plane's coordinates are relative to this point
     const auto add_foot = [&](const Occluder& o, std::vector<Foot>& feet) {
         const double height = double(plane.normal.dot(o.center)) + double(plane.height);
         if (height > double(o.bound_radius) + 2.0 * double(o.reach) || height < -double(o.bound_radius)) return;
@@ -88,7 +89,7 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     if (feet_.empty()) return false;
     window = {};
     window.body = plane.body;
-    // A power of two, and the window on whole cells: texels stay where they are while bodies move.
+    // A power of two, with the tile on whole cells: texels keep their places while bodies move.
     const double cell = window.cell = looks.window_cell;
     if (!place(window, shelves)) return false;
 

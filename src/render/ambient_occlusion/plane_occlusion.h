@@ -1,6 +1,6 @@
-// The windows of the occlusion atlas: how the bodies darken the planes near them. Every occluder near a plane darkens the
-// texels around its foot; they multiply, but for what a fixed body stands under (plane_roof.h). Only the blocks of texels that a moved occluder touches, or touched, are worked
-// out anew.
+// Occlusion of planes by bodies: the plane tiles of the AO atlas. Every occluder near a plane darkens the texels around
+// its footprint. Factors multiply, apart from fixed surfaces between both (overhang_heights.h). Only the blocks of
+// texels near an occluder that moved, at both poses, are recomputed.
 #pragma once
 
 #include "render/ambient_occlusion/shelf_packer.h"
@@ -19,15 +19,15 @@ namespace tumble {
 struct PlaneInView {
     std::size_t body;
     Eigen::Vector3f normal;
-    float height;  // of the point that positions are relative to, above it, m
+    float height;  // of the reference point of positions above the plane, m
     friend bool operator==(const PlaneInView&, const PlaneInView&) = default;
 };
 
 class PlaneOcclusion {
 public:
-    /// Brings a plane's window up to date: `known` is the one it had, if the plane has not moved. `moved`: the occluders
-    /// that have moved since, as they were and as they are; none for `everything`. `store` takes shares for the texels
-    /// from (x, y) on, whose rows are `stride` apart. False: nothing is near the plane, or there is no room.
+    /// Updates a plane's tile. `known`: its last tile, if the plane has not moved. `moved`: the occluders that have
+    /// moved since, at both poses; none for `everything`. `store` takes visibilities of the texels from (x, y) on, with
+    /// rows `stride` apart. Returns false if no body is near the plane or there is no room.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
     bool update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
                 const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
@@ -37,10 +37,10 @@ private:
     struct Foot {
         const Occluder* occluder;
         double a, b, radius;   // m, on the plane's axes
-        double height;         // m, above it
+        double height;         // m, above the plane
     };
     struct Texels {
-        int i0, i1, j0, j1;    // of the window, both ends included
+        int i0, i1, j0, j1;    // texels of the tile, both ends included
         bool empty() const { return i0 > i1 || j0 > j1; }
     };
     static Texels touched(const Foot& foot, const PlaneOcclusionTile& window);

@@ -1,16 +1,16 @@
-// Room for rectangles in the occlusion atlas, row by row.
+// Allocates rectangles in the AO atlas on shelves (rows of rectangles).
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"
 
 namespace tumble {
 
-/// A rectangle goes to the right of the last one where it fits under the same roof, else on a new shelf.
+/// A rectangle is placed to the right of the previous one if it fits below the shelf's height, else on a new shelf.
 class ShelfPacker {
 public:
     ShelfPacker(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}
 
-    /// False where there is no room.
+    /// False if there is no room.
     bool take(int width, int height, int& x, int& y) {
         if (width > OcclusionAtlas::width) return false;
         if (x_ + width > OcclusionAtlas::width || height > height_) {

@@ -7,18 +7,18 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t group = 8;   // points that are worked out together; the last group is filled up
+constexpr std::size_t group = 8;   // points that are computed together; the last group is filled up
 
 inline float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
-// The lattice as an occluder sees it: both probes of the first point, in the occluder's axes, and the steps.
+// The grid in the occluder's frame: both samples of the first point, and the steps.
 struct Seen {
     float near[3], far[3], across[3], along[3];   // m
     float half[3], radius;                        // m
     float per_near, per_far;                      // 1/m
 };
 
-// Of points in full groups.
+// For points in full groups.
 TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
     const float nx = s.near[0], ny = s.near[1], nz = s.near[2], fx = s.far[0], fy = s.far[1], fz = s.far[2];
     const float ax = s.across[0], ay = s.across[1], az = s.across[2], bx = s.along[0], by = s.along[1], bz = s.along[2];
@@ -33,7 +33,7 @@ TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t group
     }
 }
 
-// Does a box around the lattice leave that much room to the occluder?
+// True if a box around the grid is at least this far from the occluder.
 bool clear_of(const Seen& s, const float (&first)[3], int columns, int rows, float room) {
     float squared = 0.0f;
     for (int k = 0; k < 3; ++k) {
@@ -72,9 +72,9 @@ void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across
 
 void TexelGrid::darken(const Occluder& occluder, float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
-    constexpr float spare = 1.0001f;   // for rounding: what is skipped would have been multiplied by 1
+    constexpr float spare = 1.0001f;   // for rounding: a skipped occluder would have multiplied by 1
     const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center), outward = occluder.to_local * normal_;
-    // What lies behind the face is farther from the probes than they from it.
+    // A body behind the face is farther from the samples than the face is.
     const float top = outward.cwiseAbs().dot(occluder.half_size) + occluder.radius - outward.dot(first);
     if (top < (1.0f - spare) * near_step) return;
     Seen seen{};

@@ -9,12 +9,12 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_probes = 2000;  // each is worked out anew in every frame, for every body of this mesh
+constexpr std::size_t most_probes = 2000;  // each is recomputed in every frame, for every body with this mesh
 constexpr std::size_t most_coarse_probes = 64;
 
 Vec3 vec3(const float (&v)[3]) { return {double(v[0]), double(v[1]), double(v[2])}; }
 
-// Lattice cell and octant of a point.
+// Grid cell and octant of a point.
 using Group = std::array<int, 4>;
 
 Group group_of(const VertexSample& point, const Vec3& low, double cell) {
@@ -38,7 +38,7 @@ bool share(const RenderMesh& look, const std::vector<VertexSample>& points, doub
     return true;
 }
 
-// As finely as `most` allow.
+// Shares samples among vertices, with the finest grid that `most` samples allow.
 void share(const RenderMesh& look, const std::vector<VertexSample>& points, std::size_t most, std::vector<VertexSample>& shared,
            std::vector<std::uint32_t>& of_point) {
     if (points.size() <= most) {

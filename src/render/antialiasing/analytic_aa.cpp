@@ -9,16 +9,17 @@
 namespace tumble {
 namespace {
 
-// The integral of clamp(x, 0, 1), without branches, which no processor could foresee.
+// The integral of clamp(x, 0, 1), without branches, which would be unpredictable.
 double ramp_area(double x) {
     const double c = std::min(std::max(x, 0.0), 1.0);
     return 0.5 * c * c + std::max(x - 1.0, 0.0);
 }
 
-// Below this a strip is too narrow for its slope to matter.
+// Half width below which the slope of a strip is negligible.
 constexpr double least_half = 1e-6;
 
-// share_before(), given 1 / (2 half), or 0 where that is too narrow. A call for each pixel of an edge would be a tenth of all.
+// share_before(), given 1 / (2 half), or 0 below least_half. Inlined: a call per pixel of an edge would take a tenth of
+// the pass.
 [[gnu::always_inline]] inline double share_of(double t, double half, double inverse) {
     if (inverse == 0.0) return std::clamp(t, 0.0, 1.0);
     return (ramp_area(t + half) - ramp_area(t - half)) * inverse;
@@ -26,14 +27,14 @@ constexpr double least_half = 1e-6;
 
 double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 * half); }
 
-// A surface that shows so far beyond its own edge, or something else so far within it, hides that edge (a ring's near side
-// the far rim): more than a ball's mesh (.15) and the polygon for its outline (.03) are off.
+// A surface that shows this far beyond its own edge, or another one this far within it, hides that edge (the near side
+// of a ring hides the far rim). Above the deviation of a ball's mesh (0.15) and of its outline polygon (0.03).
 constexpr double hidden = 0.2;   // pixels
 
-// The greatest whole number not above x; for x >= -2 (without a call: the processor has the instruction, the baseline not).
+// The greatest integer not above x; for x >= -2 (avoids a call, because baseline x86-64 lacks the instruction).
 int below(double x) { return int(x + 2.0) - 2; }
 
-// An edge in a picture seen along its main direction: m counts along, n across. For edges whose `whole_box` is as said.
+// An edge in the image along its main direction: m counts along it, n across. For edges with the given `whole_box`.
 template <bool whole_box>
 class Walk {
 public:
@@ -47,7 +48,7 @@ public:
         face_ = e.face;
         double m0 = across_ ? e.y0 : e.x0, n0 = across_ ? e.x0 : e.y0;
         double m1 = across_ ? e.y1 : e.x1, n1 = across_ ? e.x1 : e.y1;
-        side_ = across_ ? -1 : 1;   // of n, where the inner surface is
+        side_ = across_ ? -1 : 1;   // direction of n towards the inner surface
         if (m1 < m0) {
             std::swap(m0, m1);
             std::swap(n0, n1);
@@ -75,22 +76,22 @@ public:
     }
 
 private:
-    // Where the edge crosses a row of pixels that lie across it.
+    // Crossing of an edge with a row of pixels across it.
     struct Crossing {
-        double line, half;      // its height there, and how far it rises and falls around that
-        double inverse;         // inverse_width() of that
-        double length;          // how much of the pixels' width it passes
-        double middle;          // the height of its line, drawn on, in the middle of that width
+        double line, half;      // its height there, and half of its rise over the width
+        double inverse;         // inverse_width() of half
+        double length;          // part of the pixel's width that it crosses
+        double middle;          // height of its extended line at the middle of that width
     };
 
-    // A share of the pixel's colour comes from the neighbour over the edge, or the one behind it where the edge runs
-    // aslant. An edge that something hides meets other surfaces.
+    // A share of the pixel's color comes from the neighbor across the edge, or from the next one if the edge is
+    // oblique. At a hidden edge the pixels have other surfaces.
     void pixel(int m, int n, const Crossing& here) {
         const auto inside = [this](std::uint8_t id) { return whole_box ? of_same_box(id, inner_, face_) : id == inner_; };
         const std::ptrdiff_t at = m * step_m_ + n * step_n_;
         const std::uint8_t* const drawn = drawn_.pixels.data() + at;
         bool is_inner = inside(drawn[3]);
-        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - here.line) * side_ > 0.0;   // the number does not tell
+        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - here.line) * side_ > 0.0;   // the ids do not tell them apart
         if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
         const int step = is_inner ? -side_ : side_;
         const std::uint8_t* from = drawn;
@@ -104,15 +105,15 @@ private:
         if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
         const int x = across_ ? n : m, y = across_ ? m : n;
         if (!marks_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
-        const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip, where n is greater
-        // A line that passes the middle on the wrong side is an edge that something hides a little of: half at most.
+        const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip on the side of greater n
+        // A line that passes the center on the wrong side belongs to a partly hidden edge: half at most.
         const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
         const int weight = int(256.0 * share + 0.5);
         std::uint8_t* const to = frame_.pixels.data() + at;
         for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
     }
 
-    // The colour of the edge's own face, where it shows in a pixel beside these two: a narrow one does not everywhere.
+    // Color of the edge's own face, from a pixel beside these two; a narrow face does not show in every pixel.
     const std::uint8_t* of_face_beside(int m, int n, int step, const std::uint8_t* otherwise) const {
         for (const int beside : {m - 1, m + 1, m - 2, m + 2})
             for (const int at : {n, n + step}) {
@@ -128,7 +129,7 @@ private:
     Image& frame_;
     bool across_ = false;   // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
-    std::ptrdiff_t step_m_ = 0, step_n_ = 0;   // bytes
+    std::ptrdiff_t step_m_ = 0, step_n_ = 0;   // strides, bytes
     std::uint8_t inner_ = 0, outer_ = 0, face_ = 0;
 };
 
@@ -138,14 +139,14 @@ double share_before(double t, double half) { return share_of(t, half, inverse_wi
 
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
     for (const Rectangle& r : rectangles) {
-        const std::size_t bytes = 4 * std::size_t(r.width);   // not read again for each pixel: they might be written over it
+        const std::size_t bytes = 4 * std::size_t(r.width);   // a local copy, which the compiler need not reload for each pixel
         for (int y = r.y; y < r.y + r.height; ++y) {
             const std::uint8_t* from = drawn.at(r.x, y);
             std::uint8_t* to = frame.at(r.x, y);
             for (std::size_t at = 0; at < bytes; at += 4) {
                 std::uint32_t pixel;
                 std::memcpy(&pixel, from + at, 4);
-                pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all that we run on
+                pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all supported processors
                 std::memcpy(to + at, &pixel, 4);
             }
         }

@@ -1,7 +1,7 @@
-// Smooth edges for one sample a pixel. Where an edge is, is known (screen_edges.h), and so is the share of each pixel
-// that lies beyond it; that share of the colour is taken from the neighbour over the edge. After Persson 2011, Geometric
-// Post-process Anti-Aliasing, with exact areas, and with the surfaces' numbers in alpha telling which edges are in sight.
-// Costs a hundredth of four samples, and straight edges have all shades instead of five.
+// Analytic antialiasing with one sample per pixel. The edges are known (screen_edges.h), and so is the share of each
+// pixel beyond an edge; that share of the color is taken from the neighbor across the edge. After Persson 2011,
+// Geometric Post-process Anti-Aliasing, with exact areas, and with surface ids in alpha that tell which edges are
+// visible. It costs a hundredth of four samples per pixel, and straight edges have all shades instead of five.
 #pragma once
 
 #include "core/image.h"
@@ -13,14 +13,14 @@
 
 namespace tumble {
 
-/// Copies the drawn picture's rectangles to the frame, with alpha 255.
+/// Copies the rectangles of the drawn image to the frame, with alpha 255.
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame);
 
-/// Blends the edges within the marked tiles of the frame, which must hold the drawn picture there.
+/// Blends the edges in the dirty tiles of the frame, which must hold the drawn image there.
 void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks, Image& frame);
 
-/// The mean over x in [-half, half] of clamp(t - x, 0, 1): the share of a strip one pixel high and 2 half of the slope
-/// wide that lies before a line.
+/// The mean over x in [-half, half] of clamp(t - x, 0, 1): the share of a strip, one pixel high and 2 half of the slope
+/// wide, before a line.
 double share_before(double t, double half);
 
 }  // namespace tumble

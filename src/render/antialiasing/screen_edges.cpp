@@ -10,19 +10,19 @@
 namespace tumble {
 namespace {
 
-// A ball's outline as a polygon leaves the true one by no more than this.
+// Largest deviation of a ball's outline polygon from the circle.
 constexpr double circle_error = 0.03;   // pixels
 
-// A box that is smaller shows a step between its own faces in a pixel or two, which no one sees.
+// Below this size, a step between a box's own faces is a pixel or two long and invisible.
 constexpr double inner_edge_pixels = 3.0;   // of its longest edge
 
-// A face that is seen narrower than this may show at no pixel's middle along a part of its edge.
+// A face narrower than this on the screen may cover no pixel center along a part of its edge.
 constexpr double narrow_pixels = 1.0;
 
-// A mesh's edge is a crease when its faces' normals differ by more than this.
+// A mesh edge is a crease if the cosine between the normals of its faces is below this.
 constexpr double crease_cosine = 0.9;
 
-// Is a point nearer than so much to the line through two others?
+// True if a point is nearer than a distance to the line through two others.
 bool within(double distance, const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& point) {
     const double area = turn(a, b, point);
     return area * area < distance * distance * (b - a).squaredNorm();
@@ -30,7 +30,7 @@ bool within(double distance, const ScreenPoint& a, const ScreenPoint& b, const S
 
 bool before_eye(const Vec3& point, const Camera& view) { return point.dot(view.forward()) > 1e-3 * point.norm(); }
 
-// With `inside` on the inner side.
+// With the point `inside` on the inner side.
 ScreenEdge directed(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& inside, std::uint8_t inner,
                     std::uint8_t outer) {
     const ScreenPoint &from = turn(a, b, inside) >= 0.0 ? a : b, &to = &from == &a ? b : a;
@@ -61,7 +61,7 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
         std::size_t end = i;
         while (end < halves.size() && halves[end].low == halves[i].low && halves[end].high == halves[i].high) ++end;
         Edge edge{halves[i].low, halves[i].high, halves[i].triangle, -1, true};
-        if (end - i >= 2) {   // more than two triangles at an edge: those that do not count are near enough
+        if (end - i >= 2) {   // more than two triangles at an edge: the further ones coincide closely enough
             edge.right = halves[i + 1].triangle;
             edge.crease = normals[std::size_t(edge.left)].dot(normals[std::size_t(edge.right)]) < crease_cosine;
         }
@@ -93,7 +93,7 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
 void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint8_t faces) {
     const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
-    bool before = true;   // all of it
+    bool before = true;   // all corners are in front of the eye
     for (std::size_t i = 0; i < 8 && before; ++i) {
         before = before_eye(places[i], *view_);
         if (before) corners[i] = view_->pixel(places[i]);
@@ -101,7 +101,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
     if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm()))) return add_rod(body, item);
     const double depth = item.center.dot(view_->forward());
     const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
-    std::array<bool, 6> front{};   // turned to the eye, though perhaps hidden
+    std::array<bool, 6> front{};   // facing the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
         const Vec3& on_face = places[face % 2 == 1 ? bit : 0];
@@ -135,12 +135,12 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
             found_.back().face = std::uint8_t(face);
         }
     }
-    // What a pixel shows of a box is put together first, and then how much of it.
+    // A pixel is first filled with the box's own faces, then blended with its surroundings.
     if (narrow)
         std::stable_partition(found_.begin() + std::ptrdiff_t(first), found_.end(), [](const ScreenEdge& e) { return e.outer != 0; });
 }
 
-// Its longest axis, and at both ends how far the others reach square to that on the screen.
+// Uses the longest axis, and at both ends the extent of the other axes perpendicular to it on the screen.
 void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     Eigen::Index longest = 0;
     looks_->bodies[body].half_size.maxCoeff(&longest);
@@ -163,7 +163,7 @@ void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     rods_.push_back({ends[0].x(), ends[0].y(), ends[1].x(), ends[1].y(), half[0], half[1], surface_id(body, 0)});
 }
 
-// The outline of a ball is a circle in space: where rays from the eye graze it.
+// The outline of a ball is a circle in space, where rays from the eye are tangent.
 void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
     const double radius = looks_->bodies[body].half_size.x(), distance = item.center.norm();
     if (distance < 1.001 * radius) return;
@@ -187,7 +187,7 @@ void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
     }
 }
 
-// Of the level that is drawn.
+// Uses the level of detail that is drawn.
 void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item) {
     const RenderBody& look = looks_->bodies[body];
     const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
@@ -241,7 +241,7 @@ void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const Tri
             continue;
         }
         const ScreenPoint inside = (points[t[0]] + points[t[1]] + points[t[2]]) / 3.0;
-        // The mesh before itself has one number on both sides, as at a crease; where both are in sight they are blended.
+        // A mesh in front of itself has one id on both sides, as at a crease; visible edges are blended.
         found_.push_back(directed(points[edge.from], points[edge.to], inside, id, id));
         if (outline) found_.push_back(directed(points[edge.from], points[edge.to], inside, id, 0));
     }
@@ -254,13 +254,13 @@ void EdgeFinder::add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, 
         if (at_a < 0.0) a += (b - a) * (at_a / (at_a - at_b));
         else if (at_b < 0.0) b += (a - b) * (at_b / (at_b - at_a));
     }
-    constexpr double inward = 1e-3;   // of the way to c, which may lie behind the eye
+    constexpr double inward = 1e-3;   // of the way to c, which may be behind the eye
     const Vec3 middle = 0.5 * (a + b), inside = middle + inward * (c - middle);
     if (!before_eye(a, *view_) || !before_eye(b, *view_) || !before_eye(inside, *view_)) return;
     found_.push_back(directed(view_->pixel(a), view_->pixel(b), view_->pixel(inside), inner, outer));
 }
 
-// Where two planes meet: the part of the line before the eye.
+// The intersection of two planes: the part of the line in front of the eye.
 void EdgeFinder::add_corner(const PlanePatch& a, const PlanePatch& b) {
     const Vec3 along = a.normal.cross(b.normal);
     if (along.norm() < 1e-6) return;
@@ -280,7 +280,7 @@ void EdgeFinder::add_corner(const PlanePatch& a, const PlanePatch& b) {
     const Vec3 from = point + along * low, to = point + along * high;
     if (!before_eye(from, *view_) || !before_eye(to, *view_)) return;
     const ScreenPoint p = view_->pixel(from), q = view_->pixel(to);
-    // One over the depth is largest for the plane that is seen.
+    // The visible plane has the larger reciprocal depth.
     const ScreenPoint across = ScreenPoint(p.y() - q.y(), q.x() - p.x()).normalized(), beside = 0.5 * (p + q) + across;
     const Vec3 ray = view_->ray(beside.x(), beside.y());
     const bool a_there = -a.normal.dot(ray) / a.height > -b.normal.dot(ray) / b.height;

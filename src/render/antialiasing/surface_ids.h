@@ -1,5 +1,5 @@
-// Which surface a pixel shows, written into its alpha while the picture is drawn: smooth edges need to know. Eight bits
-// are few, so surfaces share numbers, but hardly neighbours; where two do, an edge between them stays as it is drawn.
+// Surface ids, written into alpha during drawing for analytic antialiasing. Eight bits are few: surfaces share ids, but
+// seldom neighboring ones; an edge between two of the same id is not smoothed.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +7,22 @@
 
 namespace tumble {
 
-/// Numbers from 1 on; the sky has 255.
+/// Ids from 1 on; the sky has 255.
 inline constexpr int surface_id_count = 253;
 
-/// Of a drawn body's face (0 for what has only one surface).
+/// Id of a face of a drawn body (face 0 for shapes with one surface).
 inline std::uint8_t surface_id(std::size_t body, std::size_t face) {
     return std::uint8_t(1 + (6 * body + face) % std::size_t(surface_id_count));
 }
 
-/// Does a number belong to the same box as that of one of its faces?
+/// True if an id belongs to the same box as the id of one of its faces.
 inline bool of_same_box(std::uint8_t id, std::uint8_t of_face, std::uint8_t face) {
-    int from_first = id - of_face + face;   // where the numbers began anew between the two, off by their count
+    int from_first = id - of_face + face;   // if the id counter wrapped between both, this is off by the number of ids
     from_first += from_first < 0 ? surface_id_count : from_first >= surface_id_count ? -surface_id_count : 0;
     return from_first < 6 && id <= surface_id_count;
 }
 
-/// The same as the shaders write it.
+/// The same value as the shaders write it.
 inline float surface_alpha(std::size_t body, std::size_t face) { return float(surface_id(body, face)) / 255.0f; }
 
 }  // namespace tumble

@@ -10,14 +10,15 @@
 namespace tumble {
 namespace {
 
-// A rod drawn a pixel wide and aslant shows in two pixels of a column at most: so far is something else to be found.
+// Range of the search for a pixel without a rod: an oblique rod drawn one pixel wide covers at most two pixels of a
+// column.
 constexpr int search = 3;
 
-// Pixels to both sides along the rod that its colour is the mean of: its sides take turns at pixels' middles.
+// Pixels to both sides along a rod over which its color is averaged, because its sides alternate at pixel centers.
 constexpr int along = 2;
 
 struct Mean {
-    std::array<double, 3> sum{};   // as shown, 0 to 255
+    std::array<double, 3> sum{};   // sRGB values, 0 to 255
     int count = 0;
     void add(const std::uint8_t* pixel) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
@@ -25,10 +26,10 @@ struct Mean {
     }
 };
 
-/// Which pixels show a rod. As wide as the picture.
+/// True for each pixel that shows a rod; row length as in the image.
 using RodPixels = std::vector<char>;
 
-// A rod in a picture seen along its main direction: m counts along, n across.
+// A rod in the image along its main direction: m counts along it, n across.
 class RodWalk {
 public:
     RodWalk(const Image& drawn, const ScreenRod& rod) : drawn_(drawn), first_face_(rod.first_face) {
@@ -45,17 +46,17 @@ public:
         count_n_ = steep_ ? drawn.width : drawn.height;
         length_ = std::max(m1_ - m0_, 1e-6);
         slope_ = (n1_ - n0_) / length_;
-        widening_ = std::sqrt(1.0 + slope_ * slope_);   // of what lies square to it, along n
+        widening_ = std::sqrt(1.0 + slope_ * slope_);   // of a perpendicular extent, along n
     }
 
-    /// Those that show this one.
+    /// Marks the pixels that show this rod.
     void mark(RodPixels& rods) const {
         for_each([&](int m, int n, double, double) {
             if (of_rod(m, n)) rods[index(m, n)] = 1;
         });
     }
 
-    /// Puts there what shows beside the rods.
+    /// Fills these pixels from beside the rods.
     void clear(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
         for_each([&](int m, int n, double, double) {
             if (!of_rod(m, n) || !marked(m, n, marks)) return;
@@ -72,7 +73,7 @@ public:
         });
     }
 
-    /// Covers each pixel as far as the rod does, where nothing but other rods hides it.
+    /// Blends the rod into each pixel by its coverage, where only other rods hide it.
     void cover(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
         for_each([&](int m, int n, double middle, double half) {
             const double share = std::min(covered(m, n, middle, half), 1.0);
@@ -89,7 +90,8 @@ public:
     }
 
 private:
-    /// All pixels that it covers or shows in, with the middle and half the width of where it crosses their column.
+    /// Visits all pixels that it covers or shows in, with the center and half width of its cross section in their
+    /// column.
     template <class See>
     void for_each(See see) const {
         const int first = int(std::clamp(std::floor(m0_) - 1.0, 0.0, double(count_m_)));
@@ -115,7 +117,7 @@ private:
         return marks.at((steep_ ? n : m) / DirtyTiles::tile, (steep_ ? m : n) / DirtyTiles::tile);
     }
 
-    /// The share of the pixel that the rod covers: what lies before its far side and not before its near one.
+    /// Coverage of the pixel by the rod: the share before its far side less the share before its near side.
     double covered(int m, int n, double middle, double half) const {
         const double from = std::max(double(m), m0_), to = std::min(m + 1.0, m1_);
         if (!(to > from)) return 0.0;

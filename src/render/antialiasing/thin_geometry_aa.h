@@ -1,6 +1,6 @@
-// Boxes thinner than a pixel. Pixels' middles miss them here and hit them there: drawn as they are they were dashes that flicker.
-// They are drawn about a pixel wide (body.vert), so that their colour is known all along, and then each pixel gets the
-// share of it that they truly cover, and the rest from beside them.
+// Antialiasing of boxes thinner than a pixel ("rods"). Pixel centers hit them irregularly, so without treatment they
+// would be flickering dashes. They are drawn about a pixel wide (body.vert), so that their color is known everywhere;
+// then each pixel gets its true coverage of it, and the rest from beside the rod.
 #pragma once
 
 #include "core/image.h"
@@ -11,20 +11,21 @@
 
 namespace tumble {
 
-/// Boxes are rods where two of their sides are less than twice the first and the third more than twice the last: specks stand
-/// in crowds, where nothing is to be seen beside them. Rods are drawn no thinner than twice the second.
+/// Half extents on the screen, pixels. A box is a rod if its median one is below the first value and its longest above
+/// the last: specks come in crowds, without a visible background beside them. Rods are drawn with at least the second
+/// value.
 inline constexpr double widest_rod_pixels = 0.6, thinnest_rod_pixels = 0.53, shortest_rod_pixels = 5.0 * widest_rod_pixels;
 
-/// Is it a box of such size whose half edges are these, in pixels?
+/// True if a box with these half edges, in pixels, is a rod.
 bool is_rod(const Vec3& half_pixels);
 
 struct ScreenRod {
-    double x0, y0, x1, y1;       // the ends of its middle line, pixels from the top left corner
-    double half0, half1;         // how far it reaches to both sides of that at the ends, pixels
-    std::uint8_t first_face;     // the number of its face 0 (surface_ids.h)
+    double x0, y0, x1, y1;       // ends of its center line, pixels from the top left corner
+    double half0, half1;         // half widths at the ends, pixels
+    std::uint8_t first_face;     // surface id of its face 0 (surface_ids.h)
 };
 
-/// Gives the pixels of the marked tiles their shares of the rods. After blend_analytic_edges().
+/// Blends the rods into the pixels of the dirty tiles by coverage. Call it after blend_analytic_edges().
 void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& marks, Image& frame);
 
 }  // namespace tumble

@@ -1,5 +1,5 @@
-// What a frame can hold beside its colours: "arbitrary output variables", one value a pixel. docs/reference/aovs.md tells users
-// their units, frames and signs.
+// The arbitrary output variables (AOVs) of a frame: one value per pixel. Units, frames and signs for users are in
+// docs/reference/aovs.md.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace tumble {
 
-/// depth: m along the view axis, infinity: nothing. normal: unit, world frame, 0: nothing. segmentation: 0: nothing,
-/// then bodies from 1 in scene order, then cords. motion: pixels to where the surface's point is in the next frame.
-/// albedo: the material's colour, sRGB, 0: nothing.
+/// depth: m along the view axis, infinity for the background. normal: unit, world frame, 0 for the background.
+/// segmentation: 0 for the background, then bodies from 1 in scene order, then cords. motion: pixels to the place of
+/// the surface point in the next frame. albedo: the material's color, sRGB, 0 for the background.
 enum class Aov { depth, normal, segmentation, motion, albedo };
 
 inline constexpr std::array all_aovs = {Aov::depth, Aov::normal, Aov::segmentation, Aov::motion, Aov::albedo};
@@ -20,7 +20,7 @@ inline constexpr std::array all_aovs = {Aov::depth, Aov::normal, Aov::segmentati
 std::string_view name_of(Aov aov);
 std::optional<Aov> aov_named(std::string_view name);
 
-/// Some of them.
+/// A set of AOVs.
 class AovSet {
 public:
     void add(Aov aov) { bits_ |= bit(aov); }

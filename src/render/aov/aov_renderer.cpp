@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-/// Calls back with the index, column and row of every pixel.
+/// Calls visit(index, column, row) for every pixel.
 template <class Visit>
 void for_each_pixel(const VisibilityBuffer& map, const Visit& visit) {
     std::size_t pixel = 0;
@@ -20,7 +20,7 @@ void for_each_pixel(const VisibilityBuffer& map, const Visit& visit) {
 
 void fill_depth(const VisibilityBuffer& map, std::vector<float>& values) { values.assign(map.depth.begin(), map.depth.end()); }
 
-/// What a surface has one value of, everywhere the same.
+/// Fills a pixel from a value that is constant over a surface.
 template <class Value>
 void fill_by_surface(const VisibilityBuffer& map, const std::vector<Value>& of_surface, const Value& of_nothing,
                      std::vector<Value>& values) {
@@ -53,8 +53,8 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
 
 void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& parts, const ScenePlaces& places,
                  const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
-    std::vector<Mat3> turns;               // of each part, to the world
-    std::vector<const float*> everywhere;  // of planes: their one normal
+    std::vector<Mat3> turns;               // rotation of each part to the world
+    std::vector<const float*> everywhere;  // of planes: their constant normal
     std::vector<std::array<float, 3>> planes(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
         turns.push_back((snapshot.bodies[parts[i].body].orientation * parts[i].rotation).toRotationMatrix());

@@ -1,6 +1,5 @@
-// From poses to the values of a frame beside its colours (aov_kind.h), exact for each pixel's centre: no smooth edges. On
-// the CPU, in double precision, from the shapes themselves; needs no OpenGL. The poses are the true ones, not those that
-// are drawn (drawn_poses.h): a body that trembles by a hundredth of a pixel does so here.
+// Computes the AOVs of a frame (aov_kind.h) at pixel centers, without antialiasing: on the CPU, in double precision,
+// from the shapes themselves, without OpenGL. The poses are the true ones, not the filtered ones of pose_filter.h.
 #pragma once
 
 #include "render/aov/aov_kind.h"
@@ -16,20 +15,20 @@
 
 namespace tumble {
 
-/// The poses of a frame; those of the next are needed for motion only.
+/// The poses of a frame and, if motion is needed, of the next one.
 struct AovPoses {
     Snapshot now;
     std::optional<Snapshot> next;
 };
 
-/// The values asked for; the others are empty. Top row first, the values of a pixel next to each other.
+/// The requested AOVs; the others are empty. Top row first, channels of a pixel adjacent.
 struct AovFrame {
     PinholeCamera camera;
-    std::vector<float> depth;                  // 1 a pixel
-    std::vector<float> normal;                 // 3
-    std::vector<std::int32_t> segmentation;    // 1
-    std::vector<float> motion;                 // 2: columns, rows
-    std::vector<std::uint8_t> albedo;          // 3: red, green, blue
+    std::vector<float> depth;                  // 1 per pixel
+    std::vector<float> normal;                 // 3 per pixel
+    std::vector<std::int32_t> segmentation;    // 1 per pixel
+    std::vector<float> motion;                 // 2 per pixel: columns, rows
+    std::vector<std::uint8_t> albedo;          // 3 per pixel: red, green, blue
 };
 
 class AovRenderer {
@@ -53,13 +52,13 @@ private:
     VisibilityBufferRenderer finder_;
 };
 
-/// Tells frames whose values are those of the frame before, to the bit.
+/// Detects frames whose values equal those of the frame before, to the bit.
 class AovChanges {
 public:
     explicit AovChanges(const SceneDescription& scene) : path_(scene.camera) {}
 
-    /// Of every frame, in order. False: since the call before neither a body nor the camera has moved, in this frame or to
-    /// the next.
+    /// Call it for every frame, in order. Returns false if since the previous call neither a body nor the camera has
+    /// moved, in this frame or to the next.
     bool follow(const AovPoses& poses);
 
 private:

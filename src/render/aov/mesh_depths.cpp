@@ -5,17 +5,17 @@
 namespace tumble {
 namespace {
 
-/// A triangle as rays (x, y, 1) meet it. Olano and Greer 1997, DepthTriangle Scan Conversion using 2D Homogeneous Coordinates:
-/// a ray d passes on the inner side of the edge a b where (a x b) . d has the sign of the triangle's own volume with the
-/// eye; so nothing needs to be cut off behind the eye.
+/// A triangle prepared for rays (x, y, 1). Olano and Greer 1997, Triangle Scan Conversion using 2D Homogeneous
+/// Coordinates: a ray d passes on the inner side of the edge a b if (a x b) . d has the sign of the volume of the
+/// triangle with the eye. Nothing has to be clipped behind the eye.
 struct DepthTriangle {
-    std::array<Vec3, 3> edges;   // opposite to each corner, turned to be positive inside
-    Vec3 normal;                 // not of unit length
+    std::array<Vec3, 3> edges;   // opposite to each corner, oriented to be positive inside
+    Vec3 normal;                 // not normalized
     double height;               // normal . corner
 
-    /// False: it is seen edge-on, or from behind and `closed` says that this cannot be.
+    /// False if it is seen edge-on, or from behind although `closed` excludes that.
     bool set(const std::array<Vec3, 3>& corners, bool closed) {
-        // From differences: of the large products little would be left where the triangle is small and far.
+        // From differences, because the large products would cancel for a small and distant triangle.
         normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         height = normal.dot(corners[0]);
         const bool front = height < 0.0;
@@ -51,7 +51,7 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
             for (int column = bounds.first; column <= bounds.last; ++column) {
                 const double x = ray_x[std::size_t(column)];
                 if (!(a.at(x) >= 0.0 && b.at(x) >= 0.0 && c.at(x) >= 0.0)) continue;
-                const double depth = triangle.height / fall.at(x);   // edge-on its sign is a matter of rounding
+                const double depth = triangle.height / fall.at(x);   // edge-on, the sign depends on rounding
                 const std::size_t pixel = map.at(column, row);
                 if (!(depth > 0.0 && depth < map.depth[pixel])) continue;
                 map.depth[pixel] = depth;

@@ -1,5 +1,5 @@
-// Triangles under the rays of pixels. Neighbours in a mesh leave no gap: the two sides of an edge are told apart by the
-// same number, with the other sign.
+// Intersection of triangles with the rays of pixels. Adjacent triangles of a mesh leave no gap: both decide by the same
+// number with opposite signs.
 #pragma once
 
 #include "core/vector.h"
@@ -12,16 +12,16 @@
 namespace tumble {
 
 struct MeshTriangles {
-    std::span<const Vec3> vertices;             // in the camera's frame, m
-    std::span<const std::uint32_t> indices;     // three a triangle, counter-clockwise from outside
-    bool closed;                                // back faces are not seen
+    std::span<const Vec3> vertices;             // camera frame, m
+    std::span<const std::uint32_t> indices;     // three per triangle, counter-clockwise seen from outside
+    bool closed;                                // back faces are not visible
 };
 
-/// Those that are nearer than what is in the map already. `ray_x` is of each column.
+/// Stores the triangles that are nearer than the values in the buffer. `ray_x`: of each column.
 void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
                     std::span<const double> ray_x, VisibilityBuffer& map);
 
-/// The share of each corner in the point where a ray meets the triangle (barycentric; they add up to 1).
+/// Barycentric coordinates of the intersection of a ray with the triangle; their sum is 1.
 std::array<double, 3> corner_shares(const std::array<Vec3, 3>& corners, const Vec3& ray);
 
 }  // namespace tumble

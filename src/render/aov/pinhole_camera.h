@@ -1,6 +1,6 @@
-// The camera as computer vision writes it (and OpenCV): x to the right, y down, z forward, all in m from the eye; and
+// The camera in the convention of computer vision and OpenCV: x to the right, y down, z forward, in m from the eye, and
 //   column = focal x / z + center_x,   row = focal y / z + center_y
-// where a pixel's centre has whole numbers, and (0, 0) is the top left pixel.
+// with integers at pixel centers and (0, 0) at the top left pixel.
 #pragma once
 
 #include "core/vector.h"
@@ -12,12 +12,12 @@ struct PinholeCamera {
     explicit PinholeCamera(const Camera& view);
 
     int width, height;            // pixels
-    double focal;                 // pixels, for both axes: pixels are square
+    double focal;                 // pixels, for both axes, because pixels are square
     double center_x, center_y;    // pixels
-    Mat3 axes;                    // columns: the camera's x, y and z in the world
-    Vec3 eye;                     // m, world
+    Mat3 axes;                    // columns: the camera's x, y and z in world axes
+    Vec3 eye;                     // m, world frame
 
-    /// The ray through a pixel's centre is (x, y, 1).
+    /// The ray through a pixel center is (x, y, 1).
     double ray_x(int column) const { return (column - center_x) / focal; }
     double ray_y(int row) const { return (row - center_y) / focal; }
 

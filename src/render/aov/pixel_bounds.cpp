@@ -7,10 +7,10 @@
 namespace tumble {
 namespace {
 
-// Nearer to the eye's plane than this part of its distance from the axis, a point says little of where it is seen.
+// Depth over the distance from the axis below which the projection of a point is too uncertain.
 constexpr double steepest = 1e-6;
 
-/// A place on the screen to a whole pixel; far outside is as good as just outside.
+/// Clamps a screen coordinate to one pixel outside the image and rounds it.
 int to_pixel(double place, int size) { return int(std::clamp(place, -1.0, double(size))); }
 
 }  // namespace

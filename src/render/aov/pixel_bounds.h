@@ -1,4 +1,4 @@
-// The pixels whose rays may meet a shape.
+// Bounds of the pixels whose rays may hit a shape.
 #pragma once
 
 #include "core/vector.h"
@@ -14,7 +14,7 @@ struct PixelBounds {
     bool empty() const { return first > last || top > bottom; }
 };
 
-/// Of the convex hull of some points in the camera's frame: never too few pixels.
+/// Conservative bounds of the convex hull of points in the camera frame.
 PixelBounds pixel_bounds(std::span<const Vec3> points, const PinholeCamera& camera);
 
 }  // namespace tumble

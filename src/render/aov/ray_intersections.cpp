@@ -12,21 +12,21 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-// These become single instructions; std::min and std::max take references.
+// Compile to single instructions, unlike std::min and std::max, which take references.
 inline double smaller(double a, double b) { return a < b ? a : b; }
 inline double larger(double a, double b) { return a > b ? a : b; }
 
-/// One pair of a box's faces, as the rays see it.
+/// One pair of parallel faces of a box.
 struct Slab {
     double along_x, along_row;   // the ray's component across the slab: along_x x + along_row
-    double first, last;          // where the faces are, from the eye
+    double first, last;          // distances of the faces from the eye
 };
 
 TUMBLE_WIDE void slab_depths(const std::array<Slab, 3>& slabs, const double* x, std::size_t count, double* depths) {
     const Slab a = slabs[0], b = slabs[1], c = slabs[2];
     for (std::size_t i = 0; i < count; ++i) {
-        // Kay and Kajiya 1986, Ray Tracing Complex Scenes: in when the last slab is entered before the first is left.
-        // A ray along a slab divides by zero, and the infinities that come of it compare rightly.
+        // Kay and Kajiya 1986, Ray Tracing Complex Scenes: a ray hits if it enters the last slab before it leaves the
+        // first. For a ray parallel to a slab, division by zero gives infinities that compare correctly.
         const double to_a = 1.0 / (a.along_x * x[i] + a.along_row);
         const double to_b = 1.0 / (b.along_x * x[i] + b.along_row);
         const double to_c = 1.0 / (c.along_x * x[i] + c.along_row);
@@ -36,16 +36,16 @@ TUMBLE_WIDE void slab_depths(const std::array<Slab, 3>& slabs, const double* x, 
         const double in = larger(larger(smaller(a1, a2), smaller(b1, b2)), smaller(c1, c2));
         const double out = smaller(smaller(larger(a1, a2), larger(b1, b2)), larger(c1, c2));
         const double depth = in <= out ? in : none;
-        depths[i] = depth > 0.0 ? depth : none;   // behind the eye, or around it
+        depths[i] = depth > 0.0 ? depth : none;   // behind the eye, or the eye is inside
     }
 }
 
-/// A ball; or a cylinder without end, when the ray's component along its axis is taken away.
+/// A ball; or an infinite cylinder, after removal of the ray's component along its axis.
 struct Round {
-    Vec3 center;             // of the cylinder: its axis's nearest point to the eye
+    Vec3 center;             // of the cylinder: the point of its axis nearest to the eye
     Vec3 axis;               // unit; zero: a ball
     double radius_squared;
-    double outside;          // squared distance to the centre, less that of the radius
+    double outside;          // squared distance of the center, less the squared radius
 };
 
 TUMBLE_WIDE void round_depths(const Round& shape, const double* xs, double ray_y, std::size_t count, double* depths) {
@@ -55,8 +55,8 @@ TUMBLE_WIDE void round_depths(const Round& shape, const double* xs, double ray_y
     for (std::size_t i = 0; i < count; ++i) {
         const double along = ax * xs[i] + ay * ray_y + az;
         const double x = xs[i] - along * ax, y = ray_y - along * ay, z = 1.0 - along * az;
-        // Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection: the centre's distance from the ray
-        // itself, not the difference of large squares; and the quotient that does not cancel.
+        // Haines et al. 2019, Precision Improvements for Ray/Sphere Intersection: the distance of the center from the
+        // ray instead of a difference of large squares, and the quotient without cancellation.
         const double squared = x * x + y * y + z * z;
         const double towards = cx * x + cy * y + cz * z;
         const double nearest = towards / squared;

@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-/// Only a mesh can be open: its inside is then seen too, as where it is drawn (mesh_library.cpp).
+/// Only a mesh can be open; its inside is then visible, as in gpu_mesh_cache.cpp.
 bool is_closed(const Shape& shape) {
     const auto* mesh = std::get_if<MeshShape>(&shape);
     if (mesh == nullptr) return true;
@@ -19,7 +19,7 @@ std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
     std::vector<ShapeInstance> parts;
     const auto add = [&](ShapeInstance part) {
         if (const auto* mesh = std::get_if<MeshShape>(&part.shape); mesh != nullptr && !mesh->asset) return;
-        // Copies share their mesh, and stand next to each other.
+        // Copies share their mesh and are adjacent.
         const auto* mesh = std::get_if<MeshShape>(&part.shape);
         const auto* before = parts.empty() ? nullptr : std::get_if<MeshShape>(&parts.back().shape);
         const bool known = mesh != nullptr && before != nullptr && mesh->asset == before->asset;

@@ -1,4 +1,4 @@
-// A scene taken apart into what rays can hit: single shapes, each on a body (compounds give several), and cords.
+// Expands a scene into ray targets: single shapes, each on a body (a compound has several), and cords.
 #pragma once
 
 #include "core/color.h"
@@ -13,22 +13,22 @@ namespace tumble {
 
 /// One shape of a visible body.
 struct ShapeInstance {
-    std::size_t body = 0;               // of the scene
-    Shape shape;                        // no compound
+    std::size_t body = 0;               // index in the scene
+    Shape shape;                        // not a compound
     Vec3 position = Vec3::Zero();       // of the part, body frame, m
     Quat rotation = Quat::Identity();
     Color color;
-    bool closed = true;                 // its back faces are never seen
+    bool closed = true;                 // its back faces are never visible
 };
 
-/// In scene order. The meshes' assets must outlive them, as the scene does.
+/// In scene order. The scene must outlive them, because it owns the meshes.
 std::vector<ShapeInstance> surface_parts(const SceneDescription& scene);
 
-/// What segmentation calls a body, all its parts alike, and a cord. 0 is the background.
+/// Segmentation value of a body (the same for all its parts) or a cord. 0 is the background.
 std::uint32_t body_id(std::size_t body);
 std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord);
 
-/// Where a part is as a camera sees it: a point p of the part is at origin + axes p. Both in the camera's frame.
+/// Pose of a part in the camera frame: a point p of the part is at origin + axes p.
 struct PartPlace {
     Mat3 axes;
     Vec3 origin;   // m
@@ -37,7 +37,7 @@ struct PartPlace {
 };
 PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera);
 
-/// A cord's two ends in the camera's frame: its anchor and its place on the body.
+/// The ends of a cord in the camera frame: its anchor and its attachment on the body.
 struct CordPlace {
     Vec3 from, to;   // m
 

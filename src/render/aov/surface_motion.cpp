@@ -11,7 +11,7 @@ RigidMotion between(const PartPlace& now, const PartPlace& next) {
     return {turn, next.origin - turn * now.origin};
 }
 
-/// A cord stays tied at both ends: what is not along it only turns with it.
+/// A cord stays attached at both ends; offsets perpendicular to it only rotate with it.
 RigidMotion between(const CordPlace& now, const CordPlace& next) {
     const Mat3 turn = turn_between(now.to - now.from, next.to - next.from).toRotationMatrix();
     return {turn, next.from - turn * now.from};
@@ -41,7 +41,7 @@ Eigen::Vector2d SurfaceMotion::of_surface(std::uint32_t surface, const Vec3& poi
     const RigidMotion& motion = surfaces_[surface];
     Vec3 next = motion.turn * point + motion.shift;
     if (surface >= parts_) {
-        // A cord that becomes longer takes each point along by its share of the length.
+        // A cord that gets longer displaces each point by its share of the length.
         const CordPlace &a = cords_now_[surface - parts_], &b = cords_next_[surface - parts_];
         const Vec3 along = a.to - a.from;
         const double share = along.dot(point - a.from) / along.squaredNorm();

@@ -1,5 +1,5 @@
-// Where the point of a surface that a pixel shows is seen in the next frame: its body moves as a rigid one, and the camera
-// may move as well. The frames in between, and what may hide the point then, do not matter.
+// Image motion: the position in the next frame of the surface point that a pixel shows. The body moves rigidly, and the
+// camera may move. Intermediate frames and occlusion in the next frame are ignored.
 #pragma once
 
 #include "render/aov/visibility_buffer.h"
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// A point p of this frame (camera's frame) is at turn p + shift in the next one (the next camera's frame).
+/// A point p of this frame (camera frame) is at turn p + shift in the next frame (its camera frame).
 struct RigidMotion {
     Mat3 turn = Mat3::Identity();
     Vec3 shift = Vec3::Zero();   // m
@@ -19,22 +19,22 @@ public:
     SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera, const ScenePlaces& next,
                   const PinholeCamera& next_camera);
 
-    /// Has neither the surface nor the camera moved? Its motion is then zero to the bit.
+    /// True if neither the surface nor the camera has moved; the motion is then zero to the bit.
     bool rests(std::uint32_t surface) const { return rests_[surface] != 0; }
     bool background_rests() const { return camera_rests_; }
 
-    /// Of a surface's point under a pixel: columns and rows from this pixel's centre to its place in the next frame. NaN
-    /// where it is then behind the eye.
+    /// Motion of a surface point under a pixel: columns and rows from this pixel's center to its position in the next
+    /// frame. NaN if it is then behind the eye.
     Eigen::Vector2d of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const;
 
-    /// The same of the background, infinitely far away along a ray.
+    /// The same for the background, infinitely far away along a ray.
     Eigen::Vector2d of_nothing(const Vec3& ray, int column, int row) const;
 
 private:
     Eigen::Vector2d to(const Vec3& next_point, int column, int row) const;
 
     std::vector<RigidMotion> surfaces_;   // parts, then cords
-    std::vector<char> rests_;             // of each
+    std::vector<char> rests_;             // of each surface
     std::vector<CordPlace> cords_now_, cords_next_;
     std::size_t parts_;
     bool camera_rests_;

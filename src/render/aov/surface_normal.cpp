@@ -10,7 +10,7 @@ namespace {
 
 Vec3 normal_of(const PlaneShape& plane, const PartPlace&, std::uint32_t, const Vec3&, double) { return plane.normal; }
 
-/// That of the face through which the ray comes in: the one whose plane it passes last.
+/// Normal of the face through which the ray enters: the one whose plane it crosses last.
 Vec3 normal_of(const BoxShape& box, const PartPlace& place, std::uint32_t, const Vec3& ray, double) {
     int last = 0;
     double last_depth = -std::numeric_limits<double>::infinity(), side = 1.0;

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// A box's corners in the camera's frame.
+/// Corners of a box in the camera frame.
 std::array<Vec3, 8> corners_of(const PartPlace& place, const Vec3& middle, const Vec3& half_size) {
     std::array<Vec3, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -76,7 +76,7 @@ void VisibilityBufferRenderer::find_shape(const PlaneShape& plane, std::size_t i
                                const PinholeCamera& camera) {
     const Vec3 normal = place.axes * plane.normal;
     const double height = -normal.dot(place.origin) - plane.offset;
-    // A plane has no corners: the whole picture, as of a hull that goes through the eye.
+    // A plane has no corners; its bounds are the whole image, as for a hull that contains the eye.
     const std::array<Vec3, 2> everywhere = {Vec3(0.0, 0.0, 1.0), Vec3(0.0, 0.0, -1.0)};
     find_rows(everywhere, index, camera,
               [&](const RayRow& rays, double* depths) { plane_depths(normal, height, rays, depths); });

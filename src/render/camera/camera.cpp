@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-// The axis of the world that is furthest from a direction.
+// The world axis with the largest angle to a direction.
 Vec3 most_across(const Vec3& direction) {
     Vec3::Index smallest = 0;
     direction.cwiseAbs().minCoeff(&smallest);
@@ -20,11 +20,12 @@ Camera::Camera(const CameraDescription& camera, int width, int height, const Eig
     : eye_(camera.eye), width_(width), height_(height), shift_(shift) {
     const Vec3 to_target = camera.target - camera.eye;
     target_distance_ = to_target.norm();
-    if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye in its own target looks along -z
+    if (!(target_distance_ > 0.0)) target_distance_ = 1.0;  // an eye at its target looks along -z
     forward_ = to_target.norm() > 0.0 ? Vec3(to_target / target_distance_) : Vec3(0.0, 0.0, -1.0);
     right_ = forward_.cross(camera.up);
     viewing_distance_ = target_distance_;
-    // An up that is parallel to the view (a camera straight from above) leaves the turn open: any axis across will do.
+    // An up vector parallel to the view (a camera straight from above) leaves the roll undefined: any perpendicular
+    // axis is valid.
     if (!(right_.norm() > 1e-9 * camera.up.norm())) right_ = forward_.cross(most_across(forward_));
     right_.normalize();
     up_ = right_.cross(forward_);

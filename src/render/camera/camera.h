@@ -1,8 +1,8 @@
-// The pinhole camera: where a point of the world lands on the screen, and what is in view at all.
+// The pinhole camera: the pixel of a world point, and the bounds of the view.
 // With e the eye, unit axes r (right), u (up), f (forward), and t = tan(vertical_fov / 2), a = width / height:
 //   x_pixel = width  / 2 (1 + (p-e).r / (a t (p-e).f))
 //   y_pixel = height / 2 (1 - (p-e).u / (  t (p-e).f))      counted from the top left corner of the picture.
-// Positions are handed on relative to the eye, subtracted here in double precision.
+// Positions are relative to the eye, subtracted here in double precision.
 #pragma once
 
 #include "core/vector.h"
@@ -17,11 +17,11 @@ namespace tumble {
 
 class Camera {
 public:
-    /// `shift`, in pixels, moves the whole picture: averages of many small ones have smooth edges.
+    /// `shift`, in pixels, moves the whole image: the mean of several shifted images has smooth edges.
     Camera(const CameraDescription& camera, int width, int height,
                const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
-    /// The same picture's view from another place. Patterns and haze keep theirs.
+    /// The same camera at another place, with the same scale of patterns and fog.
     Camera from(const CameraDescription& camera) const;
 
     const Vec3& eye() const { return eye_; }
@@ -31,11 +31,11 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// Distance from eye to target, m: the scale of what is looked at.
+    /// Distance from eye to target, m: a length scale of the view.
     double target_distance() const { return target_distance_; }
 
-    /// What patterns fit, and where half of a thing's light is haze, m: the same for a whole clip. Until told otherwise the
-    /// distance to the target and no haze.
+    /// Reference distance of patterns, and distance at which fog is half of a body's light, m; constant over a clip.
+    /// Default: the distance to the target, and no fog.
     double viewing_distance() const { return viewing_distance_; }
     double fog_distance() const { return haze_distance_; }
     Camera with_distances(double viewing, double haze) const;
@@ -45,23 +45,23 @@ public:
 
     Vec3 relative(const Vec3& world) const { return world - eye_; }
 
-    /// Where a point in front of the eye, relative to it, lands: pixels from the top left corner.
+    /// Pixels from the top left corner, of a point in front of the eye. `relative`: m, from the eye.
     Eigen::Vector2d pixel(const Vec3& relative) const;
 
-    /// The ray through a point of the picture (pixels from the top left corner), one long along the axis.
+    /// The ray through a point of the image (pixels from the top left corner), with length 1 along the view axis.
     Vec3 ray(double x, double y) const;
 
-    /// Inward unit normals of the four sides of the view, all through the eye.
+    /// Inward unit normals of the four side planes of the view frustum, all through the eye.
     const std::array<Vec3, 4>& sides() const { return sides_; }
 
-    /// Could a ball (relative to the eye) be in the picture?
+    /// True if a ball (relative to the eye) may be visible.
     bool sees(const Vec3& center, double radius) const;
 
-    /// Could a ball's shadow, thrown along a direction, be in the picture?
+    /// True if a ball's shadow, cast along a direction, may be visible.
     bool sees_swept(const Vec3& center, double radius, const Vec3& direction) const;
 
-    /// Relative position to clip space, for a near plane at this distance and none far away. The first row of the
-    /// picture is at y = -1: glReadPixels then delivers it first, and nothing needs to be turned over.
+    /// Relative position to clip space, with a near plane at this distance and an infinite far plane. The first row of
+    /// the image is at y = -1, so that glReadPixels delivers it first.
     glm::mat4 clip_from_relative(double near_distance) const;
 
 private:

@@ -36,16 +36,16 @@ CameraAnimation::CameraAnimation(const CameraDescription& camera) : camera_(came
 
 Vec3 CameraAnimation::up_at(double time) const {
     constexpr double parallel = 1e-9;   // rad: as for Camera
-    constexpr double back = 1e-4;       // of the time since the last key: near enough, and far above rounding
+    constexpr double back = 1e-4;       // of the time since the last key: close, and far above rounding
     const Vec3& up = camera_.up;
     const auto view_at = [&](double t) -> Vec3 { return tracks_->target.at(t) - tracks_->eye.at(t); };
     const Vec3 view = view_at(time);
     if (view.cross(up).norm() > parallel * view.norm() * up.norm()) return up;
-    // No key is there (the scene's reader sees to that), so there is one before.
+    // The scene reader ensures that no key is at this time, so there is an earlier one.
     double key = camera_.keyframes.front().time;
     for (const CameraKeyframe& k : camera_.keyframes)
         if (k.time < time) key = k.time;
-    const Vec3 across = view_at(time - back * (time - key)).cross(up);   // to the right in the picture just before
+    const Vec3 across = view_at(time - back * (time - key)).cross(up);   // to the right in the image just before
     const Vec3 in_passing = across.cross(view);
     return in_passing.norm() > 0.0 ? in_passing : up;
 }
@@ -53,7 +53,7 @@ Vec3 CameraAnimation::up_at(double time) const {
 Vec3 CameraAnimation::carried(const Snapshot& snapshot) const {
     if (!camera_.follow) return Vec3::Zero();
     const BodyState& body = snapshot.bodies.at(*camera_.follow);
-    // The scene does not know where the centre of mass is; but the body is rigid, so it is where it was, body frame.
+    // The scene has no center of mass. The body is rigid, so its center is constant in the body frame.
     const Vec3 center = body.orientation.conjugate() * (body.center_of_mass - body.origin);
     return body.center_of_mass - (camera_.follow_start + camera_.follow_start_rotation * center);
 }
@@ -70,7 +70,7 @@ CameraDescription CameraAnimation::at(const Snapshot& snapshot) const {
         now.vertical_fov = tracks_->vertical_fov.at(snapshot.time)[0];
         now.up = up_at(snapshot.time);
     }
-    // Whole turns go first, in degrees, where they are exact.
+    // Whole turns are removed first, in degrees, where they are exact.
     const double angle = std::remainder(camera_.orbit * snapshot.time, 360.0);
     if (angle != 0.0) {
         const Vec3 axis = camera_.up.normalized();

@@ -1,8 +1,11 @@
-// Where a moving camera is: a function of the scene and one snapshot alone, so that every process that draws finds the
-// same place. Three movements, one after the other: along the keyframes; in a circle about the target, by
-// orbit * t around `up`; along with a body, eye and target by the way that its centre of mass has gone (a body that tumbles
-// turns around that, and its origin swings). Straight above or below its target, where `up` does not tell how the picture is
-// turned, it is turned as just before.
+// Pose of a moving camera, a function of the scene and one snapshot only, so that every render process gets the same
+// pose. Three movements are composed:
+// 1. along the keyframes;
+// 2. around the target, by orbit * t about `up`;
+// 3. with a followed body: eye and target are translated with its center of mass (the origin of a tumbling body swings
+// about it).
+// Straight above or below its target, where `up` leaves the roll undefined, the camera keeps the roll of the moment
+// before.
 #pragma once
 
 #include "core/keyframe_curve.h"
@@ -17,10 +20,10 @@ class CameraAnimation {
 public:
     explicit CameraAnimation(const CameraDescription& camera);
 
-    /// Eye, target, up and field of view at the snapshot's time. A whole turn comes back to the last bit.
+    /// Eye, target, up and field of view at the snapshot's time. A whole turn returns to the same bits.
     CameraDescription at(const Snapshot& snapshot) const;
 
-    /// How far the followed body has carried the camera; zero without one, m.
+    /// Displacement of the camera with the followed body; zero without one, m.
     Vec3 carried(const Snapshot& snapshot) const;
 
 private:
@@ -29,13 +32,13 @@ private:
         KeyframeCurve eye, target, vertical_fov;
     };
     static std::optional<Tracks> tracks_of(const CameraDescription& camera);
-    /// The way that is up in the picture, by the keyframes alone.
+    /// Up direction from the keyframes alone.
     Vec3 up_at(double time) const;
 
     std::optional<Tracks> tracks_;
 };
 
-/// Do both show the same picture?
+/// True if both cameras show the same image.
 bool same_place(const CameraDescription& a, const CameraDescription& b);
 
 }  // namespace tumble

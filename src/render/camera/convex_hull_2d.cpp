@@ -17,7 +17,7 @@ FewPoints convex_hull(FewPoints points) {
             while (hull.size() >= base + 2 && turn(hull[hull.size() - 2], hull.back(), *at) <= 0.0) hull.pop_back();
             hull.push_back(*at);
         }
-        hull.pop_back();  // the next half begins with it
+        hull.pop_back();  // the next half begins with this point
     };
     if (points.size() == 0) return hull;
     half(points.begin(), points.end());

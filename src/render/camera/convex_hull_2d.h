@@ -10,12 +10,12 @@ namespace tumble {
 
 using ScreenPoint = Eigen::Vector2d;   // pixels from the top left corner
 
-/// Twice the area of the triangle a, b, c; positive when it turns from x to y.
+/// Twice the area of the triangle a, b, c; positive if it turns from x to y.
 inline double turn(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Some points, without a heap: hulls are made of a body's corners, thousands of them a frame.
+/// A small array on the stack: thousands of hulls of a body's corners are computed per frame.
 class FewPoints {
 public:
     static constexpr std::size_t most = 16;
@@ -29,11 +29,11 @@ public:
     const ScreenPoint& back() const { return points_[count_ - 1]; }
 
 private:
-    std::array<ScreenPoint, 2 * most> points_;   // a hull in the making has some that go again
+    std::array<ScreenPoint, 2 * most> points_;   // an unfinished hull holds points that are removed later
     std::size_t count_ = 0;
 };
 
-/// The corners of the smallest convex polygon around the points, all turns positive. Fewer than three: no area.
+/// The corners of the convex hull of the points, all turns positive. Fewer than three: no area.
 FewPoints convex_hull(FewPoints points);
 
 }  // namespace tumble

@@ -14,7 +14,7 @@ namespace {
 
 using Point = ScreenPoint;
 
-// Rasterisation rounds to 1/256 pixel; a whole pixel is a safe distance from a silhouette.
+// Rasterization rounds to 1/256 pixel; one pixel is a safe distance from a silhouette.
 constexpr double cell_margin = 1.0;  // pixels
 
 struct Projected {
@@ -23,7 +23,7 @@ struct Projected {
     double x0 = nearest, y0 = nearest, x1 = -nearest, y1 = -nearest;           // pixels
 };
 
-// False when a corner is beside or behind the eye.
+// False if a corner is beside or behind the eye.
 bool project(std::span<const Vec3> corners, const Camera& view, Projected& result) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const double depth = corners[i].dot(view.forward());
@@ -45,7 +45,7 @@ int last_cell(double pixel, int count) {
     return int(std::floor(std::min(pixel, double(count * CoarseDepthBuffer::cell) - 1.0) / CoarseDepthBuffer::cell));
 }
 
-// Those turned to the eye and not hidden.
+// Faces that are turned to the eye and not hidden.
 std::uint8_t visible_faces(const CoarseDepthBuffer::Corners& corners, const CoarseDepthBuffer& cover) {
     std::uint8_t faces = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -54,7 +54,7 @@ std::uint8_t visible_faces(const CoarseDepthBuffer::Corners& corners, const Coar
             std::size_t count = 0;
             for (std::size_t i = 0; i < 8; ++i)
                 if ((i >> axis & 1) == side) points[count++] = corners[i];
-            const std::size_t other = std::size_t(1) << axis;  // the corner across the box from corner 0 along the axis
+            const std::size_t other = std::size_t(1) << axis;  // the corner opposite to corner 0 along the axis
             const Vec3 outward = (corners[other] - corners[0]) * (side == 1 ? 1.0 : -1.0);
             if (outward.dot(points[0]) < 0.0 && !cover.hides(points)) faces |= std::uint8_t(1u << (2 * axis + side));
         }
@@ -76,7 +76,8 @@ void CoarseDepthBuffer::add(const Corners& corners) {
     for (const Point& p : box.points) points.push_back(p);
     const FewPoints hull = convex_hull(points);
     if (hull.size() < 3) return;
-    // On each line between rows of cells, the hull without its rim is an interval; a cell is covered within both of its.
+    // The hull, less its margin, is an interval on each line between rows of cells; a cell is covered if it is inside
+    // both of its intervals.
     const auto interval = [&](double y, double& left, double& right) {
         left = -std::numeric_limits<double>::infinity();
         right = -left;
@@ -114,12 +115,12 @@ bool CoarseDepthBuffer::hides(std::span<const Vec3> corners) const {
 
 namespace {
 
-// What is smaller than this is looked at pixel by pixel in a crowd.
-constexpr double small = 48.0;   // pixels across
+// In scenes of many bodies, smaller ones are culled per pixel.
+constexpr double small = 48.0;   // size on the screen, pixels
 
 struct Candidate {
     std::uint32_t body;
-    float distance;   // m; of the ball around it
+    float distance;   // m; of the bounding ball
 };
 
 std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot& snapshot, const Camera& view) {
@@ -136,7 +137,7 @@ std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot&
     return candidates;
 }
 
-// Puts the faces of a small box into the cover. Which of them may be seen?
+// Adds the faces of a small box to the depth buffer. Returns the faces that may be visible.
 std::uint8_t add_faces(const CoarseDepthBuffer::Corners& corners, const Projected& box, const Camera& view, SoftwareDepthBuffer& cover) {
     std::uint8_t faces = 0;
     std::array<double, 8> inverse_depths;
@@ -176,7 +177,7 @@ Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, cons
         const double distance = double(c.distance) - looks.bodies[c.body].bound_radius;
         return by_pixel && distance > 0.0 && 2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
     };
-    for (const Candidate& candidate : candidates) {  // nearest first: what is hidden itself need not cover anything
+    for (const Candidate& candidate : candidates) {  // nearest first: a hidden candidate need not cover other bodies
         if (!is_box(candidate) || is_small(candidate)) continue;
         const CoarseDepthBuffer::Corners corners = corners_of(candidate);
         if (!result.cover.hides(corners)) result.cover.add(corners);

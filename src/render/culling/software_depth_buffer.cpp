@@ -6,17 +6,18 @@
 namespace tumble {
 namespace {
 
-// Rasterisation rounds corners to 1/256 pixel.
+// Rasterization rounds corners to 1/256 pixel.
 constexpr double rounding_margin = 0.02;   // pixels
 
-// Depths that differ by less may come out in either order: 24 bits, with the near plane far before what is many and small.
+// Depths that differ by less may compare either way: 24 bits, with the near plane far in front of crowds of small
+// bodies.
 constexpr float depth_margin = 1e-3f;
 
 struct Span {
     double left = std::numeric_limits<double>::infinity(), right = -left;
 };
 
-// The part of a row's middle line within a convex polygon.
+// The part of a row's center line within a convex polygon.
 Span span(const std::array<SoftwareDepthBuffer::Corner, 4>& face, double y) {
     Span s;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -43,11 +44,11 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
         top = std::min(top, c.at.y());
         bottom = std::max(bottom, c.at.y());
     }
-    // One over the depth is linear on the screen.
+    // The reciprocal of the depth is linear on the screen.
     const ScreenPoint u = face[1].at - face[0].at, v = face[3].at - face[0].at;
     const double area = u.x() * v.y() - u.y() * v.x();
     const double du = face[1].inverse_depth - face[0].inverse_depth, dv = face[3].inverse_depth - face[0].inverse_depth;
-    const bool flat = std::abs(area) < 1e-6;   // seen edge-on: its nearest depth will do, and it covers nothing
+    const bool flat = std::abs(area) < 1e-6;   // seen edge-on: its nearest depth is used, and it covers nothing
     const double along_x = flat ? 0.0 : (du * v.y() - dv * u.y()) / area, along_y = flat ? 0.0 : (dv * u.x() - du * v.x()) / area;
     double nearest = 0.0;
     for (const Corner& c : face) nearest = std::max(nearest, c.inverse_depth);
@@ -59,7 +60,7 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
     bool seen = false;
     const int first = std::max(0, int(std::ceil(top - rounding_margin - 0.5))), last = std::min(height_ - 1, int(std::floor(bottom + rounding_margin - 0.5)));
     for (int y = first; y <= last; ++y) {
-        // Around a corner the line through a row's middle can miss what the next 0.02 pixels hold.
+        // Near a corner, the line through the row's center can miss points within the margin.
         const Span middle = span(face, y + 0.5), above = span(face, y + 0.5 - rounding_margin), below = span(face, y + 0.5 + rounding_margin);
         double left = std::min({middle.left, above.left, below.left}) - rounding_margin;
         double right = std::max({middle.right, above.right, below.right}) + rounding_margin;
@@ -69,7 +70,7 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
                 right = std::max(right, c.at.x() + rounding_margin);
             }
         if (!(left <= right)) continue;
-        // Within: on all three lines, so that a slanted side keeps its distance.
+        // Inside on all three lines, so that an oblique side keeps its margin.
         const double within_left = std::max({middle.left, above.left, below.left}) + rounding_margin;
         const double within_right = std::min({middle.right, above.right, below.right}) - rounding_margin;
         const int x0 = std::max(0, int(std::ceil(left - 0.5))), x1 = std::min(width_ - 1, int(std::floor(right - 0.5)));

@@ -1,6 +1,6 @@
-// What can be seen of many small boxes: a depth for each pixel's middle, where pictures of one sample a pixel look and
-// nowhere else. Boxes go in nearest first; a face that no pixel's middle shows need not be drawn: it lies between the
-// middles, or behind what came before. With several samples a pixel this does not hold.
+// Culling of many small boxes: a depth at each pixel center, where frames with one sample per pixel are sampled. Boxes
+// are added nearest first. A face that covers no pixel center in front of the stored depths need not be drawn. With
+// several samples per pixel this is invalid.
 #pragma once
 
 #include "render/camera/camera.h"
@@ -14,25 +14,26 @@ namespace tumble {
 
 class SoftwareDepthBuffer {
 public:
-    /// `boxes`: what hides besides, cell by cell. Must outlive it.
+    /// `boxes`: additional occluders, by cell. Must outlive it.
     SoftwareDepthBuffer(const Camera& view, const CoarseDepthBuffer& boxes);
 
-    /// A corner on the screen: pixels, and one over the depth along the axis, 1/m.
+    /// A corner on the screen: pixels, and the reciprocal of the depth along the axis, 1/m.
     struct Corner {
         ScreenPoint at;
         double inverse_depth;
     };
 
-    /// Covers what a convex face certainly covers. Could any of it be seen before that?
+    /// Adds a convex face and the pixels that it certainly covers. Returns true if it may have been visible before
+    /// that.
     bool add(const std::array<Corner, 4>& face);
 
-    /// Is all of a rectangle of the screen hidden, for what is no nearer than `depth`, m?
+    /// True if a rectangle of the screen is hidden for bodies at `depth`, m, or farther.
     bool hides(double x0, double y0, double x1, double y1, double depth) const;
 
 private:
     const CoarseDepthBuffer* boxes_;
     int width_, height_;
-    std::vector<float> inverse_depths_;   // the nearest in each pixel; 0: nothing
+    std::vector<float> inverse_depths_;   // the nearest in each pixel; 0: infinitely far
 };
 
 }  // namespace tumble

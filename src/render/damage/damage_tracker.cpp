@@ -11,11 +11,11 @@
 namespace tumble {
 namespace {
 
-// Moved bodies whose marks are worth working out: 1 microsecond each, and as much again for their shadows.
+// Largest number of moved bodies for which damage is computed: 1 microsecond each, and as much again for their shadows.
 constexpr std::ptrdiff_t most_marked = 10'000;
 
-// The shadow maps' square in coarse cells: how near to the sun a moved body begins in each. What lies outside of the
-// square counts as in the cells at its rim.
+// Square of the shadow maps in coarse cells: the smallest distance from the sun of a moved body in each. Points outside
+// count as in the cells at the border.
 class LightCells {
 public:
     explicit LightCells(const ShadowLight& light) : light_(light) {
@@ -29,7 +29,7 @@ public:
     bool shadows(const DrawableBounds& receiver) {
         const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
-        // of the map that the receiver looks into
+        // of the cascade that the receiver uses
         const bool far = light_.fit.may_look_far(receiver.center, receiver.radius);
         const double margin = light_.fit.filter.reach * (far ? light_.fit.far_texel : light_.fit.near_texel);
         visit(receiver, margin, [&](const double& cell) { found = found || cell < depth; });
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    static constexpr int count = 128;   // to a side
+    static constexpr int count = 128;   // cells per side
 
     template <class Visit>
     void visit(const DrawableBounds& item, double more, Visit see) {
@@ -94,7 +94,7 @@ DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& oc
         shadow_marks_.mark(now.items[i]);
     }
     shadow_marks_.settle();
-    // Where very many move, finding out what they touch costs more than drawing all.
+    // If many bodies move, computing the damage would cost more than a full redraw.
     const bool many = std::count(item_moved.begin(), item_moved.end(), char(1)) > most_marked;
     if (too_near(now) || many || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
         marks.mark_all();
@@ -117,7 +117,7 @@ DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& oc
         for (const OcclusionChanges::Part& part : occlusion.parts) {
             if (item_moved[part.body] != 0) continue;
             const DrawableBounds& item = now.items[part.body];
-            // Of several samples the pixel's middle may lie beside the face, and takes its texel from the rim.
+            // With several samples, the pixel center may be outside the face and use a texel at its border.
             marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high) : face_part(item, part.face));
         }
         for (const OcclusionChanges::Patch& patch : occlusion.patches) {
@@ -137,7 +137,7 @@ DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& oc
     return marks;
 }
 
-// What is nearer than the near plane has the nearest depth there is, as tiles have that must not be drawn to.
+// Items in front of the near plane are clamped to the nearest depth, which closed tiles have as well.
 bool DamageTracker::too_near(const FrameState& now) const {
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         const DrawableBounds& item = now.items[i];
@@ -158,7 +158,7 @@ void DamageTracker::mark_on_planes(const DrawableBounds& item, std::size_t numbe
     for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, reach, blur, light, *view_, marks);
 }
 
-// Whatever stood still behind something that moved, as the sun sees it.
+// Marks items that stand still behind one that moved, as seen from the sun.
 void DamageTracker::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
                                  const Visibility& visibility, DirtyTiles& marks) const {
     const ShadowLight light(scene_->light, now.shadows);

@@ -1,9 +1,11 @@
-// Which tiles of the picture the movements since the last frame may have changed. A moved body is drawn anew where it was
-// and where it is; so is the ground under its old and new shadow and within its darkening, every body that lies behind it
-// as the sun sees it, and every surface whose darkening has other values than before. Of grounds and of what has a fine
-// surface not the whole, but the shadows on them (face_marks.h, volume_marks.h) and the texels that changed. What holds for
-// the whole picture (the depths' range, the shadow maps' place, a plane that moved) changes everything.
-// Only ever too much is marked: the frame has the bytes of a full redraw.
+// Damage: the tiles of the frame that movements since the previous frame may have changed. A moved body damages:
+// - the tiles at its old and new pose;
+// - the planes in its old and new shadow and within its AO radius;
+// - every body behind it as seen from the sun;
+// - every surface with changed AO.
+// Of large receivers and bodies with lightmaps, only the shadows on them (face_damage.h, volume_damage.h) and the
+// changed texels are damaged. A change of the depth range, of the cascades or of a plane damages the whole frame. The
+// damage is conservative: the frame has the bytes of a full redraw.
 #pragma once
 
 #include "render/scene/drawable_bounds.h"
@@ -18,32 +20,32 @@
 
 namespace tumble {
 
-/// What of a frame can change.
+/// The inputs of a frame that can change.
 struct FrameState {
     const Snapshot& snapshot;
     std::vector<DrawableBounds> items;
     double near_distance = 0.0;   // m
     ShadowCascades shadows;
     std::vector<PlanePatch> planes;
-    bool one_sample = false;   // a pixel: what it shows lies at its middle
+    bool one_sample = false;   // per pixel, at its center
 };
 
 class DamageTracker {
 public:
     DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view);
 
-    /// Are all poses those of the last find()? Then the picture is the same.
+    /// True if all poses equal those of the previous find(); the frame is then the same.
     bool unmoved(const Snapshot& snapshot) const;
 
-    /// The next find() finds everything changed, as the first one does: the view is another.
+    /// Makes the next find() report everything as changed, as the first one does; for a changed view.
     void forget() { first_ = true; }
 
-    /// Compares with the state of the call before, and remembers this one.
+    /// Compares with the state of the previous call, and stores this one.
     DirtyTiles find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
-    /// What of the shadow maps the last find() found changed.
+    /// Parts of the shadow maps that changed in the previous find().
     const ShadowDirtyTiles& shadow_marks() const { return shadow_marks_; }
-    /// Did the planes or the depths' range?
+    /// True if the planes or the depth range changed.
     bool background_changed() const { return background_changed_; }
 
 private:

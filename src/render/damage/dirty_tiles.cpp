@@ -10,10 +10,10 @@
 namespace tumble {
 namespace {
 
-// One pixel for where rasterisation may round to, one for the neighbours that a smooth edge looks at, and one to spare.
+// One pixel for rounding by rasterization, one for the neighbors used by antialiasing, and one spare.
 constexpr double tile_margin = 3.0;   // pixels
 
-enum class ScreenArea { before, beside, behind };   // of points, as the eye sees them
+enum class ScreenArea { before, beside, behind };   // of points, relative to the eye
 
 ScreenArea screen_area_of(std::span<const Vec3> points, const Camera& view) {
     bool before = false, behind = false;
@@ -58,7 +58,7 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
     double top = leftmost, bottom = -leftmost;
     for (const Vec3& p : points) {
         corners.push_back(view_->pixel(p));
-        if (around > 0.0) {   // what is nearer to the eye by as much moves the farthest on the screen
+        if (around > 0.0) {   // for points nearer to the eye by this distance, the displacement on the screen is largest
             const double depth = p.dot(view_->forward()), nearest = depth - around;
             if (nearest < 0.1 * depth) return mark_all();
             rim = std::max(rim, tile_margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
@@ -68,8 +68,8 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
         top = std::min(top, corners.back().y());
         bottom = std::max(bottom, corners.back().y());
     }
-    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // as often in a heap
-    // What is small needs no finer look: the tiles around it.
+    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // the usual case in a heap
+    // Small items need no finer test: the tiles around them are marked.
     if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
         corners = {};
         for (const auto& [x, y] : {std::pair(leftmost, top), {rightmost, top}, {rightmost, bottom}, {leftmost, bottom}})
@@ -79,7 +79,7 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
     }
     for (int row = std::max(0, tile_of(top - rim, grid_.cell, grid_.rows));
          row <= std::min(grid_.rows - 1, tile_of(bottom + rim, grid_.cell, grid_.rows)); ++row) {
-        // The hull's reach to both sides within this row of tiles.
+        // Extent of the hull to both sides within this row of tiles.
         const double low = row * grid_.cell - rim, high = (row + 1) * grid_.cell + rim;
         double left = std::numeric_limits<double>::infinity(), right = -left;
         const auto reach = [&](double x) {

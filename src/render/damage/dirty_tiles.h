@@ -1,4 +1,4 @@
-// Tiles of the picture that something may touch: those that have to be drawn anew, those with shadows on the ground.
+// A set of tiles of the frame, for example those to redraw, or those with shadows on planes.
 #pragma once
 
 #include "core/rectangle.h"
@@ -13,29 +13,28 @@ namespace tumble {
 
 class DirtyTiles {
 public:
-    static constexpr int tile = 16;   // pixels: smaller ones follow outlines better, but make many small rectangles
+    static constexpr int tile = 16;   // pixels: smaller tiles follow outlines better, but give many small rectangles
 
     explicit DirtyTiles(const Camera& view, int size = tile);
 
     void mark_all();
 
-    /// Marks what the convex hull of the points (relative to the eye), and all within `around` (m) of it, may touch on the
-    /// screen, and some pixels more for rasterisation and smooth edges. Points beside the eye may land anywhere: then
-    /// everything is marked.
+    /// Marks the tiles that the convex hull of the points (relative to the eye), enlarged by `around` (m), may touch on
+    /// the screen, with a margin for rasterization and antialiasing. With a point beside the eye, all tiles are marked.
     void mark_hull(std::span<const Vec3> points, double around = 0.0);
 
     bool none() const { return count_ == 0; }
     bool all() const { return count_ == grid_.columns * grid_.rows; }
     bool at(int column, int row) const { return marks_[std::size_t(row * grid_.columns + column)] != 0; }
 
-    /// May the convex hull of the points touch a marked tile? (its bounding rectangle is looked at)
+    /// True if the bounding rectangle of the points' convex hull touches a marked tile.
     bool touched_by(std::span<const Vec3> points) const;
 
     const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
-    std::vector<Rectangle> rectangles_outside(const DirtyTiles& others) const;   // of tiles that are not marked there
+    std::vector<Rectangle> rectangles_outside(const DirtyTiles& others) const;   // of tiles that are not marked in `others`
 
-    /// The rectangle around all that is marked.
+    /// The bounding rectangle of the marked tiles.
     Rectangle bounds() const;
 
 private:

@@ -7,10 +7,11 @@
 namespace tumble {
 namespace {
 
-// Some texels to spare, of those to either side that the filter looks at.
+// Margin for the texels to either side that the filter reads.
 constexpr double spare_texels = 0.5;
 
-// Texels of the near map's rim where a pixel may look into the far one: 5 (shadow.glsl), and the offset along the normal.
+// Texels at the border of the near map within which a pixel may use the far one: 5 (shadow.glsl), and the normal
+// offset.
 constexpr double rim_texels = 8.0;
 
 Vec3 row_of(const glm::vec4& row) { return {double(row.x), double(row.y), double(row.z)}; }
@@ -27,7 +28,7 @@ std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::
     return points;
 }
 
-// The points' rectangle along the face's axes is looked at; a little more of the face for what rounds.
+// Tests the rectangle around the points along the face's axes; the face is enlarged for rounding.
 bool FaceDamage::Face::meets(std::span<const Vec3> points, double around) const {
     const auto apart = [&](const Vec3& axis, double half) {
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -90,7 +91,8 @@ void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) co
             return p + light_.direction * (face.normal.dot(p - face.middle) / face.approach);
         };
         const std::array<Vec3, 1> foot = {foot_of(caster.center)};
-        if (!face.meets(foot, (caster.radius + most_margin) / face.approach)) continue;   // most, where there are many
+        // the common case in scenes of many bodies
+        if (!face.meets(foot, (caster.radius + most_margin) / face.approach)) continue;
         std::array<Vec3, 8> feet = caster.corners();
         for (Vec3& corner : feet) corner = foot_of(corner);
         const double margin = light_.filter_reach(face.approach) * fit.near_texel / face.approach;
@@ -99,8 +101,8 @@ void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) co
     }
 }
 
-// The far map's texels are up to 64 times as wide, but it is looked into only beyond the near one. Across the light, in
-// near maps: a point looks at the place of itself moved along the normal, and at some texels around that.
+// The far map's texels are up to 64 times as wide, but it is used only outside the near one. Unit across the light:
+// widths of the near map. A point samples the place of itself displaced along the normal, and some texels around it.
 void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const {
     const ShadowCascades& fit = light_.fit;
     const double inner = 0.5 - rim_texels / fit.texels, reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);

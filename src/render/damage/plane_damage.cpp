@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// The corners of the rectangle along the plane's axes around the feet of all corners, and `margin` (m) more.
+// Corners of the rectangle, along the plane's axes, around the projections of all corners, enlarged by `margin` (m).
 std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawableBounds& item, double margin) {
     const PlaneAxes axes = plane_axes(plane.normal);
     double low_u = std::numeric_limits<double>::infinity(), high_u = -low_u, low_v = low_u, high_v = -low_u;
@@ -32,14 +32,14 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawableBounds& it
 ShadowLight::ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit)
     : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
 
-// The offset along the normal leads across the light the less, the steeper it falls; half a texel to spare.
+// The displacement across the light by the normal offset is smaller for steeper light; half a texel is the margin.
 double ShadowLight::filter_reach(double approach) const {
     return fit.filter.across + fit.filter.offset * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
 }
 
 double ShadowLight::margin(const DrawableBounds& item) const {
     const double near = fit.filter.reach * fit.near_texel;
-    if (!fit.may_look_far(item.center, item.radius + near)) return near;   // so is its shadow
+    if (!fit.may_look_far(item.center, item.radius + near)) return near;   // its shadow is in the near map as well
     return fit.filter.reach * fit.far_texel;
 }
 
@@ -63,18 +63,18 @@ void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double r
 
 bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
                const Camera& view, const Rectangle& part) {
-    constexpr double margin = 8.0;   // pixels: more than DirtyTiles adds
+    constexpr double margin = 8.0;   // pixels: more than the margin of DirtyTiles
     const double height = plane.normal.dot(item.center) + plane.height;
     const auto meets = [&](const Vec3& center, double radius) {
         const double depth = center.dot(view.forward()), nearest = depth - radius;
-        if (nearest < 0.1 * center.norm()) return true;   // near the eye, or far beside it: too hard to tell
+        if (nearest < 0.1 * center.norm()) return true;   // near the eye, or far beside it: undecided
         const ScreenPoint at = view.pixel(center);
         const double around = radius * center.norm() / (depth * nearest * view.pixel_size()) + margin;
         return at.x() + around >= part.x && at.x() - around <= part.x + part.width && at.y() + around >= part.y &&
                at.y() - around <= part.y + part.height;
     };
-    // A ball's corners lie 1.74 radii from its middle; a rectangle around them reaches 1.42 times as far, and what is
-    // thrown aslant twice as far over the sine of the elevation.
+    // The corners of a ball's box are 1.74 radii from its center; a rectangle around them extends 1.42 times as far,
+    // and an oblique shadow twice as far, over the sine of the elevation.
     if (meets(item.center - plane.normal * height, 2.5 * (item.radius + reach + blur))) return true;
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0) return false;

@@ -1,4 +1,4 @@
-// Where on the screen a body changes the look of a plane.
+// Damage by a body on a plane: its shadow and its occlusion.
 #pragma once
 
 #include "render/scene/drawable_bounds.h"
@@ -8,34 +8,35 @@
 
 namespace tumble {
 
-/// A lower sun throws shadows without end: the sine of its elevation.
+/// Sine of the sun's elevation below which shadows are infinitely long.
 inline constexpr double least_approach = 0.02;
 
-/// The sun, as far as shadows on planes need it.
+/// The data of the sun for shadows on planes.
 struct ShadowLight {
     bool shadows = true;
-    Vec3 direction = Vec3::Zero();   // unit, the way the light travels
+    Vec3 direction = Vec3::Zero();   // unit, direction in which the light travels
     ShadowCascades fit;
 
     ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit);
 
-    /// How far from a shadow's outline, across the light, a plane may be touched that the light meets at an angle of this
-    /// sine: texels.
+    /// Distance from a shadow's outline, across the light, within which a plane is affected that the light meets at an
+    /// angle of this sine: texels.
     double filter_reach(double approach) const;
 
-    /// How far the filter reaches around the outline of this item's shadow, across the light, m.
+    /// Extent of the filter around the outline of this item's shadow, across the light, m.
     double margin(const DrawableBounds& item) const;
 
-    /// The same on a plane, which the light meets at an angle of this sine.
+    /// The same on a plane that the light meets at an angle of this sine.
     double margin_on_plane(const DrawableBounds& item, double approach) const;
 };
 
-/// Marks the item's shadow on the plane, and its darkening of it within `reach` (m; 0: it has none), which is blurred
-/// by `blur` (m).
+/// Marks the item's shadow on the plane and its occlusion of the plane within `reach` (m; 0: none), which is blurred by
+/// `blur` (m).
 void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
                    const Camera& view, DirtyTiles& marks);
 
-/// False when mark_on_plane() certainly marks nothing in a part of the picture: most bodies, where little changed.
+/// False if mark_on_plane() certainly marks nothing in the given part of the frame: true of most bodies if little
+/// changed.
 bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
                const Camera& view, const Rectangle& part);
 

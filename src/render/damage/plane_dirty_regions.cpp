@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-// One over the depth is linear on the screen, so a cell's nearest point of the plane is at a corner.
+// The reciprocal of the depth is linear on the screen, so the nearest point of the plane in a cell is at a corner.
 bool covered(int column, int row, const PlanePatch& plane, const Camera& view, const CoarseDepthBuffer& cover) {
     if (!std::isfinite(cover.depth(column, row))) return false;
     double most_fall = 0.0;  // height / depth at the nearest corner
@@ -22,7 +22,7 @@ bool covered(int column, int row, const PlanePatch& plane, const Camera& view, c
 
 constexpr int area_block = 4, longest_run = 32;   // texels
 
-// The runs of blocks of the plane's window in the atlas that are not open.
+// Marks the runs of blocks with occlusion in the plane's tile of the atlas.
 void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks, const Snapshot& snapshot,
                     const Camera& view, DirtyTiles& touched) {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
@@ -35,7 +35,7 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
         return u * ((window->low_a + i) * window->cell - u.dot(eye)) + v * ((window->low_b + j) * window->cell - v.dot(eye)) -
                plane.normal * plane.height;
     };
-    const auto mark = [&](int left, int right, int top, int bottom) {   // a texel's share reaches to the next ones
+    const auto mark = [&](int left, int right, int top, int bottom) {   // interpolation: a texel affects its neighbors
         const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom), place(left - 1, bottom)};
         if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm())) touched.mark_hull(corners);
     };
@@ -72,8 +72,8 @@ std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDe
         if (items[i].exists() && may_touch(plane, items[i], 0.0, 0.0, light, view, marked))
             mark_on_plane(plane, items[i], 0.0, 0.0, light, view, touched);
     mark_darkening(plane, atlas, looks, snapshot, view, touched);
-    // Nothing of the plane is drawn outside of the marked tiles, nor behind boxes: each rectangle costs ten microseconds, as
-    // much as twenty such cells.
+    // The plane is drawn neither outside the marked tiles nor behind boxes. A rectangle costs ten microseconds, as much
+    // as twenty such cells.
     const auto closed = [&](int column, int row) {
         return !marks.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
     };

@@ -1,5 +1,5 @@
-// Where a plane must be drawn over the background, which shows it without shadows and the bodies' darkening: in the cells
-// that these may touch. Not where boxes cover it. Cells are those of CoarseDepthBuffer, joined into rectangles.
+// Regions where a plane must be drawn over the stored background, which has neither shadows nor occlusion: the cells
+// that these may touch and that no box covers. Cells are those of CoarseDepthBuffer, merged into rectangles.
 #pragma once
 
 #include "core/rectangle.h"
@@ -11,8 +11,8 @@
 
 namespace tumble {
 
-/// Within the marked tiles. `items`: what may throw shadows; `atlas`: what is darkened (most bodies' reach far beyond what a
-/// texel tells).
+/// Within the marked tiles. `items`: possible casters; `atlas`: texels with occlusion (the AO radius of most bodies
+/// exceeds the visible effect).
 std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const RenderScene& looks,
                                           const std::vector<DrawableBounds>& items, const Camera& view,
                                           const ShadowCascades& shadows, const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,

@@ -15,7 +15,7 @@ void ShadowDirtyTiles::mark_all() { std::fill(marks_.begin(), marks_.end(), char
 bool ShadowDirtyTiles::none() const { return std::find(marks_.begin(), marks_.end(), char(1)) == marks_.end(); }
 bool ShadowDirtyTiles::all() const { return std::find(marks_.begin(), marks_.end(), char(0)) == marks_.end(); }
 
-// Cells from x0 to before x1; empty for what lies beside the map. A texel and a half more for rasterisation.
+// Cells from x0 to before x1; empty outside the map. The margin of one and a half texels is for rasterization.
 ShadowDirtyTiles::Range ShadowDirtyTiles::range(const DrawableBounds& item, int map) const {
     const double scale = map == 1 ? fit_.far.x : 1.0, shift_x = map == 1 ? fit_.far.y : 0.0;
     const double shift_y = map == 1 ? fit_.far.z : 0.0;

@@ -1,5 +1,5 @@
-// The parts of the shadow maps that have to be drawn anew: a coarse lattice of cells over each, marked where a moved body
-// was and is. Bodies that stand still are drawn again where they touch a marked cell; elsewhere that changes no depth.
+// The parts of the shadow maps to redraw: a coarse grid of cells over each, marked at the old and the new pose of a
+// moved body. Bodies that stand still are redrawn where they touch a marked cell; in other cells that changes no depth.
 #pragma once
 
 #include "core/rectangle.h"
@@ -12,7 +12,7 @@ namespace tumble {
 
 class ShadowDirtyTiles {
 public:
-    static constexpr int count = 24;   // cells to a side: 32 texels each
+    static constexpr int count = 24;   // cells per side: 32 texels each
 
     explicit ShadowDirtyTiles(const ShadowCascades& fit);
 
@@ -20,13 +20,13 @@ public:
     void mark(const DrawableBounds& item);
     bool touched_by(const DrawableBounds& item) const;
 
-    /// Marks all where most is marked: one large rectangle is cheaper than many small ones.
+    /// Marks all cells if most are marked: one large rectangle is cheaper than many small ones.
     void settle();
 
     bool none() const;
     bool all() const;
 
-    /// Texels of the texture that holds both maps, the near one first.
+    /// In texels of the texture that holds both maps, the near one first.
     std::vector<Rectangle> rectangles() const;
 
 private:
@@ -36,7 +36,7 @@ private:
     Range range(const DrawableBounds& item, int map) const;
 
     ShadowCascades fit_;
-    int maps_;                  // 2 with a far one
+    int maps_;                  // 2 with a far map
     std::vector<char> marks_;   // map by map, row by row
 };
 

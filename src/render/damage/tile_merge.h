@@ -1,4 +1,4 @@
-// Cells of a lattice over the picture as few rectangles.
+// Merges the cells of a grid over the frame into few rectangles.
 #pragma once
 
 #include "core/rectangle.h"
@@ -11,12 +11,12 @@ namespace tumble {
 struct CellGrid {
     int columns = 0, rows = 0;
     int cell = 1;                // pixels
-    int width = 0, height = 0;   // of the picture, pixels: the last column and row may be cut
+    int width = 0, height = 0;   // of the frame, pixels; the last column and row may be cut off
 };
 
-/// The rectangles of all cells for which `wanted(column, row)` is true, in pixels: runs along a row, grown downward while
-/// the rows below have the same run. They do not overlap. Cells for which `free(column, row)` is true may be among them
-/// where that makes fewer.
+/// The rectangles of all cells for which `wanted(column, row)` is true, in pixels: runs along a row, extended downward
+/// while the rows below have the same run. They do not overlap. They may include cells for which `free(column, row)` is
+/// true where that makes fewer rectangles.
 template <class Wanted, class Free>
 std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted, Free free) {
     enum Cell : char { none, spare, needed };

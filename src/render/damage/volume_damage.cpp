@@ -21,8 +21,8 @@ VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, c
     }
 }
 
-// A shadow reaches by the filter and the offset along the normal beyond its outline. Near the near map's rim, or beyond, these
-// may be those of the far one.
+// A shadow extends beyond its outline by the filter and the normal offset. Near the border of the near map, or outside
+// it, those of the far one apply.
 void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
     const double near = light_.fit.filter.reach * light_.fit.near_texel, far = light_.fit.filter.reach * light_.fit.far_texel;
     const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
@@ -30,7 +30,7 @@ void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) 
     for (const Box& box : boxes_) mark_in(box, caster, margin, marks);
 }
 
-// From where to where on its way along the light a box around the caster meets the box (the slabs of Kay and Kajiya 1986).
+// The interval along the light within which a box around the caster meets the box (the slabs of Kay and Kajiya 1986).
 void VolumeDamage::mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const {
     double enter = -margin, leave = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {

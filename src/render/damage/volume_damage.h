@@ -1,5 +1,5 @@
-// Where on the screen a body's shadow may change the look of a large mesh or ball that stands still: where the shadow passes
-// through the boxes that hold its surface.
+// Damage by a body's shadow on a large fixed mesh or ball: where the shadow passes through the boxes around its
+// surface.
 #pragma once
 
 #include "render/damage/plane_damage.h"
@@ -10,7 +10,7 @@ namespace tumble {
 
 class VolumeDamage {
 public:
-    /// `state`: of the body that the item is.
+    /// `state`: of the item's body.
     VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
                 const ShadowLight& light, const Camera& view);
 
@@ -19,7 +19,7 @@ public:
 
 private:
     struct Box {
-        Vec3 center, half_size;   // relative to the eye, m; along the axes
+        Vec3 center, half_size;   // m, relative to the eye; m, along the axes
     };
     void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const;
 

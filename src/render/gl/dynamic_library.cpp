@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// glibc's words, which are all that dlopen() gives; it names no reason where a mapping has no room.
+/// The text of dlerror() is the only information that glibc gives; running out of memory has no text of its own.
 bool is_missing(std::string_view reason) { return reason.ends_with("No such file or directory"); }
 bool is_out_of_memory(std::string_view reason) {
     return reason.ends_with("Cannot allocate memory") || reason.ends_with("failed to map segment from shared object") ||
@@ -37,9 +37,9 @@ DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const std::st
         tried += "\n  " + reason;
     }
     if (!missing)
-        throw RunError(fmt::format("the library to draw with cannot be opened (it is in the package {}). Tried:{}", package, tried));
+        throw RunError(fmt::format("the rendering library cannot be opened (it is in the package {}). Tried:{}", package, tried));
     throw RunError(
-        fmt::format("no library to draw with; install it with 'apt-get install {}'. Tried:{}", package, tried));
+        fmt::format("the rendering library is missing; install it with 'apt-get install {}'. Tried:{}", package, tried));
 }
 
 void* DynamicLibrary::find(const char* symbol) const { return dlsym(handle_, symbol); }

@@ -1,4 +1,4 @@
-// A shared library opened at run time, so that the program starts (and says what to install) where it is missing.
+// A shared library opened at run time, so that the program starts without it and can name the package to install.
 #pragma once
 
 #include <span>
@@ -8,14 +8,14 @@ namespace tumble {
 
 class DynamicLibrary {
 public:
-    /// Opens the first of `names` that is there. Throws RunError with the reasons, and with the Debian package to install where
-    /// none is there; MemoryError where memory ran out.
+    /// Opens the first library of `names` that exists. Throws RunError with the reasons and the Debian package to
+    /// install if none exists; MemoryError if memory ran out.
     DynamicLibrary(std::span<const char* const> names, const std::string& package);
 
     /// The address of a function, or null.
     void* find(const char* symbol) const;
 
-    /// The same, typed; throws RunError when the library lacks it.
+    /// The same with a type; throws RunError if the library lacks the function.
     template <class Function>
     Function require(const char* symbol) const {
         return reinterpret_cast<Function>(require_address(symbol));
@@ -24,7 +24,7 @@ public:
 private:
     void* require_address(const char* symbol) const;
 
-    void* handle_ = nullptr;  // never closed: Mesa and LLVM keep threads and exit handlers inside
+    void* handle_ = nullptr;  // never closed: Mesa and LLVM keep threads and exit handlers in it
     std::string name_;
 };
 

@@ -89,7 +89,7 @@ private:
         const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
-        // A config is only a formality here (we draw into our own framebuffer); a device may offer none at all.
+        // A config is a formality, because all drawing goes to framebuffer objects; a device may offer none.
         if (!choose(display_, wanted, &config, 1, &count) || count == 0) config = EGL_NO_CONFIG_KHR;
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                      gl_major,

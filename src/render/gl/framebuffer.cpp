@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr int nearest_strip_rows = 64;   // of nearest depths: what is copied from stays in the processor's cache
+constexpr int nearest_strip_rows = 64;   // of nearest depths, so that the source of copies stays in the processor's cache
 
 int integer(const GlFunctions& gl, GLenum name) {
     GLint value = 0;
@@ -94,7 +94,7 @@ void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
 void Framebuffer::begin_all(const Target& target, double depth) const {
     bind(target);
     gl_->ClearDepth(depth);
-    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // colour is covered by the sky at the latest
+    gl_->Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers all colors at the latest
 }
 
 void Framebuffer::begin_background() { begin_all(background_, 1.0); }

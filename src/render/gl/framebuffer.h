@@ -1,7 +1,7 @@
-// The picture's own framebuffers: colour and depth with several samples a pixel, the background that is put back where
-// something has moved, and the single-sample colour that the samples are averaged into. The shaders write sRGB
-// themselves: GL_FRAMEBUFFER_SRGB would encode each sample anew (+4 % of a frame), and edges are averaged as they are
-// displayed, which keeps a bright edge before a dark ground from growing a staircase.
+// The framebuffers of a frame: color and depth with several samples per pixel, the stored background that is restored
+// in dirty regions, and the single-sample color that the samples are averaged into. Shaders encode sRGB themselves:
+// GL_FRAMEBUFFER_SRGB would encode each sample again (4 % of a frame). Edges are averaged as encoded values, which
+// avoids a staircase on a bright edge before a dark background.
 #pragma once
 
 #include "core/image.h"
@@ -15,27 +15,29 @@ namespace tumble {
 
 class Framebuffer {
 public:
-    /// Throws RunError when the driver has no room for this size. Samples beyond the driver's most are cut to it.
+    /// Throws RunError if the driver has no room for this size. The number of samples is limited to the driver's
+    /// maximum.
     Framebuffer(const GlFunctions& gl, int width, int height, int samples);
 
     int samples() const { return samples_; }
 
-    /// Makes the background the target of what is drawn next, over its whole area, and clears its depths.
+    /// Makes the background the draw target, over its whole area, and clears its depths.
     void begin_background();
 
-    /// Makes the picture the target of what is drawn next, over its whole area, and clears its depths: for a background
-    /// that is not worth keeping.
+    /// Makes the frame the draw target, over its whole area, and clears its depths; for a background that is not worth
+    /// storing.
     void begin_whole();
 
-    /// Makes the picture the target of what is drawn next. Only the rectangles can be drawn to: they get the background's
-    /// colours and depths; everywhere else depth is nearest. `closing`: what could be drawn to before and cannot now, at
-    /// least.
+    /// Makes the frame the draw target. Only the rectangles can be drawn to: they get the background's colors and
+    /// depths; all other pixels have the nearest depth. `closing`: at least the pixels that could be drawn to in the
+    /// previous frame and cannot in this one.
     void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing);
 
-    /// Averages the samples there.
+    /// Averages the samples in the rectangles.
     void resolve(const std::vector<Rectangle>& rectangles) const;
 
-    /// Copies the resolved picture there. The drawing has its first row at the bottom, so rows arrive in the image's order.
+    /// Copies the resolved rectangles to the image. The drawing has its first row at the bottom, so rows arrive in the
+    /// order of the image.
     void read(const std::vector<Rectangle>& rectangles, Image& image) const;
 
 private:
@@ -51,8 +53,8 @@ private:
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target background_, drawn_;
-    Target closed_;   // a strip of nearest depths. Copied to where the picture was open: a third of what clearing costs
-    bool whole_open_ = false;         // all of the picture can be drawn to
+    Target closed_;   // a strip of nearest depths, copied over pixels that are closed: a third of the cost of clearing
+    bool whole_open_ = false;         // true if the whole frame can be drawn to
     std::optional<Target> resolved_;  // only with several samples
 };
 

@@ -1,4 +1,4 @@
-// The ways into OpenGL that a user can choose from.
+// The OpenGL backends that a user can choose from.
 #pragma once
 
 namespace tumble {

@@ -1,5 +1,5 @@
-// A way into OpenGL without a window. Everything is drawn into framebuffers of our own, so a context is only
-// made current, asked for its functions, and kept alive; the drawing code is the same for each way in.
+// An OpenGL context without a window. All drawing goes to framebuffer objects, so a context only has to become current,
+// deliver its functions and stay alive; the drawing code is the same for every backend.
 #pragma once
 
 #include "render/gl/gl_functions.h"
@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// The version asked for: core profile, for textureGather on shadow maps (4.0) and instances from a base (4.2).
+/// requested version, core profile: textureGather on shadow maps needs 4.0, a base instance 4.2
 inline constexpr int gl_major = 4, gl_minor = 2;
 
 class GlContext {
@@ -26,7 +26,7 @@ public:
     virtual void* get_proc_address(const char* name) const = 0;
 };
 
-/// Makes a context, current in this thread. Throws RunError saying what is missing and how to get it.
+/// Makes a context, current in this thread. Throws RunError that names the missing part and the remedy.
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend);
 
 }  // namespace tumble

@@ -1,5 +1,5 @@
-// The OpenGL functions that we call, as typed pointers filled in from one context's loader.
-// Passed by reference to whoever draws: no globals, so that two contexts cannot be mixed up unseen.
+// The OpenGL functions in use, as typed pointers loaded from one context. Passed by reference, not global, so that two
+// contexts cannot be mixed up.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -86,7 +86,7 @@ struct GlFunctions {
 #undef TUMBLE_GL_MEMBER
 };
 
-/// `find` returns the address of "glName" or null. Throws RunError naming a function that is not there.
+/// `find` returns the address of "glName" or null. Throws RunError that names a missing function.
 GlFunctions load_gl_functions(const std::function<void*(const char*)>& find);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// An OpenGL name that is deleted with its owner. The context that made it must still be current then.
+// An OpenGL object that is deleted with its owner. The context that made it must be current at that time.
 #pragma once
 
 #include "render/gl/gl_functions.h"

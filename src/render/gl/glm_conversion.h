@@ -1,4 +1,4 @@
-// Where the simulation's doubles become the graphics card's floats.
+// Conversion from double-precision vectors of the simulation to float vectors of OpenGL.
 #pragma once
 
 #include "core/vector.h"

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array osmesa_library_names = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
 
-// OSMesa insists on a default framebuffer in our memory; nothing is ever drawn into it.
+// OSMesa requires a default framebuffer in the caller's memory; it is never drawn to.
 constexpr int default_framebuffer_size = 4;  // pixels
 
 class OsmesaContext final : public GlContext {

@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-/// Throws RunError when the library is missing or cannot make a core context of our version.
+/// Throws RunError if the library is missing or cannot make a core context of the requested version.
 std::unique_ptr<GlContext> make_osmesa_context();
 
 }  // namespace tumble

@@ -10,7 +10,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto between_looks = 500us;
-constexpr auto longest_wait = 500ms;   // longer than any shader takes: the other process has ended, or has no processor
+// longer than the compilation of any shader: the other process has ended, or gets no processor time
+constexpr auto longest_wait = 500ms;
 constexpr auto until_on_disk = 3ms;    // Mesa writes its files in a thread of its own
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Which of the processes that draw the same scene compiles which shader first. Mesa keeps what it compiles on disk, where the
-// others find it: so each compiles a part of all shaders, and reads the rest. Without that cache, or where a process is too
-// late, a shader is compiled again: the pixels are the same in any case.
+// Distributes shader compilation over the processes that draw the same scene. Mesa caches compiled shaders on disk, and
+// the processes share that cache: each compiles a part of all shaders and reads the rest. Without the cache, or if a
+// process is too late, a shader is compiled again; the pixels are the same in all cases.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace tumble {
 
-/// Lies in memory that the processes share; zeroed memory is a fresh one.
+/// Placed in memory that the processes share; zeroed memory is a valid initial state.
 class ShaderCompileSchedule {
 public:
-    static constexpr std::size_t most = 32;   // shaders beyond it are left to their first use
+    static constexpr std::size_t most = 32;   // further shaders are compiled at their first use
 
-    /// Runs those parts that no other process has taken, in order, and waits until the others' are done, too. Every process
-    /// must come with the same list, the longest parts first: then all end at about the same time.
+    /// Runs the parts that no other process has taken, in order, then waits for the parts of the others. Every process
+    /// must pass the same list, the longest parts first, so that all end at about the same time.
     void run(std::span<const std::function<void()>> parts);
 
 private:
     enum State : unsigned char { open, taken, done };
 
     std::array<std::atomic<unsigned char>, most> states_{};
-    static_assert(std::atomic<unsigned char>::is_always_lock_free);   // else it would not work between processes
+    static_assert(std::atomic<unsigned char>::is_always_lock_free);   // otherwise it would not work between processes
 };
 
 }  // namespace tumble

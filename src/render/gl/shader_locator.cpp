@@ -14,7 +14,7 @@ std::filesystem::path find_shader_folder() {
     namespace fs = std::filesystem;
     std::vector<fs::path> places;
     if (const char* named = std::getenv("TUMBLE_SHADERS"); named != nullptr && *named != '\0') {
-        places.emplace_back(named);  // who names a folder wants that one: no falling back to another
+        places.emplace_back(named);  // a named folder is used exclusively, without a fallback
     } else {
         std::error_code failed;
         const fs::path program = fs::read_symlink("/proc/self/exe", failed);

@@ -31,7 +31,7 @@ void attach(const GlFunctions& gl, GLuint program, GLenum stage, const std::file
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     const std::string log = compiled != 0 ? std::string() : shader_log(gl, shader);
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);  // the program keeps it from here on
+    gl.DeleteShader(shader);  // the program keeps it
     if (compiled == 0)
         throw RunError(
             fmt::format("shader {} does not compile:\n{}", safe_path(folder / name), source.with_file_names(log)));

@@ -1,4 +1,4 @@
-// A linked pair of shaders.
+// A linked shader program.
 #pragma once
 
 #include "render/gl/gl_object.h"
@@ -18,18 +18,18 @@ struct ShaderFiles {
 
 class ShaderProgram {
 public:
-    /// Throws RunError with the compiler's words, in which files are called by name.
+    /// Throws RunError with the compiler's log, with file names in it.
     ShaderProgram(const GlFunctions& gl, const std::filesystem::path& folder, const ShaderFiles& files);
 
     void use() const { gl_->UseProgram(program_.name()); }
 
-    /// The place of a uniform (-1, which OpenGL ignores, where the compiler dropped it).
+    /// Location of a uniform (-1, which OpenGL ignores, if the compiler removed it).
     GLint uniform(const char* name) const { return gl_->GetUniformLocation(program_.name(), name); }
 
     /// Sets a uniform of the program in use.
     void set(const char* name, const glm::vec4& value) const;
 
-    /// Ties a sampler to a texture unit, a uniform block to a binding point; the names may be absent.
+    /// Binds a sampler to a texture unit, a uniform block to a binding point; the names may be absent.
     void set_sampler(const char* name, GLint unit) const;
     void set_block(const char* name, GLuint binding) const;
 

@@ -1,4 +1,5 @@
-// Shader text from files, with `#include "file"` lines resolved and every line's origin kept for the compiler's words.
+// Shader text from files, with `#include "file"` lines resolved and the origin of every line kept for compiler
+// messages.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +9,8 @@
 
 namespace tumble {
 
-/// One shader ready for the compiler. Where each line came from is kept here, not in #line directives: Mesa's compiler
-/// forgets their file numbers.
+/// One shader ready for the compiler. Line origins are stored here, not in #line directives, because Mesa's compiler
+/// drops their file numbers.
 struct ShaderSource {
     struct Origin {
         std::size_t file;  // index into files
@@ -23,8 +24,8 @@ struct ShaderSource {
     std::string with_file_names(const std::string& log) const;
 };
 
-/// Reads folder/name and what it includes, each file once, from the same folder. `defines` (e.g. "SHADOWS 1") come
-/// right after the first line, which must be the #version. Throws RunError for a missing file.
+/// Reads folder/name and its includes, each file once, from the same folder. `defines` (e.g. "SHADOWS 1") are placed
+/// after the first line, which must be the #version. Throws RunError for a missing file.
 ShaderSource read_shader(const std::filesystem::path& folder, const std::string& name,
                          const std::vector<std::string>& defines = {});
 

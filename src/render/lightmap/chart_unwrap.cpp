@@ -10,26 +10,27 @@ namespace {
 
 constexpr std::uint32_t none = ~0u;
 
-// Texels along the mesh's longest side, at most: charts must fit into the atlas.
+// Largest number of texels along the mesh's longest side: charts must fit into the atlas.
 constexpr double most_along = 1000.0;
 
-// Texels around a chart's triangles that hold values, too: what is interpolated asks for those nearer than the square root
-// of 2.
+// Texels around a chart's triangles that hold values as well: interpolation reads those nearer than the square root of
+// 2.
 constexpr double rim = 1.5;
 
-// A texel darkens what lies nearer to it than one, and a tenth for rounding; there surfaces rise by as much across, and along.
+// A texel shades points within one texel of it, plus a tenth for rounding; there the surface rises by as much across
+// and along.
 constexpr double most_rise = 2.2;   // texels
 
-// Surfaces of one chart that lie farther apart than this where they are seen at one place are two floors. Two that meet at an
-// edge differ by 1.4 half a texel beyond it.
+// Height difference above which two surfaces of one chart at one place are two floors. Two that meet at an edge differ
+// by 1.4 half a texel beyond it.
 constexpr double most_step = 1.5;   // texels
 
 struct ChartTriangle {
-    std::array<Eigen::Vector3d, 3> corners;   // texels: the chart's two axes, then the one it is seen along
-    int side = 0;                             // twice that axis; one more where it faces along it
+    std::array<Eigen::Vector3d, 3> corners;   // texels: the chart's two axes, then the projection axis
+    int side = 0;                             // twice that axis; plus one if it faces along it
     int chart = -1;
     Eigen::Vector3d edge[3];                  // distance of (a, b) from each side, inward: x a + y b + z, texels
-    Eigen::Vector3d rise;                     // height over (a, b), likewise
+    Eigen::Vector3d rise;                     // height over (a, b), in the same form
     double outside(double a, double b) const {
         double most = -1e30;
         for (const Eigen::Vector3d& e : edge) most = std::max(most, -(e.x() * a + e.y() * b + e.z()));
@@ -63,7 +64,7 @@ public:
     }
 
 private:
-    // Texel (1, 1) lies at the mesh's low corner.
+    // Texel (1, 1) is at the mesh's low corner.
     Eigen::Vector3d on_chart(const Vec3& position, int axis) const {
         const Vec3 at = (position - low_) / cell_ + Vec3::Ones();
         return {at[(axis + 1) % 3], at[(axis + 2) % 3], at[axis]};
@@ -100,7 +101,7 @@ private:
         }
     }
 
-    // By edges between equal points.
+    // By edges between equal positions.
     void find_neighbours() {
         const auto place = [&](std::uint32_t vertex) {
             const float (&p)[3] = asset_.vertices[vertex].position;
@@ -109,11 +110,11 @@ private:
         std::vector<std::uint32_t> order(asset_.vertices.size()), point(order.size());
         std::iota(order.begin(), order.end(), 0u);
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-        for (std::size_t i = 0; i < order.size(); ++i)   // equal ones are the first of them
+        for (std::size_t i = 0; i < order.size(); ++i)   // each vertex is represented by the first one at its position
             point[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? point[order[i - 1]] : order[i];
         struct Edge {
             std::uint64_t points;
-            std::uint32_t side;   // of a triangle: three times its number, and which of three
+            std::uint32_t side;   // of a triangle: three times its index, plus the index of the side
         };
         std::vector<Edge> edges;
         edges.reserve(asset_.indices.size());
@@ -126,7 +127,7 @@ private:
             return std::tie(a.points, a.side) < std::tie(b.points, b.side);
         });
         neighbours_.assign(asset_.indices.size(), none);
-        for (std::size_t i = 1; i < edges.size(); ++i)   // where more than two meet, one of them goes another way
+        for (std::size_t i = 1; i < edges.size(); ++i)   // where more than two triangles meet, they are paired in another way
             if (edges[i].points == edges[i - 1].points) {
                 neighbours_[edges[i].side] = edges[i - 1].side / 3;
                 neighbours_[edges[i - 1].side] = edges[i].side / 3;
@@ -141,8 +142,8 @@ private:
                 if (const double out = t.outside(a, b); out <= around) see(a, b, out);
     }
 
-    // A chart from this triangle on, over its neighbours. Where the surface comes to lie above itself, as a spiral does, the
-    // chart ends.
+    // Grows a chart from this triangle over its neighbors. The chart ends where the surface would overlap itself, as in
+    // a spiral.
     void grow(std::size_t first) {
         const int chart = int(sides_.size()), side = triangles_[first].side, axis = side / 2;
         sides_.push_back(side);
@@ -169,7 +170,7 @@ private:
         }
     }
 
-    // Side by side on shelves, the highest first.
+    // On shelves, the highest chart first.
     bool lay_out(std::size_t most_texels) {
         struct Range {
             int a0 = 1 << 30, a1 = -1, b0 = 1 << 30, b1 = -1;
@@ -216,8 +217,8 @@ private:
     }
 
     void place_vertices() {
-        std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;   // of what a vertex has become
-        std::vector<int> chart;                                                   // of each that it has
+        std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;   // chart copies of each vertex
+        std::vector<int> chart;                                                   // chart of each copy
         for (std::size_t i = 0; i < asset_.indices.size(); ++i) {
             const ChartTriangle& t = triangles_[i / 3];
             std::uint32_t& last = latest[asset_.indices[i]];
@@ -238,7 +239,7 @@ private:
         }
     }
 
-    // Each texel takes its place from the triangle that it lies in, else from the nearest.
+    // Each texel takes its point from the triangle that contains it, else from the nearest triangle.
     void fill() {
         const std::size_t count = std::size_t(result_.width) * std::size_t(result_.height);
         result_.positions.resize(count);
@@ -272,11 +273,12 @@ private:
 
     static void put(const Vec3& from, std::array<float, 3>& to) { to = {float(from.x()), float(from.y()), float(from.z())}; }
 
-    // Between those of the corners, as it is shaded.
+    // Interpolated between the corners' normals, as in shading.
     Vec3 normal_at(std::size_t triangle, double a, double b) const {
         const ChartTriangle& t = triangles_[triangle];
         Vec3 sum = Vec3::Zero();
-        for (std::size_t k = 0; k < 3; ++k) {   // a corner's share: the distance from the side across, of that corner's own
+        // weight of a corner: distance from the opposite side, over the corner's own distance
+        for (std::size_t k = 0; k < 3; ++k) {
             const Eigen::Vector3d& e = t.edge[(k + 1) % 3];
             const double own = std::max(e.x() * t.corners[k].x() + e.y() * t.corners[k].y() + e.z(), 1e-30);
             const double share = std::clamp((e.x() * a + e.y() * b + e.z()) / own, 0.0, 1.0);
@@ -295,10 +297,10 @@ private:
     Vec3 low_ = Vec3::Zero();
     std::array<int, 3> count_{};   // texels along each axis
     std::vector<ChartTriangle> triangles_;
-    std::vector<std::uint32_t> neighbours_;   // of each triangle three
-    std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was seen there last
+    std::vector<std::uint32_t> neighbours_;   // three per triangle
+    std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was entered there last
     std::vector<int> sides_;                  // of each chart
-    std::vector<std::array<int, 2>> first_;   // texel of each chart, before it is laid out
+    std::vector<std::array<int, 2>> first_;   // first texel of each chart, before packing
     ChartedMesh result_;
 };
 

@@ -8,10 +8,10 @@
 namespace tumble {
 namespace {
 
-// Between texels: what lies nearer than one to one that changed, and a tenth for rounding.
+// Interpolation: points within one texel of a changed texel, plus a tenth for rounding.
 constexpr double to_next = 1.1;
 
-constexpr double steepest_ball = 1.8;   // how far apart an octahedral map's texels are, to the average along its middle
+constexpr double steepest_ball = 1.8;   // spacing of the texels of an octahedral map, relative to the mean, near its center lines
 
 Vec3 texel_center(const OcclusionLightmap& surface, std::size_t texel) {
     const auto& p = surface.positions[texel];
@@ -22,7 +22,7 @@ struct Region {
     int x, y, width, height;   // texels
 };
 
-// `used(texel)`; `add(texel, bounds)`: takes in what a texel lies at.
+// `used(texel)`; `add(texel, bounds)` extends the bounds by the texel's points.
 template <class Used, class Add>
 void add_blocks(OcclusionLightmap& surface, const Region& region, const Used& used, const Add& add) {
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(surface.width) + std::size_t(x); };
@@ -36,7 +36,7 @@ void add_blocks(OcclusionLightmap& surface, const Region& region, const Used& us
                 add(any, b.bounds);
             }
         if (b.bounds.empty()) return;
-        for (int j = y; j < y + rows; ++j)   // those without a surface go along with another
+        for (int j = y; j < y + rows; ++j)   // texels without a surface join any block
             for (int i = x; i < x + columns; ++i) {
                 if (used(at(i, j))) continue;
                 surface.positions[at(i, j)] = surface.positions[any];

@@ -1,6 +1,6 @@
-// Large bodies that never move, laid out in texels as fine as what darkens them: meshes by their charts (mesh_charts.h), balls
-// unfolded as all are. Texels come in blocks, each with its place in space, so that only those are looked at that a body is near
-// to, and only those are drawn anew that changed.
+// Lightmaps for the AO of large fixed bodies, with texels as fine as the AO radius of moving bodies: charts for meshes
+// (chart_unwrap.h), octahedral maps for balls. Texels are grouped into blocks with bounds, so that only blocks near a
+// moving body are updated, and only changed ones are redrawn.
 #pragma once
 
 #include "core/vector.h"
@@ -12,11 +12,11 @@
 namespace tumble {
 
 struct OcclusionLightmap {
-    static constexpr int block = 8;          // texels to a side
-    static constexpr int group = 64;         // texels to a side of a group of blocks
+    static constexpr int block = 8;          // texels per side
+    static constexpr int group = 64;         // texels per side of a group of blocks
     struct Block {
         int x, y, width, height;             // texels
-        Bounds bounds;                       // of all that these texels darken; body frame, m
+        Bounds bounds;                       // of all points that these texels shade; body frame, m
     };
     struct Group {
         std::uint32_t first, end;            // blocks
@@ -28,10 +28,10 @@ struct OcclusionLightmap {
     std::vector<Group> groups;
 };
 
-/// Takes the texels from the charts.
+/// Moves the texels out of the charts.
 OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts);
 
-/// A ball of `texels` to a side.
+/// A ball with `texels` per side.
 OcclusionLightmap fine_surface_of_ball(double radius, int texels);
 
 /// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.

@@ -15,7 +15,7 @@ GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& looks)
 }
 
 void GpuMeshCache::make_primitive(std::size_t mesh) {
-    const bool closed = mesh != half_box_mesh;   // that is mirrored as needed: no side of its triangles is the front
+    const bool closed = mesh != half_box_mesh;   // it is mirrored as needed, so its winding varies
     const DrawMesh made = mesh == half_box_mesh   ? make_half_box()
                           : mesh == face_mesh     ? make_face()
                           : mesh == cylinder_mesh ? make_cylinder(cylinder_sides)
@@ -64,7 +64,7 @@ void GpuMeshCache::draw_in_view(const Batch& batch) const {
     if (mesh.closed()) return;
     gl_->CullFace(GL_FRONT);
     gl_->Enable(GL_POLYGON_OFFSET_FILL);
-    gl_->PolygonOffset(1.0f, 8.0f);   // by what their depth changes over a pixel, and eight of the steps that depths have there
+    gl_->PolygonOffset(1.0f, 8.0f);   // slope of the depth per pixel, plus eight steps of the depth buffer
     mesh.draw(instances_.name(), batch.first, batch.count);
     gl_->Disable(GL_POLYGON_OFFSET_FILL);
     gl_->CullFace(GL_BACK);

@@ -1,4 +1,4 @@
-// All meshes of a scene on the graphics side, by the numbers of batch.h.
+// All meshes of a scene in GPU memory, by the indices of batch.h.
 #pragma once
 
 #include "render/mesh/batch.h"
@@ -13,14 +13,14 @@ class GpuMeshCache {
 public:
     GpuMeshCache(const GlFunctions& gl, const RenderScene& looks);
 
-    /// Sends the frame's instances, which the batches drawn next refer to, and meshes that they are the first to need.
+    /// Uploads the frame's instances, which the next batches refer to, and the meshes that they are the first to use.
     void upload(const DrawList& list, MeshLods& details);
 
-    /// Draws a batch; back faces of closed meshes are left out.
+    /// Draws a batch; back faces of closed meshes are culled.
     void draw(const Batch& batch) const;
 
-    /// The same into the picture. Of open meshes back faces lie a little farther away than they are: where the surface is seen
-    /// edge-on, in folds finer than a pixel, depths round to either side, and specks of the underside would show.
+    /// The same into the frame. Back faces of open meshes are moved slightly away from the eye. Without that, rounded
+    /// depths would show specks of the underside where a surface is seen edge-on, in folds finer than a pixel.
     void draw_in_view(const Batch& batch) const;
 
 private:

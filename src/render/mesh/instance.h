@@ -5,15 +5,15 @@
 
 namespace tumble {
 
-/// One drawn body (of a box, one of its faces), as shaders/instance.glsl reads it.
+/// One drawn body (or one face of a box); layout of shaders/instance.glsl.
 struct Instance {
-    glm::vec4 position;     // of the body's origin, relative to the eye; w: bevel, m
+    glm::vec4 position;     // of the body's origin, m, relative to the eye; w: bevel, m
     glm::vec4 orientation;  // x, y, z, w
-    glm::vec4 scale;        // of the mesh; w: its pattern's cell, m
+    glm::vec4 scale;        // of the mesh; w: cell of its pattern, m
     glm::vec4 color;        // linear; w: roughness
-    glm::vec4 look;         // metallic, pattern; z, w: its place in the occlusion atlas, texels
-    glm::vec4 tile;         // the edge of its tiles there; which face of a box this is, as in make_box(); its surface's
-                            // number as alpha; 1: looks into the near shadow map, 0: the far one
+    glm::vec4 look;         // metallic, pattern; z, w: place in the AO atlas, texels
+    glm::vec4 tile;         // edge of its AO tiles, texels; index of a box's face, as in make_box(); surface id, as alpha; 1: uses
+                            // the near shadow map, 0: the far one
 };
 
 }  // namespace tumble

@@ -63,7 +63,7 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
 
 void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) const {
     gl_->BindVertexArray(array_.name());
-    // Once: Mesa compiles a vertex shader a second time for an array whose pointers keep changing.
+    // Set once, because Mesa recompiles a vertex shader for an array with changing pointers.
     if (instances != instances_) {
         gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
         GLuint location = first_instance_attribute;

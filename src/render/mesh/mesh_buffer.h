@@ -1,4 +1,4 @@
-// A mesh on the graphics side, drawn many times at once with one Instance each.
+// A mesh in GPU memory, drawn with many instances at once.
 #pragma once
 
 #include "render/gl/gl_object.h"
@@ -14,8 +14,8 @@ namespace tumble {
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
-    std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only the scene's own meshes have probes
-    std::span<const std::array<float, 2>> texels;    // likewise: those with charts
+    std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only meshes of the scene have samples
+    std::span<const std::array<float, 2>> texels;    // may be empty: only meshes with charts have texels
     bool closed = true;
 };
 
@@ -23,17 +23,17 @@ class MeshBuffer {
 public:
     MeshBuffer(const GlFunctions& gl, const MeshData& data);
 
-    /// A closed mesh hides its back faces.
+    /// Back faces of a closed mesh are not visible.
     bool closed() const { return closed_; }
 
-    /// Draws `count` instances from the buffer `instances`, beginning with number `first`.
+    /// Draws `count` instances from the buffer `instances`, starting at index `first`.
     void draw(GLuint instances, std::size_t first, std::size_t count) const;
 
 private:
     const GlFunctions* gl_;
     GlObject array_, vertices_, indices_, probes_, texels_;
     GLsizei index_count_;
-    mutable GLuint instances_ = 0;   // the buffer that the array points to
+    mutable GLuint instances_ = 0;   // the buffer that the vertex array refers to
     bool closed_;
 };
 

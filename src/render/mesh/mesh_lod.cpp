@@ -12,15 +12,15 @@
 namespace tumble {
 namespace {
 
-constexpr double finest_deviation = 1.0 / 512.0;   // of the ball's radius: a mesh of 128 pixels' radius
+constexpr double finest_deviation = 1.0 / 512.0;   // of the ball's radius: a mesh with a radius of 128 pixels
 
-// With fewer triangles nothing is gained: setting a batch up costs as much.
+// A level with fewer triangles saves nothing: setting up a batch costs as much.
 constexpr std::size_t few_triangles = 96;
 
-// With more, checking a level would take minutes and gigabytes.
+// With more triangles, the check of a level would take minutes and gigabytes.
 constexpr std::size_t many_triangles = 500'000;
 
-// meshoptimizer's errors are those of quadrics, which can be smaller than the true ones: then it is asked for less.
+// meshoptimizer's errors are quadrics and can be below the true ones; then a smaller error is requested.
 constexpr int most_tries = 6;
 constexpr double next_try = 0.6;
 
@@ -78,7 +78,7 @@ std::size_t level_for(const RenderBody& look, const RenderScene& looks, double d
 }
 
 std::size_t level_in_view(const RenderBody& look, const RenderScene& looks, const Vec3& center, const Camera& view) {
-    // Beside the picture's middle what is off by so much lies |p| / depth times as far off in it.
+    // Away from the center of the view, a deviation appears larger by the factor |p| / depth.
     const double depth = center.dot(view.forward()) - look.bound_radius, distance = center.norm() + look.bound_radius;
     if (!(depth > 0.0) || looks.meshes[look.mesh].charts) return 0;
     return level_for(look, looks, most_detail_error * view.pixel_size() * depth * depth / distance);

@@ -49,7 +49,7 @@ DrawMesh make_ball(int level) {
                 p[(axis + 2) % 3] = b;
                 points.push_back(p.normalized());
             }
-    // The faces are the triples of corners at the icosahedron's edge length from each other.
+    // The faces are the triples of corners whose mutual distance is the icosahedron's edge length.
     const double edge = 2.0 / std::sqrt(1.0 + golden * golden);
     const auto adjacent = [&](std::size_t i, std::size_t j) { return (points[i] - points[j]).norm() < 1.01 * edge; };
     std::vector<std::array<std::uint32_t, 3>> faces;

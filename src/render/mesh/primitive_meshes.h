@@ -1,4 +1,4 @@
-// The meshes that every scene can need: unit box, unit balls of several finenesses, unit cylinder.
+// Meshes for every scene: unit box, unit balls of several levels of detail, unit cylinder.
 #pragma once
 
 #include "scene/description/description.h"
@@ -8,23 +8,23 @@
 
 namespace tumble {
 
-/// Triangles for drawing, counter-clockwise from outside.
+/// Triangles for drawing, counter-clockwise seen from outside.
 struct DrawMesh {
     std::vector<MeshAsset::Vertex> vertices;
     std::vector<std::uint32_t> indices;
 };
 
-/// The three faces on the high sides of the cube [-1, 1]^3, with seven corners: where only depth is wanted. Their normals
-/// are those of a ball.
+/// The three faces on the high sides of the cube [-1, 1]^3, with seven corners, for depth-only passes. Its normals are
+/// those of a ball.
 DrawMesh make_half_box();
 
-/// The square [-1, 1]^2 x 0, which the shader puts on one face of the cube.
+/// The square [-1, 1]^2 x 0, which the shader maps to one face of the cube.
 DrawMesh make_face();
 
 /// A ball of radius 1: an icosahedron whose faces are split into four `level` times (Fuller's geodesic sphere).
 DrawMesh make_ball(int level);
 
-/// The cylinder of radius 1 about the y axis from -1 to 1, without caps (a cord's ends are hidden).
+/// The cylinder of radius 1 about the y axis from -1 to 1, without caps (the ends of a cord are hidden).
 DrawMesh make_cylinder(int sides);
 
 }  // namespace tumble

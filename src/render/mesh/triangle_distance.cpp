@@ -6,9 +6,9 @@
 namespace tumble {
 namespace {
 
-// Cells to a side: no finer, however small the distance.
+// Largest number of cells per side, for any distance.
 constexpr double most_cells = 64.0;
-constexpr std::int64_t row = 1 << 20;   // of cell numbers
+constexpr std::int64_t row = 1 << 20;   // stride of cell indices
 
 Bounds bounds_of(const NearSurface::Triangle& t) {
     Bounds bounds;

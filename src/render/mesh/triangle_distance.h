@@ -1,5 +1,5 @@
-// Is a point near a surface of triangles? Cells of a lattice, as large as the distance asked for, each with the triangles
-// near it.
+// Proximity of a point to a triangle mesh, with a grid whose cells have the size of the query distance, each with the
+// triangles near it.
 #pragma once
 
 #include "core/vector.h"
@@ -12,14 +12,14 @@
 
 namespace tumble {
 
-/// How far a point is from a triangle, m.
+/// Distance of a point from a triangle, m.
 double distance_to_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
 class NearSurface {
 public:
     using Triangle = std::array<Vec3, 3>;
 
-    /// `within`, m: the largest distance that counts as near.
+    /// `within`: query distance, m.
     NearSurface(std::vector<Triangle> triangles, double within);
 
     bool holds(const Vec3& point) const;

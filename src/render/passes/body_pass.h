@@ -1,4 +1,4 @@
-// The shaders of bodies by kind of mesh, and the places where all shaders find what they share.
+// Shaders of bodies by kind of mesh, and the bindings that all shaders share.
 #pragma once
 
 #include "render/mesh/gpu_mesh_cache.h"
@@ -14,26 +14,26 @@
 
 namespace tumble {
 
-/// The uniform block and the texture units of everything drawn.
+/// Uniform block and texture units of all draws.
 inline constexpr GLuint frame_block = 0;
 inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1;
 
-/// What the shaders that look for shadows must have defined.
+/// Preprocessor definitions for shaders with shadow lookups.
 std::vector<std::string> shadow_defines(const ShadowFilter& filter);
 
-/// Ties a program's samplers and blocks to them.
+/// Connects a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
 class BodyPass {
 public:
-    /// Compiles what the scene's bodies need; the shaders of wide ones when there first is such a one.
+    /// Compiles the shaders that the scene's bodies need; those for bodies that span cascades on first use.
     BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                     bool has_cords, bool shadows, const ShadowFilter& filter);
 
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
-    /// For each shader a draw of one instance, where there is one, that has it compiled. The caller sees to it that nothing
-    /// of it lands in the picture.
+    /// One draw of one instance per shader, if there is an instance, which makes the driver compile the shader. The
+    /// caller must prevent it from changing the frame.
     std::vector<std::function<void()>> compilations(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
 private:
@@ -49,8 +49,8 @@ private:
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    bool metal_boxes_ = false;   // highlights on bevels glitter where they are not filtered
-    std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and width
+    bool metal_boxes_ = false;   // highlights on their bevels flicker without filtering
+    std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and cascade span
 };
 
 }  // namespace tumble

@@ -12,29 +12,29 @@
 namespace tumble {
 namespace {
 
-// A ball's outline may leave the true circle by this much.
+// Largest deviation of a ball's outline from the circle.
 constexpr double outline_error = 0.15;  // pixels, or texels of a shadow map
 
-// The angle between neighbouring vertices of the icosahedron itself; each level of splitting halves it.
+// The angle between adjacent vertices of the icosahedron; each subdivision halves it.
 constexpr double icosahedron_angle = 1.10714871779409;  // rad, atan 2
 
 constexpr float cord_roughness = 0.7f;
 
-// Bodies are drawn in shells around the eye, the nearest first, and within a shell by mesh and shader: what is hidden is
-// mostly rejected, and there are few changes of shaders.
-constexpr double shells_per_doubling = 8.0;   // of the distance
+// Draw order: by shells around the eye, the nearest first, and within a shell by mesh and shader. Hidden pixels are
+// mostly rejected, and shader changes are few.
+constexpr double shells_per_doubling = 8.0;   // per doubling of the distance
 
-constexpr double shell_offset = 100000.0;     // keeps their numbers positive
+constexpr double shell_offset = 100000.0;     // keeps shell numbers positive
 
-// What is drawn, before it is in order.
+// One item before sorting.
 struct Item {
-    std::uint64_t order;    // by shell, mesh and shader
+    std::uint64_t order;    // key by shell, mesh and shader
     float distance;         // m
-    std::uint32_t number;   // of the body, or past these of the cord
+    std::uint32_t number;   // index of the body; cords follow the bodies
     std::uint32_t mesh;
     std::uint8_t face;      // of a box
     bool patterned, lit, wide;
-    bool charted = false;   // follows from the mesh
+    bool charted = false;   // given by the mesh
 };
 
 Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
@@ -91,7 +91,7 @@ Instance cord_instance(const CordDescription& cord, std::size_t number, const Co
                       shadows.near_holds(place.middle, 0.5 * place.length + cord.radius) ? 1.0f : 0.0f)};
 }
 
-// The half box has the faces on the high sides: mirrored so that they are those in the sun.
+// The half box has the faces on the high sides; they are mirrored to be those towards the sun.
 void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& light) {
     const Vec3 there = orientation.conjugate() * light;
     for (int axis = 0; axis < 3; ++axis)
@@ -110,7 +110,7 @@ std::size_t mesh_of(const RenderBody& look, const RenderScene& looks, const Boun
     }
 }
 
-// As fine as the shadow map that it is drawn into.
+// Level of detail for the resolution of the item's shadow map.
 std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view,
                         const ShadowCascades& shadows) {
     const double texel = shadows.may_look_far(ball.center, ball.radius) ? std::min(shadows.near_texel, shadows.far_texel)
@@ -120,7 +120,7 @@ std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const 
     return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
 }
 
-// Appends the items' instances, as batches of one mesh, nearest first; equal ones keep the scene's order.
+// Appends the items' instances as batches of one mesh, nearest first; equal items keep the scene's order.
 template <class Make>
 std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, const Make& make) {
     std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
@@ -166,7 +166,7 @@ DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks,
             visible.back().charted = look.kind == DrawKind::mesh && looks.meshes[look.mesh].charts.has_value();
             continue;
         }
-        // The faces of a box that can be seen, those in the sun apart from the others.
+        // Visible faces of the box: lit ones are separate from unlit ones.
         const Vec3 there = snapshot.bodies[i].orientation.conjugate() * light;
         for (int face = 0; face < 6; ++face)
             if ((visibility.faces[i] >> face & 1) != 0) {

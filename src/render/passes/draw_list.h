@@ -1,5 +1,5 @@
-// What one frame draws: plain values made from the scene's looks and a snapshot, ready for upload.
-// Bodies that share a mesh are one batch of instances, nearest first, so that what is hidden is rejected early.
+// The draw list of one frame: plain values made from the render scene and a snapshot, ready for upload. Bodies that
+// share a mesh form one batch of instances, nearest first, so that hidden pixels are rejected early.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -13,8 +13,7 @@
 
 namespace tumble {
 
-/// `wanted`, `casting`: of each item of drawn_items.h, whether it is to be drawn where it is visible, and into the shadow
-/// maps.
+/// `wanted`, `casting`: draw mask and caster mask, by item of drawable_bounds.h.
 DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
                         const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
                         const ShadowCascades& shadows, const std::vector<char>& wanted,

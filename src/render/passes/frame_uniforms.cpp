@@ -7,7 +7,7 @@
 
 namespace tumble {
 bool sun_is_up(const SceneDescription& scene) {
-    constexpr double steepest_ground = 0.5;   // cosine of 60 degrees: what is steeper is a wall, as for the default camera
+    constexpr double steepest_ground = 0.5;   // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
     for (const BodyDescription& body : scene.bodies) {
         const auto* plane = std::get_if<PlaneShape>(&body.shape);
         if (plane == nullptr || body.type != BodyType::fixed) continue;
@@ -24,7 +24,8 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, co
     u.ray_origin = to_glm(view.ray(0.0, 0.0), 0.0);
     u.ray_dx = to_glm(view.ray(1.0, 0.0) - view.ray(0.0, 0.0), 0.0);
     u.ray_dy = to_glm(view.ray(0.0, 1.0) - view.ray(0.0, 0.0), 0.0);
-    u.to_light = sun_up ? to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0) : glm::vec4(0.0f);   // no cosine, no light
+    // the zero vector gives a cosine of 0: no sunlight
+    u.to_light = sun_up ? to_glm(-light.direction.normalized(), light.shadows ? 1.0 : 0.0) : glm::vec4(0.0f);
     u.shadow_x = shadows.x;
     u.shadow_y = shadows.y;
     u.shadow_z = shadows.z;

@@ -1,4 +1,4 @@
-// The values that hold for a whole frame, laid out as shaders/frame.glsl reads them (std140: vec4s throughout).
+// Uniforms that are constant over a frame, in the layout of shaders/frame.glsl (std140: vec4s throughout).
 #pragma once
 
 #include "render/camera/camera.h"
@@ -20,11 +20,11 @@ struct FrameUniforms {
 };
 static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
-/// Planes throw no shadows, for each is the surface of half a space, which takes the sun from all or from nothing: from all where
-/// the sun is below what bodies can lie on. Of planes that stand still.
+/// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
+/// half-space, which would block either all sunlight or none.
 bool sun_is_up(const SceneDescription& scene);
 
-/// `sun_up`: else there is no sunlight.
+/// `sun_up`: false disables sunlight.
 FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const Camera& view, double near_distance,
                                   const ShadowCascades& shadows, int atlas_height, bool widen_rods);
 

@@ -1,5 +1,5 @@
-// What the stages of drawing cost, for measurements: CPU time, with glFinish between the stages, because llvmpipe would
-// otherwise do most of the work at the end. That costs a little itself.
+// Cost of the passes, for measurements: CPU time, with glFinish between the passes, because llvmpipe would otherwise do
+// most of the work at the end. The measurement itself has a small cost.
 #pragma once
 
 #include "render/gl/gl_functions.h"
@@ -19,7 +19,7 @@ struct PassTimes {
     std::array<double, render_stages> seconds{};
 };
 
-/// Writes down the time since the last stage ended. Does nothing, and does not wait, without a place to write to.
+/// Adds the time since the last pass ended. Without a target it does nothing and does not wait.
 class PassTimer {
 public:
     PassTimer(const GlFunctions& gl, PassTimes* times);

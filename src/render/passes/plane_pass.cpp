@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-// Two planes that meet darken each other's corner this far, in parts of the bodies' typical reach.
+// Range within which two intersecting planes occlude each other, in parts of the typical AO radius.
 constexpr double corner_reach = 2.0;
 
 constexpr int most_other_planes = 6;  // of a box-shaped room, and one more
@@ -75,7 +75,7 @@ std::vector<std::string> PlanePass::touched() const {
 
 std::vector<std::function<void()>> PlanePass::compilations() const {
     std::vector<std::function<void()>> all;
-    const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles it for each such comparison
+    const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles the shader for each such comparison
         all.emplace_back([this, &program, nearer] {
             program.use();
             gl_->DepthFunc(nearer);
@@ -98,8 +98,8 @@ void PlanePass::draw_sky(const std::vector<PlanePatch>& planes, const Camera& vi
 }
 
 void PlanePass::draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
-    // What is as near stays: bodies and touched areas drawn before, as they would be drawn over this. So the last of
-    // planes that meet, which are drawn over each other in the touched areas, comes first here.
+    // Pixels at equal depth stay: bodies and dirty regions that were drawn before. Dirty regions are drawn over each
+    // other in order, so the last of several intersecting planes comes first here.
     gl_->DepthFunc(GL_LESS);
     for (std::size_t i = planes.size(); i-- > 0;) {
         set_uniforms(planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->open, planes[i], planes, looks);
@@ -142,7 +142,7 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
     program.set("plane_color", glm::vec4(look.color, look.roughness));
     program.set("plane_look", glm::vec4(look.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (other_planes_ == 0) return;
-    std::vector<glm::vec4> others;  // those that are not in view lie far below: nothing comes near them
+    std::vector<glm::vec4> others;  // planes outside the view are placed far below, where they have no effect
     for (const PlanePatch& other : planes)
         if (other.body != plane.body) others.push_back(to_glm(other.normal, other.height));
     others.resize(std::size_t(other_planes_), glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
@@ -154,7 +154,7 @@ void PlanePass::set_window(const ShaderProgram& program, const PlanePatch& plane
                               const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
                                      [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
-    if (window == atlas.windows.end()) {  // texel 0, 0 is open
+    if (window == atlas.windows.end()) {  // texel 0, 0 is unoccluded
         for (const char* name : {"window_u", "window_v", "window_rim"}) program.set(name, glm::vec4(0.0f));
         return;
     }

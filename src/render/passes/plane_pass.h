@@ -1,4 +1,4 @@
-// Draws the infinite planes, and the sky where nothing else is.
+// Draws the infinite planes, and the sky where no plane is.
 #pragma once
 
 #include "render/gl/gl_object.h"
@@ -20,19 +20,19 @@ public:
     PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
                  bool shadows, const ShadowFilter& filter);
 
-    /// The sky, where no plane is. Before anything else: at the horizon a plane's depth rounds to the sky's.
+    /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
     void draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const;
 
-    /// All planes without bodies' shadows and darkening, where nothing as near has been drawn. It does not matter whether
-    /// bodies and touched areas come before or after.
+    /// Draws all planes without shadows and occlusion by bodies, where no surface at the same or a smaller depth has
+    /// been drawn. Bodies and dirty regions may be drawn before or after.
     void draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const;
 
-    /// Draws planes[i] where areas[i] says that shadows or darkening touch it.
+    /// Draws planes[i] in areas[i], with shadows and occlusion.
     void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
                       const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
                       const Camera& view, bool far_shadows);
 
-    /// For each shader a draw that has it compiled. The caller sees to it that nothing of it lands in the picture.
+    /// One draw per shader, which makes the driver compile it. The caller must prevent it from changing the frame.
     std::vector<std::function<void()>> compilations() const;
 
 private:
@@ -53,7 +53,7 @@ private:
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    std::array<std::optional<Programs>, 3> planes_;  // by pattern: those that the scene uses
+    std::array<std::optional<Programs>, 3> planes_;  // by pattern, as far as the scene uses it
     int other_planes_;
     ShaderProgram sky_;
     GlObject array_, corners_;

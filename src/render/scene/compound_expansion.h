@@ -1,4 +1,4 @@
-// Compounds as what is drawn of them: each part becomes a body of its own, so that everything behind draws single shapes.
+// Expands compounds: each part becomes a body of its own, so that all further code handles single shapes.
 #pragma once
 
 #include "scene/description/description.h"
@@ -15,22 +15,22 @@ class CompoundExpansion {
 public:
     explicit CompoundExpansion(const SceneDescription& scene);
 
-    /// The scene with every compound replaced by its parts, at its own place in the list; cords are hung to the first.
+    /// The scene with every compound replaced by its parts, in place; cords are attached to the first part.
     const SceneDescription& scene() const { return scene_; }
-    /// Frees what scene() says of bodies; meshes live on. For whoever has made what it needs of them: 30 MB for 100,000.
+    /// Frees the bodies of scene(); meshes stay. For callers that need the bodies no longer: 30 MB for 100,000 bodies.
     void forget_bodies();
-    /// The snapshot that goes with it. Valid until the next call, or as long as the argument.
+    /// The expanded snapshot. Valid until the next call, or as long as the argument.
     const Snapshot& snapshot(const Snapshot& whole);
 
 private:
     struct Part {
-        std::size_t body;   // of the scene it was made from
+        std::size_t body;   // index in the original scene
         Vec3 position = Vec3::Zero();       // body frame
         Quat rotation = Quat::Identity();
     };
     SceneDescription scene_;
-    std::set<std::shared_ptr<const MeshAsset>> assets_;   // of forgotten bodies
-    std::vector<Part> parts_;   // one a drawn body; empty when there are no compounds
+    std::set<std::shared_ptr<const MeshAsset>> assets_;   // of freed bodies
+    std::vector<Part> parts_;   // one per drawn body; empty without compounds
     Snapshot snapshot_;
 };
 

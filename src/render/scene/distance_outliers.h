@@ -1,4 +1,5 @@
-// Bodies so far from the eye that they are small in the picture, lost ones among them, spoil nothing that is fitted to the rest.
+// Excludes distance outliers: bodies so far from the eye that they are small on the screen, for example lost ones, do
+// not affect quantities that are fitted to the other bodies.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +9,14 @@
 
 namespace tumble {
 
-/// The middle one of an odd number; of an even one the lower of both: one of two may be lost.
+/// The median; of an even number the lower of the two in the middle, because one of two bodies may be lost.
 inline double lower_median(std::vector<double>& values) {
     const auto middle = values.begin() + std::ptrdiff_t((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
 
-/// What reaches farther from the eye than this does not count: so many times as far as the middle one. Sorts the distances.
+/// Distance beyond which a body is an outlier: a multiple of the median distance. Sorts the distances.
 inline double far_limit(std::vector<double>& distances) {
     constexpr double far_away = 4.0;
     return distances.empty() ? std::numeric_limits<double>::infinity() : far_away * lower_median(distances);

@@ -1,4 +1,4 @@
-// What is drawn, as corners in space: one item a body (planes and hidden ones are empty), then one a cord.
+// Bounds of drawable items: one per body (empty for planes and hidden bodies), then one per cord.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -11,10 +11,10 @@
 namespace tumble {
 
 struct DrawableBounds {
-    Mat3 half_axes;                // of a box around it: from its middle to the middles of its high sides
-    Vec3 center;                   // of that box and of a ball around it, relative to the eye
-    double radius = -1.0;          // m; negative: nothing is drawn
-    /// Of the box, relative to the eye: corner i is on the high side of axis k when bit k of i is set.
+    Mat3 half_axes;                // of a bounding box: from its center to the centers of its high sides, m
+    Vec3 center;                   // of that box and of a bounding ball, m, relative to the eye
+    double radius = -1.0;          // m; negative: not drawn
+    /// Corners of the box, m, relative to the eye: corner i is on the high side of axis k if bit k of i is set.
     std::array<Vec3, 8> corners() const;
     bool exists() const { return radius >= 0.0; }
 };

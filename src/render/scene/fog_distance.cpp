@@ -9,19 +9,20 @@
 namespace tumble {
 namespace {
 
-// The target counts where it is up to so many times as near or as far as the middle one of the bodies.
+// The target counts if its distance is within this factor of the median distance of the bodies.
 constexpr double about_there = 2.0;
 
-// Half of a thing's light is haze at this many viewing distances: the ground ends softly, the bodies stay clear.
+// Distance at which fog is half of the light, in reference distances: the ground fades out, the bodies stay clear.
 constexpr double half_fog = 5.0;
 
-// A body counts as large in the picture from this part of its height on: 7 pixels of 720. What is lost is smaller.
+// A body counts as large on the screen from this part of the image height on (7 pixels of 720). Lost bodies are
+// smaller.
 constexpr double large_part = 0.01;
 
-// Half haze is no nearer than so many times as far as the near side of such a body: 6 % of its light.
+// Lower limit of the half-fog distance, in distances of the near side of such a body: 6 % of its light is fog.
 constexpr double beyond_large = 2.0;
 
-// From a point to the box around a body, m; 0 within it.
+// Distance from a point to the bounding box of a body, m; 0 inside.
 double gap_to(const Vec3& eye, const RenderBody& look, const Vec3& origin, const Quat& rotation, const RenderScene& looks) {
     const Vec3& half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
     const Vec3 from = rotation.conjugate() * (eye - origin) - look.bound_center;

@@ -1,5 +1,4 @@
-// How far away what a clip shows is: what distance haze and the grids of planes fit, the same for all of it, so that they never
-// jump.
+// Reference distance of a clip, for fog and the grids of planes: constant over the clip, so that neither jumps.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -7,12 +6,12 @@
 
 namespace tumble {
 
-/// From the eye to the target (of keyframes, the farthest), as long as the bodies are about there: who writes an eye and a direction
-/// may put the target anywhere along it. m, by where everything starts.
+/// Distance from the eye to the target (with keyframes, the largest), if the bodies are at about that distance; a scene
+/// may place the target anywhere along the view direction. m, from the initial poses.
 double viewing_distance(const SceneDescription& scene, const RenderScene& looks);
 
-/// Where half of a thing's light is haze, m: some viewing distances away, or so far that what is large in the picture is not lost
-/// in it, however far it is.
+/// Distance at which fog is half of the light, m: a multiple of the reference distance, or farther so that bodies that
+/// are large on the screen stay visible at any distance.
 double fog_distance(const SceneDescription& scene, const RenderScene& looks, double viewing_distance);
 
 }  // namespace tumble

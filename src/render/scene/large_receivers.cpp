@@ -9,14 +9,15 @@
 namespace tumble {
 namespace {
 
-// A ground is this many times as wide as the space that all smaller bodies take up. A shadow map around it would be
-// twice as coarse as one around them.
+// A large receiver is this many times as wide as the space that all smaller bodies occupy. A shadow map around it would
+// be twice as coarse as one around them.
 constexpr double ground_of_rest = 1.5;
 
-// That space is at least so wide, in half edges of the largest of them: shadows are not wanted finer (see shadow_fit.cpp).
+// Lower limit of that space, in half edges of the largest of these bodies: shadows are not needed finer
+// (shadow_cascades.cpp).
 constexpr double least_rest = 15.0;
 
-// More large bodies than these are no grounds, but the scene itself.
+// More large bodies than this are the subject of the scene, not receivers.
 constexpr std::size_t most_grounds = 32;
 
 struct ReceiverExtent {
@@ -41,7 +42,7 @@ void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
     });
     std::vector<std::size_t> grounds;
     ReceiverExtent rest;
-    double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no ground
+    double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no receiver
     for (const std::size_t i : by_size) {
         const RenderBody& look = looks.bodies[i];
         if (2.0 * look.bound_radius > ground_of_rest * std::max(rest.size(), least_rest * largest_reach)) {
@@ -80,11 +81,11 @@ double RestHeightEstimate::fall(const Vec3& point, const Vec3& down) const {
         const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
         if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
     }
-    for (const Block& block : blocks_) {   // between its sides' planes, axis by axis
+    for (const Block& block : blocks_) {   // between the planes of its sides, axis by axis
         const Vec3 from = block.rotation.conjugate() * (point - block.center), way = block.rotation.conjugate() * down;
         double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
         for (int k = 0; k < 3; ++k) {
-            const double side = way[k] < 0.0 ? -block.half_size[k] : block.half_size[k];   // where it leaves
+            const double side = way[k] < 0.0 ? -block.half_size[k] : block.half_size[k];   // exit point
             const double speed = std::abs(way[k]) < 1e-12 ? std::copysign(1e-12, way[k]) : way[k];
             enter = std::max(enter, (-side - from[k]) / speed);
             leave = std::min(leave, (side - from[k]) / speed);

@@ -1,15 +1,17 @@
-// Large bodies that the others stand on or between: a floor, a field, the walls of a room. Whatever is fitted to the bodies'
-// size or place (the near shadow map, how finely darkening is sampled) is fitted to the rest.
+// Large receivers: large bodies that the others stand on or between, such as a floor, a field or the walls of a room.
+// Quantities that are fitted to the size or place of the bodies (the near shadow map, the sampling of AO) are fitted to
+// the others.
 #pragma once
 
 #include "render/scene/render_scene.h"
 
 namespace tumble {
 
-/// Sets RenderBody::ground of those that are much larger than all smaller bodies together, as they start.
+/// Sets RenderBody::ground of bodies that are much larger than all smaller bodies together, at the initial poses.
 void find_large_receivers(const SceneDescription& scene, RenderScene& looks);
 
-/// How far a point falls until it meets a plane or a ground, as they start, m; 0 where there is none below. `down`: unit.
+/// Fall height of a point above the nearest plane or large receiver below it, at the initial poses, m; 0 without one.
+/// `down`: unit.
 class RestHeightEstimate {
 public:
     RestHeightEstimate(const SceneDescription& scene, const RenderScene& looks);
@@ -19,7 +21,7 @@ private:
     struct Block {
         Vec3 center, half_size;   // m
         Quat rotation;
-        bool hollow;              // a mesh: what falls may land as deep as at its lower side
+        bool hollow;              // a mesh: a body may come to rest as low as the lower side of its bounds
     };
     std::vector<PlaneShape> planes_;
     std::vector<Block> blocks_;

@@ -6,13 +6,13 @@
 namespace tumble {
 namespace {
 
-// The near plane is no nearer than this part of the viewing distance: depth has 24 bits between it and infinity.
+// Smallest near distance over the reference distance: depth has 24 bits between it and infinity.
 constexpr double nearest_part = 1e-4;
 
 }  // namespace
 
-// The ball around a ground often holds the eye; but what is in view of the box around it is no nearer than its nearest
-// point, and along the axis less by a corner's cosine.
+// The bounding ball of a large receiver often contains the eye. The visible part of its bounding box is no nearer than
+// the nearest point of the box; along the view axis this is less by the cosine at a corner of the image.
 double least_depth(const RenderBody& look, const RenderScene& looks, const BodyState& state, const BoundingBall& ball,
                    const Camera& view) {
     const double depth = ball.center.dot(view.forward()) - ball.radius;
@@ -20,7 +20,7 @@ double least_depth(const RenderBody& look, const RenderScene& looks, const BodyS
     const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
     const Vec3 eye = state.orientation.conjugate() * -ball.center;
     const double gap = (eye.cwiseAbs() - half_size).cwiseMax(0.0).norm();
-    double longest = 1.0;   // of rays that are 1 along the axis
+    double longest = 1.0;   // of rays whose component along the axis is 1
     for (const double x : {0.0, double(view.width())})
         for (const double y : {0.0, double(view.height())}) longest = std::max(longest, view.ray(x, y).norm());
     return std::max(depth, gap / longest);

@@ -6,12 +6,12 @@
 
 namespace tumble {
 
-/// How deep at least what is in view of a body lies, m.
+/// Lower bound of the depth of the visible part of a body, m.
 double least_depth(const RenderBody& look, const RenderScene& looks, const BodyState& state, const BoundingBall& ball,
                    const Camera& view);
 
-/// A near plane for what is in view: half the nearest body's distance, rounded down to a power of two, so that small
-/// movements do not round all depths anew.
+/// Near distance: half of the nearest visible body's distance, rounded down to a power of two, so that small movements
+/// do not round all depths differently.
 double near_distance_for(const RenderScene& looks, const Snapshot& snapshot, const Camera& view);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// The axes of a plane's pattern and of its window in the occlusion atlas.
+// The axes of a plane's pattern and of its tile in the AO atlas.
 #pragma once
 
 #include "core/vector.h"

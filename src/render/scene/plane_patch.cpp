@@ -9,14 +9,14 @@
 namespace tumble {
 namespace {
 
-// The axes' coordinates are kept small by dropping whole periods of the pattern (2 cells for a checker).
+// Coordinates along the axes are kept small by subtracting whole periods of the pattern (2 cells for a checker).
 constexpr double period = 2.0;  // cells
 
 using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
 
 Polygon whole_screen() { return {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}; }
 
-// How steeply the ray through a point of clip space goes down to a plane: linear in the point.
+// Slope towards a plane of the ray through a point of clip space: linear in the point.
 double fall_at(const Vec3& normal, const Eigen::Vector2d& at, const Camera& view) {
     return -normal.dot(view.ray(0.5 * (at.x() + 1.0) * view.width(), 0.5 * (at.y() + 1.0) * view.height()));
 }
@@ -69,14 +69,14 @@ std::optional<PlanePatch> make_plane_patch(const RenderBody& look, const BodySta
     patch.body = body;
     if (!(patch.height > 0.0)) return std::nullopt;
 
-    // fall = -n . ray is positive where the plane is seen; z = 1 - 2 near / depth, and 1 / depth = fall / height.
+    // fall = -n . ray is positive where the plane is visible; z = 1 - 2 near / depth, and 1 / depth = fall / height.
     const auto fall = [&](const Eigen::Vector2d& at) { return fall_at(patch.normal, at, view); };
     for (const Eigen::Vector2d& corner : clipped(whole_screen(), fall))
         patch.corners.emplace_back(float(corner.x()), float(corner.y()),
                                    float(1.0 - 2.0 * near_distance * std::max(fall(corner), 0.0) / patch.height));
     if (patch.corners.size() < 3) return std::nullopt;
 
-    // The pattern's axes: the body's own, so that it turns and moves with the body.
+    // The pattern's axes are those of the body, so that it moves with the body.
     const PlaneAxes axes = plane_axes(look.plane.normal);
     const Vec3 from_origin = view.eye() - state.origin;
     patch.u = axis(state.orientation * axes.u, from_origin, cell);
@@ -101,7 +101,7 @@ std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snaps
 std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const Camera& view) {
     Polygon polygon = whole_screen();
     for (const PlanePatch& plane : planes) {
-        const double overlap = 2.0 * view.pixel_size();  // the change of fall over two pixels, at most
+        const double overlap = 2.0 * view.pixel_size();  // largest change of the slope over two pixels
         polygon =
             clipped(polygon, [&](const Eigen::Vector2d& at) { return overlap - fall_at(plane.normal, at, view); });
     }

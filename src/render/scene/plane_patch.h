@@ -1,6 +1,6 @@
-// An infinite plane as the screen sees it. In pixels, n . ray(x, y) is linear in x and y, and the plane is seen where
-// it is negative (from its open side): the screen's rectangle cut by one line, the horizon. One over the depth is
-// linear there too, so a flat polygon in clip space carries the exact depth out to infinity.
+// The visible part of an infinite plane. In pixels, n . ray(x, y) is linear in x and y, and the plane is visible where
+// it is negative (from its open side): the rectangle of the screen cut by one line, the horizon. The reciprocal of the
+// depth is linear as well, so a flat polygon in clip space carries the exact depth out to infinity.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -22,15 +22,14 @@ struct PlanePatch {
     std::size_t body;
 };
 
-/// Those in view from their open side: one looks through walls from behind.
+/// The planes that are visible from their open side; from behind, a plane is transparent.
 std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
                                            double near_distance);
 
-/// The part of the screen in which none of the planes is seen (a little more: two pixels over each horizon), in clip
-/// space.
+/// The part of the screen without planes (enlarged by two pixels across each horizon), in clip space.
 std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const Camera& view);
 
-/// A round length (1, 2 or 5 times a power of ten) near to a fifteenth of the viewing distance: 1 m at 15 m.
+/// A round length (1, 2 or 5 times a power of ten) near a fifteenth of the reference distance: 1 m at 15 m.
 double pattern_cell(double viewing_distance);
 
 /// The plane in the world: unit normal and offset (points p with normal . p = offset).

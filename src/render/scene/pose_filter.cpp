@@ -41,14 +41,14 @@ PoseFilter::PoseFilter(const SceneDescription& scene)
       view_(scene.camera, scene.output.width, scene.output.height) {
     for (const BodyDescription& body : scene.bodies)
         radii_.push_back(body.surface.visible ? radius_of(body.shape) : 0.0);
-    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);   // it moves all that is drawn
+    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);   // it moves everything that is drawn
     for (const CordDescription& cord : scene.cords)
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
 }
 
 bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
     const double radius = radii_[body];
-    if (radius == 0.0) return true;   // not drawn at all
+    if (radius == 0.0) return true;   // not drawn
     const double way = (state.origin - drawn.origin).norm();
     const double turn = std::min((state.orientation.coeffs() - drawn.orientation.coeffs()).norm(),
                                  (state.orientation.coeffs() + drawn.orientation.coeffs()).norm());

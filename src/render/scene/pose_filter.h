@@ -1,14 +1,15 @@
-// The poses that are drawn. A body that trembles by less than an eye can see keeps the pose it was drawn with, so that
-// what rests is not drawn anew: its drawn pose follows the true one when some point of it has moved by more than
+// Filters the poses to draw, so that resting bodies with invisible jitter are not redrawn. The drawn pose follows the
+// true one when some point of the body has moved by more than
 //   |dp| + 2 r |dq| > drawn_tolerance pixels at its distance
-// where dp is the way of its origin, r the radius around the origin that holds it all, dq the difference of the unit
-// quaternions (of the two signs the smaller; a turn by a moves a point r away by at most 2 r sin(a / 2) <= 2 r |dq|).
+// where dp is the displacement of its origin, r the radius around the origin that contains the body, and dq the
+// difference of the unit quaternions (the smaller of both signs; a rotation by a moves a point at r by at most 2 r
+// sin(a / 2) <= 2 r |dq|).
 //
-// Where the camera moves, every pose is the true one (of a body that the camera follows, too, unless it only trembles:
-// then the camera rests with it).
+// While the camera moves, every drawn pose is the true one. So is that of a body that the camera follows, unless the
+// body only jitters: then both stand still.
 //
-// Every frame of a clip goes through one PoseFilter, in order, before any is drawn: then all workers, and a full redraw,
-// see the same drawn poses. Needs no OpenGL.
+// Every frame of a clip passes through one PoseFilter, in order, before any is drawn, so that all workers and a full
+// redraw see the same poses. Needs no OpenGL.
 #pragma once
 
 #include "render/camera/camera_animation.h"
@@ -26,9 +27,9 @@ class PoseFilter {
 public:
     explicit PoseFilter(const SceneDescription& scene);
 
-    /// Replaces the poses by those to draw (origin, orientation and centre of mass; the rest is left as it is). False when
-    /// they are those of the call before: the picture is the same to the last byte; never when the camera has moved. The
-    /// first call says true.
+    /// Replaces the poses by those to draw (origin, orientation and center of mass; the rest is unchanged). Returns
+    /// false if they equal those of the previous call, so that the frame is the same to the last byte; returns true on
+    /// the first call and when the camera has moved.
     bool follow(Snapshot& snapshot);
 
 private:
@@ -39,14 +40,14 @@ private:
     };
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 
-    /// The pose to draw of one body; false: that of before.
+    /// Updates the pose to draw of one body; false: it is unchanged.
     bool settle(std::size_t body, BodyState& state);
 
     CameraAnimation path_;
     CameraDescription camera_;
     std::optional<std::size_t> followed_;
     Camera view_;
-    std::vector<double> radii_;   // m, of each body around its origin; 0 where nothing of it is drawn; infinite: a plane
+    std::vector<double> radii_;   // m, of each body around its origin; 0: not drawn; infinite: a plane
     std::vector<Pose> drawn_;     // empty before the first call
     bool first_ = true;           // no call yet; a scene may have no bodies
 };

@@ -9,12 +9,11 @@
 namespace tumble {
 namespace {
 
-// How far a body darkens its surroundings, in parts of its middle half edge; a plate or stick no further than twice its
-// thin side.
+// AO radius of a body, in parts of its median half edge; for a plate or rod at most twice its short half edge.
 constexpr double reach_of_half_edge = 1.0;
 constexpr double reach_of_thin_side = 2.0;
 
-// Width of a box's rounded edge, in parts of its shortest edge: 3 cm on a crate of 1 m.
+// Width of a box's rounded edge, in parts of its shortest edge: 3 cm for a box of 1 m.
 constexpr double bevel_of_edge = 0.03;
 
 // A body's pattern has four cells across its thinnest side.
@@ -71,11 +70,11 @@ void set_shape(RenderBody& look, const MeshShape& mesh, RenderScene& looks) {
     const RenderMesh& shared = looks.meshes[look.mesh];
     look.bound_center = shared.bound_center;
     look.bound_radius = shared.half_extent.norm();
-    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);  // a flat sheet has no thickness
+    look.reach = std::max(reach_of(shared.half_extent), 1e-3 * look.bound_radius);  // a flat mesh has no thickness
     look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
-void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}   // drawn_parts.h has taken them apart
+void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}   // expanded by compound_expansion.h
 
 }  // namespace
 

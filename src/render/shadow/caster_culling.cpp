@@ -8,8 +8,8 @@ namespace tumble {
 namespace {
 
 constexpr int cell = 4;                  // texels: boxes of a large heap are some thirty across
-constexpr double texel_margin = 0.5;           // texels; rasterisation rounds to 1/256, of a far texel at most a quarter
-constexpr double depth_margin = 5e-4;    // of the depths' range; interpolation on steep faces is off by less
+constexpr double texel_margin = 0.5;           // texels; rasterization rounds to 1/256, a far texel is at most a quarter
+constexpr double depth_margin = 5e-4;    // of the depth range; interpolation on steep faces has smaller errors
 constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
 
 Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
@@ -35,7 +35,7 @@ CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const 
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &a = axes[(k + 1) % 3], &b = axes[(k + 2) % 3];
         const double length = std::hypot(axes[k].x(), axes[k].y());
-        o.strips[k] = {0.0, 0.0, infinity};   // of an edge towards the sun
+        o.strips[k] = {0.0, 0.0, infinity};   // of an edge parallel to the light
         if (length > 0.0) {
             const double u = -axes[k].y() / length, v = axes[k].x() / length;
             o.strips[k] = {u, v, std::abs(u * a.x() + v * a.y()) + std::abs(u * b.x() + v * b.y())};
@@ -53,7 +53,7 @@ bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
     const int first_row = int(std::floor((o.v - o.reach_v - texel_margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + texel_margin) / cell));
     for (int row = first_row; row <= last_row; ++row) {
         const double y = (row + 0.5) * cell - o.v;
-        double low = -infinity, high = infinity;   // of the cells' middles, texels from the hexagon's
+        double low = -infinity, high = infinity;   // range of cell centers, texels from the center of the hexagon
         for (const Outline::Strip& s : o.strips) {
             const double rim = 0.5 * cell * (std::abs(s.u) + std::abs(s.v)) + texel_margin;
             const double half = wholly ? s.half - rim : s.half + rim;
@@ -89,7 +89,7 @@ void CasterCulling::add(const DrawableBounds& box) {
 }
 
 bool CasterCulling::hides(const DrawableBounds& item) const {
-    // Most are seen at their middle.
+    // Most casters are visible at their center.
     const Vec3 middle = place(item.center) / cell;
     if (!(middle.x() >= 0.0 && middle.x() < count_ && middle.y() >= 0.0 && middle.y() < count_)) return false;
     if (!(depths_[std::size_t(int(middle.y()) * count_ + int(middle.x()))] < cell * middle.z())) return false;

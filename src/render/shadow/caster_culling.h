@@ -1,6 +1,7 @@
-// Which bodies lie wholly in the shadow of others: in the shadow map nothing of them would be left. The near map is divided
-// into small cells; each knows how deep the fronts of boxes that cover it wholly lie at most. What lies deeper in all of
-// its cells is hidden from the sun, in the far map as well. Only the certain is left out: the maps are the same to the bit.
+// Culling of shadow casters that are entirely in the shadow of others and so change no texel of the shadow map. The
+// near map is divided into small cells. Each cell stores the largest depth of the fronts of the boxes that cover it
+// completely; a caster that is deeper in all of its cells is hidden from the sun, in the far map as well. The test is
+// conservative: the maps are the same to the bit.
 #pragma once
 
 #include "render/scene/render_scene.h"
@@ -18,17 +19,17 @@ public:
 
     void add(const DrawableBounds& box);
 
-    /// Is the box around the item hidden by those that were added? Not where it leaves the near map.
+    /// True if the box around the item is hidden by the added boxes. False if it extends beyond the near map.
     bool hides(const DrawableBounds& item) const;
 
 private:
-    // A box as the sun sees it: a hexagon in texels from its middle, and over it three fronts, the deepest of which counts.
+    // A box seen from the sun: a hexagon in texels from its center, and three fronts, the deepest of which counts.
     struct Outline {
         struct Strip {
             double u, v, half;         // the points with |u x + v y| < half; (u, v) is a unit vector
         };
         struct Front {
-            double depth, du, dv;      // 0 to 1; at the middle, and how it grows with each texel
+            double depth, du, dv;      // 0 to 1; at the center, and its derivatives per texel
         };
         double u, v, reach_v;          // texels
         double nearest, furthest;
@@ -38,17 +39,17 @@ private:
     Vec3 place(const Vec3& point) const;   // texels, and the depth
     Outline outline(const DrawableBounds& item) const;
 
-    // Calls see(row, first column, last column) for the cells that lie within the hexagon wholly, or at least partly, beside
-    // the map as well. Stops and is false where that is false.
+    // Calls see(row, first column, last column) for the cells that are within the hexagon completely, or at least
+    // partly, including cells outside the map. Stops and returns false if `see` does.
     template <class See>
     static bool for_each_row(const Outline& o, bool wholly, See see);
 
     const ShadowCascades* fit_;
-    int count_;                        // cells to a side
+    int count_;                        // cells per side
     std::vector<double> depths_;
 };
 
-/// Takes those out of `casting` (of each item) that are hidden from the sun by boxes among them.
+/// Removes casters from the mask `casting` (by item) that are hidden from the sun by boxes of the mask.
 void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBounds>& items, const ShadowCascades& fit,
                          std::vector<char>& casting);
 

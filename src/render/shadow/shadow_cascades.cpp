@@ -10,31 +10,32 @@
 namespace tumble {
 namespace {
 
-// Bodies roll a little out of the place where they start and land.
+// Bodies roll a little beyond the region of their initial and landing places.
 constexpr double near_margin = 1.3;
 
-// A shadow's edge is about three texels wide. Around few bodies the map could be so fine that the edge looks cut with
-// scissors: a texel is at least this part of the bodies' typical reach (their half edge).
+// A shadow's edge is about three texels wide. Around few bodies the map could be so fine that edges look unnaturally
+// sharp, so a texel has at least this part of the bodies' typical AO radius (their half edge).
 constexpr double least_texel_of_reach = 0.02;
 
-// In small pictures a texel may be much less than a pixel. Then shadows are filtered by pixels, from texels of this part of one
-// (at the bodies' median distance) down; finer than the second they need not be, and a pixel seen at a low angle would be more
-// texels than its filter reaches.
+// In small frames a texel may be much smaller than a pixel. Texels below the first part of a pixel (at the bodies'
+// median distance) are filtered by the pixel's width. Texels are never made smaller than the second part: a pixel seen
+// at a low angle would contain more texels than its filter can read.
 constexpr double filtered_by_pixel = 0.9, finest_pixels = 0.2;
 
-// Bodies may lie so far apart that one map around all has texels wider than so many pixels where the nearest eighth of them
-// ends: their shadows would be lost. Then the near map holds the nearest ones only, as many as leave it so fine.
+// If the bodies are so far apart that one map around all has texels wider than the first value (pixels, at the nearest
+// eighth of them), their shadows would be lost. Then the near map holds only the nearest bodies, as many as keep texels
+// below the second value.
 constexpr double lost_pixels = 8.0, fine_pixels = 3.0;
 
-// A ball of more than this part of the near map across that reaches out of it has sharp shadows within and coarse ones
-// beyond; what is smaller goes over to the far map as a whole, so that bodies that fly out cost no other shader.
+// A ball wider than this part of the near map that extends beyond it has sharp shadows inside and coarse ones outside.
+// A smaller one uses the far map as a whole, so that bodies that leave need no other shader.
 constexpr double least_span = 0.5;
 
-// Lost bodies must not blur what is left: the far map grows to this many times the near one.
+// Largest ratio of the far map to the near one, so that lost bodies do not blur the other shadows.
 constexpr double most_growth = 64.0;
 
-// The near map is at least this part of what all bodies take up, so that they lie within the far one, wherever in it the near
-// one lies.
+// Smallest ratio of the near map to the extent of all bodies, so that these are within the far map for any place of the
+// near one.
 constexpr double least_of_all = 2.2 / most_growth;
 
 struct CascadeExtent {
@@ -47,10 +48,10 @@ struct CascadeExtent {
     double size() const { return high - low; }
 };
 
-/// Where a body starts, or lands.
+/// Place of a body at the start, or after landing.
 struct CascadePlace {
     Vec3 center;
-    double radius, distance;   // m; from the eye
+    double radius, distance;   // m; of its ball; from the eye
 };
 
 struct Held {
@@ -58,7 +59,7 @@ struct Held {
     double size_of_all;   // m, across the light
 };
 
-/// How many of the places, which are in the order of their distance, the near map is made for.
+/// Number of the places, sorted by distance, that the near map is fitted to.
 Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
     CascadeExtent x, y;
     std::size_t fine = 0, finest = 0;
@@ -84,7 +85,7 @@ double ShadowCascades::far_along() const {
 }
 
 bool ShadowCascades::near_holds(const Vec3& center, double radius) const {
-    // the filter's margin, and the offset along the normal
+    // the filter's margin, and the normal offset
     const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.reach / texels;
     for (const glm::vec4& row : {x, y})
         if (std::abs(row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w) - 0.5) > room)
@@ -107,7 +108,8 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
     const RestHeightEstimate landing(scene, looks);
     std::vector<CascadePlace> places;
-    const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;   // what is not in view yet will be
+    // bodies outside the view may become visible
+    const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;
     const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * look.bound_center;
         const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
@@ -115,7 +117,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
             if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
                 places.push_back({p, look.bound_radius, view.relative(p).norm()});
     };
-    // A ground does not widen the map: what throws a shadow on it lies at the same place of the map as the shadow.
+    // A large receiver does not widen the map: its caster is at the same place of the map as the shadow.
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
@@ -128,7 +130,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     for (const CascadePlace& p : places) distances.push_back(p.distance);
     const double limit = far_limit(distances);
     std::erase_if(places, [&](const CascadePlace& p) { return p.distance + p.radius > limit; });
-    double least = 0.0;   // of the near map: what it leaves out must lie within the far one
+    double least = 0.0;   // of the near map: bodies outside it must be within the far one
     if (!turns) {
         std::stable_sort(places.begin(), places.end(), [](const CascadePlace& a, const CascadePlace& b) { return a.distance < b.distance; });
         const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
@@ -142,7 +144,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
         y.add(y_axis_.dot(p.center), p.radius);
         distances.push_back(p.distance);
     }
-    if (x.empty()) {  // nothing in view at first: what the camera looks at
+    if (x.empty()) {  // without visible bodies: the camera's target
         const Vec3 target = view.eye() + view.forward() * view.target_distance();
         x.add(x_axis_.dot(target), 0.5 * view.target_distance());
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
@@ -160,7 +162,7 @@ ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snap
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
-    CascadeExtent x, y, z;  // of what throws shadows into the picture; x and y in near maps, from its corner
+    CascadeExtent x, y, z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
@@ -183,13 +185,14 @@ ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snap
     fit.x = row(x_axis_, low_x, size_);
     fit.y = row(y_axis_, low_y, size_);
 
-    // The depths' range keeps to powers of two as well, so that a moving body does not round the others' depths anew.
+    // The depth range is a multiple of a power of two, so that a moving body does not round the others' depths
+    // differently.
     const double depth_step = power_of_two_at_least(z.size());
     const double low_z = depth_step * std::floor(z.low / depth_step);
     fit.z = row(z_axis_, low_z, depth_step * (std::floor(z.high / depth_step) + 1.0) - low_z);
 
     const double reach =
-        std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});  // from the near map's middle
+        std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});  // from the near map's center
     fit.has_far = reach > 0.5 - 8.0 / texels_;                             // the filter's margin
     const double growth = fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * reach))) : 1.0;
     fit.far =

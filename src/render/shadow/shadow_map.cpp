@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-constexpr int farthest_strip_rows = 64;   // of farthest depths: what is copied from stays in the processor's cache
+constexpr int farthest_strip_rows = 64;   // of farthest depths, so that the source of copies stays in the processor's cache
 
 }  // namespace
 
@@ -52,12 +52,12 @@ void ShadowMap::compile(const GpuMeshCache& meshes, const std::vector<Batch>& ca
     meshes.draw(one);
 }
 
-// llvmpipe clears a part of a target by drawing it, at six times the price of a copy.
+// llvmpipe clears a part of a target by drawing it, at six times the cost of a copy.
 void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, empty_framebuffer_.name());
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     for (const Rectangle& p : parts) {
-        const int x = p.x % shadow_map_texels;   // no part lies in both maps
+        const int x = p.x % shadow_map_texels;   // no part is in both maps
         for (int y = p.y; y < p.y + p.height; y += farthest_strip_rows) {
             const int rows = std::min(farthest_strip_rows, p.y + p.height - y);
             gl_->BlitFramebuffer(x, 0, x + p.width, rows, p.x, y, p.x + p.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);

@@ -10,14 +10,14 @@
 namespace tumble {
 namespace {
 
-/// Where to point when eye, target and up do not go together: at what was given.
+/// Positions for the error if eye, target and up are inconsistent: those of the given keys.
 struct ViewKeys {
     std::optional<TomlValue> eye, target, up;
 };
 
 void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewKeys& given, const TomlTable& table) {
     const Vec3 view = target - eye;
-    constexpr double parallel = 1e-6;   // rad: closer to `up` than this there is no telling which way is up
+    constexpr double parallel = 1e-6;   // rad: within this angle of `up` the roll is undefined
     if (view.norm() == 0.0) {
         if (given.eye) given.eye->fail("must not be at the target");
         if (given.target) given.target->fail("must not be at the eye");
@@ -29,7 +29,7 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewK
                            : given.target ? given.target->origin()
                                           : table.origin();
     origin.fail(
-        "does not fit: the camera looks along its up direction, so there is no telling which way is up; "
+        "does not fit: the camera looks along its up direction, which leaves its roll undefined; "
         "choose another up");
 }
 
@@ -73,7 +73,7 @@ void read_follow(const TomlTable& table, const SceneDescription& scene, CameraDe
     camera.follow_start_rotation = body.rotation;
 }
 
-/// The file's own, whatever the command line says: a frame looks the same in a clip of any length.
+/// The file's own duration, not that of the command line, so that a frame looks the same in a clip of any length.
 double duration_in_file(const TomlTable& root) {
     double duration = SimulationSettings{}.duration;
     if (const auto table = root.find_table("simulation")) table->read("duration", duration, limits::duration);
@@ -95,7 +95,8 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
 
     CameraDescription camera = lens;
-    if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);   // or it goes along
+    // a camera that follows a body needs no view of the whole throw
+    if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
     table->read("orbit", camera.orbit, limits::orbit);

@@ -1,4 +1,4 @@
-// [camera]: where it stands, and how it moves.
+// [camera]: the camera's pose and motion.
 #pragma once
 
 #include "scene/description/description.h"
@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// The camera of the file. What it leaves out is chosen so that the bodies are in view;
-/// call it when `scene` has its bodies and its output size.
+/// The camera of the file. Missing keys get values with which the bodies are in view. Precondition: `scene` has its
+/// bodies and its output size.
 CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene);
 
 }  // namespace tumble

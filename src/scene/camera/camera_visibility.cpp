@@ -8,12 +8,13 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_places = 24;           // a third of them tells as much as all of a thousand
-constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of a second; with more nothing is asked,
-constexpr std::size_t most_pieces = 20'000;       // nor with more fixed shapes
+constexpr std::size_t most_places = 24;           // a third of them is as informative as all of a thousand
+constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of a second; above this number the test is skipped,
+constexpr std::size_t most_pieces = 20'000;       // as above this number of fixed shapes
 
 
-/// Where a line enters a box about the origin (the slabs of Kay and Kajiya 1986), in lengths of its way; infinity: it does not.
+/// Entry of a line into a box at the origin (the slabs of Kay and Kajiya 1986), as a multiple of `way`; infinity
+/// without a hit.
 double hit_box(const Vec3& half, const Vec3& from, const Vec3& way) {
     double enter = -infinity, leave = infinity;
     for (int k = 0; k < 3; ++k) {

@@ -1,4 +1,5 @@
-// What fixed bodies hide of where the others come to lie, for choosing a camera: what falls into a bowl or a bin is to be seen.
+// Visibility of the landing places past fixed bodies, for the default camera: bodies that fall into a bowl or a bin
+// should be visible.
 #pragma once
 
 #include "scene/description/description.h"
@@ -9,24 +10,24 @@ class CameraVisibility {
 public:
     explicit CameraVisibility(const SceneDescription& scene);
 
-    /// How many of the places can be seen from the eye; all where nothing is to be asked.
+    /// Share of the places that are visible from the eye; 1 if the test is skipped.
     double visible_share(const Vec3& eye) const;
 
 private:
     struct Piece {
-        Vec3 center;            // m; of the box around it
+        Vec3 center;            // m; of the bounding box
         Vec3 half_size;
-        Vec3 origin;            // of its own frame
+        Vec3 origin;            // of the body frame
         Quat rotation;
         const Shape* shape;     // a box, ball or mesh
     };
     void add(const Shape& shape, const Vec3& position, const Quat& rotation);
-    /// How far along the way, in its lengths, until it meets a fixed body; infinity where it meets none.
+    /// Distance to the first fixed body along `way`, as a multiple of it; infinity without one.
     double first_hit(const Vec3& from, const Vec3& way) const;
     void find_places(const SceneDescription& scene);
 
     std::vector<Piece> pieces_;
-    std::vector<Vec3> places_;   // of some moving bodies, straight below their starts
+    std::vector<Vec3> places_;   // of some moving bodies, vertically below their initial positions
 };
 
 }  // namespace tumble

@@ -14,21 +14,21 @@
 namespace tumble {
 namespace {
 
-// Looks: chosen by eye on the demo scenes.
+// Composition, chosen by eye on the demo scenes.
 constexpr double azimuth = 28.0;       // degrees to the right of the front
-constexpr double elevation = 17.0;     // degrees above the horizon: ground fills the lower two thirds
-constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};   // degrees; where fixed bodies hide what they hold
-constexpr double enough = 0.6;         // of the places where bodies come to lie are in sight
-constexpr double used_part = 0.86;     // of the picture's half width and height; the rest is a margin
-constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all that moves is ground
+constexpr double elevation = 17.0;     // degrees above the horizon: the ground fills the lower two thirds
+constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};   // degrees; tried where fixed bodies hide the bodies in them
+constexpr double enough = 0.6;         // share of the landing places that must be visible
+constexpr double used_part = 0.86;     // of the image's half width and height; the rest is a margin
+constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all moving bodies is ground
 
-constexpr double least_distance = 0.2; // of the scene's diagonal, between the eye and what is nearest
-constexpr int centring_passes = 4;     // each leaves a small part of the error: near points move more than far ones
+constexpr double least_distance = 0.2; // of the scene's diagonal, between the eye and the nearest point
+constexpr int centring_passes = 4;     // each leaves a small part of the error, because near points move more than far ones
 
 constexpr double degrees = pi / 180.0;
 
 struct Axes {
-    Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the picture)
+    Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the image)
 };
 
 Axes view_axes(const Vec3& up, double above) {
@@ -43,7 +43,7 @@ Axes view_axes(const Vec3& up, double above) {
     return axes;
 }
 
-/// The corners of the shape's bounds, placed in the world.
+/// Appends the corners of the shape's bounds, in the world frame.
 void add_corners(const Bounds& local, const Vec3& position, const Quat& rotation, std::vector<Vec3>& points) {
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p(corner & 1 ? local.max.x() : local.min.x(), corner & 2 ? local.max.y() : local.min.y(),
@@ -76,7 +76,7 @@ std::vector<Ground> grounds_below(const SceneDescription& scene, const Vec3& dow
     return grounds;
 }
 
-/// The way along `down` to the nearest ground beneath the point; 0 without one.
+/// Distance along `down` to the nearest ground below the point; 0 without one.
 double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const Vec3& down) {
     double drop = 0.0;
     for (const Ground& ground : grounds) {
@@ -86,7 +86,7 @@ double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const 
     return drop;
 }
 
-/// Local bounds, those of a mesh or compound found once for all bodies that share it.
+/// Local bounds; those of a mesh or compound are computed once for all bodies that share it.
 class BoundsOfShapes {
 public:
     Bounds operator()(const Shape& shape) {
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    std::map<const void*, Bounds> known_;   // only looked up
+    std::map<const void*, Bounds> known_;   // only for lookups, never iterated over
 };
 
 std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
@@ -139,7 +139,7 @@ std::vector<Vec3> points_of_note(const SceneDescription& scene, double seconds) 
     return points;
 }
 
-/// The middle of the points' extent in the picture, as tangents to the right and up.
+/// The center of the points' extent in the image, as tangents to the right and up.
 Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& axes) {
     Bounds seen;
     for (const Vec3& p : points) {
@@ -149,7 +149,7 @@ Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& ax
     return seen.center();
 }
 
-/// The camera that looks along the axes and has all points in its picture.
+/// The camera along the axes that has all points in its image.
 CameraDescription fitted(const SceneDescription& scene, const CameraDescription& lens, const std::vector<Vec3>& points,
                          const Axes& axes) {
     CameraDescription camera = lens;
@@ -157,8 +157,8 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
     const double tangent_y = used_part * half.sin / half.cos;
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
 
-    // A point p is in view from the eye e when |(p - e).right| <= tangent_x (p - e).forward, and so for up: four half
-    // spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and centre it.
+    // A point p is in view of the eye e if |(p - e).right| <= tangent_x (p - e).forward, and likewise for up: four
+    // half- spaces for e. Their extreme offsets over all points bound the eye's depth along `forward` and center it.
     double right = -1e300, left = -1e300, top = -1e300, bottom = -1e300;
     double nearest = 1e300, farthest = -1e300;
     for (const Vec3& p : points) {
@@ -174,7 +174,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
                                    nearest - least_distance * bounds_of(points).extent().norm()});
     const double middle = 0.5 * (nearest + farthest) - depth;
     camera.eye = axes.right * (0.5 * (right - left)) + axes.up * (0.5 * (top - bottom)) + axes.forward * depth;
-    // The direction with room to spare: move along it until as much is free on one side as on the other.
+    // In the direction that is not tight, move until both margins are equal.
     for (int pass = 0; pass < centring_passes; ++pass) {
         const Vec3 shift = off_center(points, camera.eye, axes) * middle;
         camera.eye += shift.x() * axes.right + shift.y() * axes.up;
@@ -187,7 +187,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
 
 CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
     std::vector<Vec3> points = points_of_note(scene, seconds);
-    if (points.empty()) {   // a stage of usual size, at the origin
+    if (points.empty()) {   // default extent, at the origin
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }
     const CameraVisibility sight(scene);

@@ -8,11 +8,11 @@
 namespace tumble {
 namespace {
 
-constexpr int preview_steps = 600;             // of a way: a throw of 5 s moves on by 8 ms
-constexpr int steps_a_point = 12;              // fifty places draw a smooth curve
+constexpr int preview_steps = 600;             // per trajectory: 8 ms each for a throw of 5 s
+constexpr int steps_a_point = 12;              // fifty points approximate a smooth curve
 constexpr std::size_t most_pairs = 10'000;     // of thrown and other bodies: some 50 ms
-constexpr double farthest_of_size = 60.0;      // of the body's diameter: it is then some 20 pixels of 1280
-constexpr double farthest_of_all = 2.0;        // of what all moving bodies take up
+constexpr double farthest_of_size = 60.0;      // of the body's diameter: it is then about 20 pixels of 1280
+constexpr double farthest_of_all = 2.0;        // of the extent of all moving bodies
 
 struct Plane {
     Vec3 normal;     // unit, world frame
@@ -20,7 +20,7 @@ struct Plane {
     const BodyDescription* body;
 };
 
-/// A body as the box around it.
+/// The bounding box of a body.
 struct Block {
     Vec3 center, half_size;   // m
     Quat rotation;
@@ -48,7 +48,7 @@ Obstacles obstacles_of(const SceneDescription& scene) {
 
 bool thrown(const BodyDescription& body) { return body.type == BodyType::dynamic && body.velocity != Vec3::Zero(); }
 
-/// From the block's nearest point to this one.
+/// Vector from the block's nearest point to a point.
 Vec3 gap_to(const Block& block, const Vec3& point) {
     const Vec3 local = block.rotation.conjugate() * (point - block.center);
     return block.rotation * (local - local.cwiseMin(block.half_size).cwiseMax(-block.half_size));
@@ -59,12 +59,12 @@ public:
     Flight(const Block& start, const Obstacles& obstacles)
         : body_(*start.body), obstacles_(obstacles), at_(start.center), velocity_(body_.velocity),
           inner_(start.half_size.minCoeff()) {
-        for (const Block& block : obstacles.blocks)   // what it starts within or upon does not stop it
+        for (const Block& block : obstacles.blocks)   // blocks that contain the initial position do not stop the body
             if (block.body != &body_ && (block.body->type == BodyType::fixed || gap_to(block, at_).norm() > 1.01 * inner_))
                 met_.push_back(&block);
     }
 
-    /// False where the way ends.
+    /// False at the end of the trajectory.
     bool step(double h, const Vec3& gravity) {
         velocity_ += h * gravity;
         at_ += h * velocity_;
@@ -92,7 +92,7 @@ private:
         const double kick = (1.0 + std::max(body_.restitution, other.restitution)) * approach;
         velocity_ += kick * normal;
         if (std::holds_alternative<SphereShape>(body_.shape)) return;
-        const Vec3 along = velocity_ - normal * normal.dot(velocity_);   // Coulomb's friction
+        const Vec3 along = velocity_ - normal * normal.dot(velocity_);   // Coulomb friction
         const double speed = along.norm(), loss = std::sqrt(body_.friction * other.friction) * kick;
         velocity_ -= along * (loss < speed ? loss / speed : 1.0);
     }
@@ -101,7 +101,7 @@ private:
     const Obstacles& obstacles_;
     std::vector<const Block*> met_;
     Vec3 at_, velocity_;
-    double inner_;   // m: radius of the ball
+    double inner_;   // m: radius of the inscribed ball
 };
 
 }  // namespace

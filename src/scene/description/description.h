@@ -1,6 +1,6 @@
-// A scene as plain values: what the file says, checked, with every default filled in and every mesh loaded.
-// Made by load_scene() and immutable from there on. The simulation reads its bodies, the renderer its looks.
-// SI units, world frame unless said otherwise, y up; colours sRGB.
+// A scene as plain values: the content of the file, checked, with all defaults filled in and all meshes loaded. Made by
+// load_scene(), and immutable after that. The simulation reads the bodies, the renderer their appearance. SI units,
+// world frame unless said otherwise, y up; colors sRGB.
 #pragma once
 
 #include "core/color.h"
@@ -17,14 +17,15 @@
 namespace tumble {
 
 enum class IntegratorKind { explicit_euler, symplectic_euler, splitting, runge_kutta_4, exact };
-/// stepped: impacts are resolved at the step that finds them. exact: each at its own time, between exact flights.
+/// stepped: impacts are resolved at the step that finds them. exact: each impact at its own time, with exact motion in
+/// between.
 enum class ImpactMode { stepped, exact };
-/// What a row of touching bodies does. propagating: the blow is handed on from contact to contact, as in a real cradle;
+/// Impacts of several touching bodies. propagating: impulses pass from contact to contact, as in a real cradle;
 /// simultaneous: Newton's law, v_rel+ >= -e v_rel- (notes eq. 14), for all contacts at once.
 enum class ImpactLaw { propagating, simultaneous };
-/// Which solver holds resting contact. by_island: each island gets the one that suits it; the others are for comparing them.
+/// Solver of resting contact. by_island: the suitable one for each island; the others are for comparisons.
 enum class ContactSolverChoice { by_island, soft, direct };
-/// How the state holds a rotation (notes sections 1 and 3.1).
+/// Storage of a rotation in the state (notes sections 1 and 3.1).
 enum class RotationForm { quaternion, matrix };
 
 struct SimulationSettings {
@@ -36,7 +37,7 @@ struct SimulationSettings {
     ImpactLaw impact_law = ImpactLaw::propagating;
     ContactSolverChoice contact_solver = ContactSolverChoice::by_island;
     RotationForm rotation = RotationForm::quaternion;
-    bool sleep = true;              // bodies at rest leave the loop until touched
+    bool sleep = true;              // resting bodies leave the loop until another body touches them
     std::uint64_t seed = 1;
 };
 
@@ -46,7 +47,7 @@ struct OutputSettings {
     int samples = 4;                  // samples per pixel
 };
 
-/// How to go from one keyframe to the next.
+/// Interpolation between keyframes.
 enum class Interpolation { smooth, linear };
 
 struct CameraKeyframe {
@@ -55,8 +56,8 @@ struct CameraKeyframe {
     double vertical_fov = 40.0;   // degrees
 };
 
-/// A camera, at the start where it moves: first along its keyframes, then in a circle about its target, then along with
-/// a body (render/camera_path.h).
+/// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
+/// (render/camera/camera_animation.h).
 struct CameraDescription {
     Vec3 eye, target, up{0.0, 1.0, 0.0};
     double vertical_fov = 40.0;   // degrees
@@ -64,19 +65,19 @@ struct CameraDescription {
     Interpolation interpolation = Interpolation::smooth;
     double orbit = 0.0;           // degrees/s about the target, counter-clockwise seen from the tip of `up`
     std::optional<std::size_t> follow;       // index into bodies
-    Vec3 follow_start = Vec3::Zero();        // where that body's origin is at the start, and how it is turned
+    Vec3 follow_start = Vec3::Zero();        // pose of that body's origin at the start
     Quat follow_start_rotation = Quat::Identity();
 
     bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
 };
 
 struct LightDescription {
-    Vec3 direction{-0.4, -1.0, -0.3};   // the way the light travels; need not be of unit length
+    Vec3 direction{-0.4, -1.0, -0.3};   // direction in which the light travels; any length
     bool shadows = true;
 };
 
-/// A uniform wind and the air it moves: F = 1/2 density drag A |w - v| (w - v) at the centre of mass, where A is the
-/// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). No wind table: no air.
+/// A uniform wind and the moving air: F = 1/2 density drag A |w - v| (w - v) at the center of mass, where A is the
+/// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). Without a wind table there is no air.
 struct WindDescription {
     Vec3 velocity = Vec3::Zero();   // m/s
     double density = 1.2;           // kg/m^3
@@ -88,20 +89,20 @@ struct ForceDescription {
     std::size_t body = 0;             // index into bodies
     Vec3 point = Vec3::Zero();        // body frame, from the body's origin
     Vec3 force = Vec3::Zero();        // N
-    bool body_frame = false;          // the force turns with the body; else it is a world vector
+    bool body_frame = false;          // true: the force rotates with the body; false: a world vector
     double start = 0.0;
-    double end = 0.0;                 // infinity: for ever
+    double end = 0.0;                 // infinity: forever
 };
 
 enum class BodyType { dynamic, fixed, kinematic };
 
-/// What a mesh file holds, in the file's own frame times the body's scale. Shared by the bodies that use it.
+/// Content of a mesh file, in the file's frame times the body's scale. Shared by the bodies that use it.
 struct MeshAsset {
-    std::string file;                 // as resolved
+    std::string file;                 // resolved path
     TriangleMesh surface;             // welded: for masses, hulls and contact
     struct Vertex {
         float position[3];
-        float normal[3];              // unit; made where the file has none
+        float normal[3];              // unit; computed if the file has none
     };
     std::vector<Vertex> vertices;     // for drawing
     std::vector<std::uint32_t> indices;
@@ -121,7 +122,7 @@ struct MeshShape {
     std::shared_ptr<const MeshAsset> asset;
 };
 struct CompoundPart;
-/// Several shapes that are one body: a table, a ring, an L. Shared by the bodies that use it.
+/// Several shapes that form one body, such as a table, a ring or an L. Shared by the bodies that use it.
 struct CompoundShape {
     std::shared_ptr<const std::vector<CompoundPart>> parts;   // at least one
 };
@@ -131,13 +132,13 @@ struct CompoundPart {
     Shape shape;                      // a box, a sphere or a mesh; a mesh collides as its convex hull
     Vec3 position = Vec3::Zero();     // of the part's origin, body frame, m
     Quat rotation = Quat::Identity(); // of the part, body frame
-    std::optional<double> density;    // kg/m^3, in place of the body's
-    std::optional<Color> color;       // in place of the body's
+    std::optional<double> density;    // kg/m^3, overrides the body's
+    std::optional<Color> color;       // overrides the body's
 };
 
 enum class Pattern { plain, grid, checker };
 
-/// How a body looks.
+/// Appearance of a body.
 struct Surface {
     Color color{200, 200, 200};
     double roughness = 0.6;       // 0 mirror .. 1 chalk
@@ -158,20 +159,20 @@ struct BodyDescription {
     BodyType type = BodyType::dynamic;
     Shape shape;
     Surface surface;
-    double density = 1000.0;      // kg/m^3, of the volume; when mass is given, only its ratio to parts' own counts
+    double density = 1000.0;      // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
     std::optional<double> mass;   // kg
     double restitution = 0.5;     // 0..1; a pair uses the larger
     double friction = 0.0;        // >= 0; a pair uses sqrt(a b)
     Vec3 position = Vec3::Zero(); // of the body's origin
     Quat rotation = Quat::Identity();
-    Vec3 velocity = Vec3::Zero();         // m/s, of the centre of mass
+    Vec3 velocity = Vec3::Zero();         // m/s, of the center of mass
     Vec3 angular_velocity = Vec3::Zero(); // rad/s
-    std::optional<IntegratorKind> integrator;   // in place of the simulation's, for showing two side by side
+    std::optional<IntegratorKind> integrator;   // overrides the simulation's, to compare two in one scene
     std::vector<Keyframe> keyframes;      // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
 };
 
-/// A thin cord that is only drawn: from a fixed point to a point of a body.
+/// A thin cord without effect on the simulation: from a fixed point to a point of a body.
 struct CordDescription {
     std::size_t body = 0;
     Vec3 point = Vec3::Zero();    // body frame, from the body's origin
@@ -191,15 +192,15 @@ struct FrameTiming {
 };
 
 struct SceneDescription {
-    std::string file;             // where it came from, for messages
+    std::string file;             // path of the scene file, for messages
     std::string title;
     SimulationSettings simulation;
     OutputSettings output;
-    CameraDescription camera;     // the file's, or one that shows everything
+    CameraDescription camera;     // the file's, or the default camera
     LightDescription light;
     std::optional<WindDescription> wind;
     std::vector<ForceDescription> forces;
-    std::vector<BodyDescription> bodies;   // grids and scatters already expanded
+    std::vector<BodyDescription> bodies;   // with grids and scatters expanded
     std::vector<CordDescription> cords;
 
     FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }

@@ -1,4 +1,4 @@
-// The extent of shapes in their own frame; planes are endless and have none.
+// Bounds of shapes in their own frame; planes are infinite and have none.
 #pragma once
 
 #include "scene/description/description.h"
@@ -10,13 +10,14 @@ struct BoundingSphere {
     double radius = 0.0;          // m
 };
 
-/// The address of what bodies share of a mesh or a compound; null for other shapes.
+/// Address of the shared data of a mesh or a compound; null for other shapes.
 const void* shared_data(const Shape& shape);
 
-/// The smallest axis-aligned box around the shape; empty for a plane.
+/// The axis-aligned bounding box of the shape; empty for a plane.
 Bounds local_bounds(const Shape& shape);
 
-/// A sphere around the shape, exact for boxes and spheres; about the centre of its bounds for meshes and compounds. Not for planes.
+/// A bounding sphere, exact for boxes and spheres; about the center of its bounds for meshes and compounds. Not for
+/// planes.
 BoundingSphere bounding_sphere(const Shape& shape);
 
 }  // namespace tumble

@@ -1,12 +1,11 @@
-// The extent of a shape as balls and points whose convex hull holds it.
+// The extent of a shape as balls and points whose convex hull contains it.
 #pragma once
 
 #include "scene/description/description.h"
 
 namespace tumble {
 
-/// Calls visit(center, radius) for balls, most of them mere points, whose hull holds the shape: the extent of its parts.
-/// Not for planes.
+/// Calls visit(center, radius) for balls, most of them points, whose convex hull contains the shape. Not for planes.
 template <class Visit>
 void visit_extent(const Shape& shape, const Vec3& position, const Quat& rotation, const Visit& visit) {
     if (const auto* box = std::get_if<BoxShape>(&shape)) {

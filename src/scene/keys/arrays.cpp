@@ -15,7 +15,7 @@ namespace {
 
 constexpr Choice<bool> scatter_rotations[] = {{"random", true}, {"none", false}};
 
-// Meshes and compounds come in this many sizes between the two ends of `scale`: copies of one size share theirs.
+// Number of sizes of meshes and compounds between the ends of `scale`: copies of one size share their data.
 constexpr int mesh_sizes = 9;
 
 /// A number for all three axes, or one for each.
@@ -95,7 +95,7 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
 void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& place, Random& turn,
                      std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
-    std::map<const void*, BoundingSphere> known;   // found once for each mesh or compound; only looked up
+    std::map<const void*, BoundingSphere> known;   // computed once for each mesh or compound; only for lookups
     for (BodyDescription& copy : copies) {
         if (scatter.random_rotation) copy.rotation = turn.rotation();
         BoundingSphere sphere;
@@ -127,7 +127,7 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     const auto grid = body.find("grid"), scatter = body.find("scatter");
     if (!grid && !scatter) {
         for (const char* key : {"scale", "colors"}) {
-            if (const auto value = body.find(key)) value->fail("goes with a grid or a scatter, and there is neither");
+            if (const auto value = body.find(key)) value->fail("needs a grid or a scatter, and there is neither");
         }
         return std::nullopt;
     }
@@ -136,7 +136,7 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     if (type == BodyType::kinematic)
         arrangement.origin().fail("is for dynamic and fixed bodies (given a kinematic one)");
     if (std::holds_alternative<PlaneShape>(shape.shape)) {
-        arrangement.origin().fail("is for bodies of a size (given a plane, which is endless)");
+        arrangement.origin().fail("is for bodies of finite size (given a plane, which is endless)");
     }
     CopiesRequest request{{}, arrangement.origin(), 1.0, 1.0, {}};
     if (grid) request.arrangement = read_grid(*grid);
@@ -144,7 +144,7 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     read_scale(body, shape, request);
     if (const auto colors = body.find("colors")) {
         for (const TomlValue& color : colors->items()) request.colors.push_back(color.color());
-        if (request.colors.empty()) colors->fail("must name at least one colour");
+        if (request.colors.empty()) colors->fail("must name at least one color");
     }
     return request;
 }

@@ -34,7 +34,7 @@ void read_mass(const TomlTable& table, BodyDescription& body) {
     }
 }
 
-/// The body as its table describes it; the model of all copies where there is a grid or a scatter.
+/// The body described by its table; the model of all copies of a grid or a scatter.
 BodyDescription read_model(const TomlTable& table, const Materials& materials, BodyType type, const Shape& shape) {
     BodyDescription body;
     body.type = type;
@@ -49,7 +49,7 @@ BodyDescription read_model(const TomlTable& table, const Materials& materials, B
     return body;
 }
 
-/// Names the bodies made from one table, and sees that no given name comes twice.
+/// Names the bodies of one table, and rejects duplicate given names.
 class Names {
 public:
     void give(const TomlTable& table, bool are_copies, std::size_t first_index, std::vector<BodyDescription>& bodies) {
@@ -62,7 +62,7 @@ public:
             if (are_copies) bodies[i].name = fmt::format("{}.{}", bodies[i].name, i);
             if (!taken_.insert(bodies[i].name).second) {
                 given->origin().fail(
-                    fmt::format("must be unique, and another body is called so (given \"{}\")", safe_text(bodies[i].name)));
+                    fmt::format("must be unique, and another body has it (given \"{}\")", safe_text(bodies[i].name)));
             }
         }
     }

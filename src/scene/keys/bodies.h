@@ -1,4 +1,4 @@
-// [[body]]: the things of the scene, grids and scatters expanded.
+// [[body]]: the bodies of the scene, with grids and scatters expanded.
 #pragma once
 
 #include "scene/description/description.h"
@@ -12,7 +12,7 @@
 
 namespace tumble {
 
-/// Reads all body tables in file order. Relative mesh files start from `folder`.
+/// Reads all body tables in file order. Relative mesh paths are relative to `folder`.
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
                                          const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes);
 

@@ -1,4 +1,4 @@
-// Bodies by name, for what else in the file names one: forces, cords, the camera.
+// Bodies by name, for references in forces, cords and the camera.
 #pragma once
 
 #include "scene/description/description.h"
@@ -13,10 +13,10 @@ namespace tumble {
 
 class BodyIndex {
 public:
-    /// A body without a name has its index for one; a given name of that text comes first.
+    /// The name of a body without one is its index; given names take precedence.
     explicit BodyIndex(const std::vector<BodyDescription>& bodies);
 
-    /// The body that the value names; fails at its place, with the nearest name, where there is none.
+    /// The body that the value names. Without one, fails at the value's position and suggests the nearest name.
     std::size_t find(const TomlValue& value) const;
 
 private:

@@ -24,7 +24,7 @@ CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::p
     return part;
 }
 
-/// A part of a part, as a part of the whole.
+/// A part of a part as a part of the whole.
 CompoundPart within(const CompoundPart& outer, const CompoundPart& inner) {
     CompoundPart part = inner;
     part.position = outer.position + outer.rotation * inner.position;

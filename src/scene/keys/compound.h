@@ -1,4 +1,4 @@
-// shape = { type = "compound", parts = [...] }: several shapes that are one body; and meshes given as convex parts.
+// shape = { type = "compound", parts = [...] }: several shapes that form one body; and meshes given as convex parts.
 #pragma once
 
 #include "scene/description/description.h"
@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Reads the parts of a body of that type. Compounds within compounds are taken apart: the result has none.
+/// Reads the parts of a body of that type. Nested compounds are flattened.
 CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes);
 
 }  // namespace tumble

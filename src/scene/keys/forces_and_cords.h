@@ -1,4 +1,4 @@
-// [[force]] and [[cord]]: what pulls at a body, and what seems to.
+// [[force]] and [[cord]]: forces at points of bodies, and drawn cords.
 #pragma once
 
 #include "scene/description/description.h"
@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Both refer to bodies by name; call them when `scene` has its bodies.
+/// Both refer to bodies by name. Precondition: `scene` has its bodies.
 void read_forces(const TomlTable& root, SceneDescription& scene);
 void read_cords(const TomlTable& root, SceneDescription& scene);
 

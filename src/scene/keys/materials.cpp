@@ -14,8 +14,8 @@ constexpr Choice<Pattern> patterns[] = {
     {"checker", Pattern::checker},
 };
 
-constexpr Color default_color{0xcf, 0x9a, 0x5b};         // light wood: stands out from ground and sky
-constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light grey, on which shadows and grid lines show
+constexpr Color default_color{0xcf, 0x9a, 0x5b};         // light wood: contrasts with ground and sky
+constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light gray, on which shadows and grid lines are visible
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// [materials.NAME]: matter and looks, shared by the bodies that name it.
+// [materials.NAME]: physical and visual properties, shared by the bodies that name it.
 #pragma once
 
 #include "scene/description/description.h"
@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// What a material, or a body for itself, says. What neither says stays open, because a plane's defaults differ.
+/// Properties given by a material, or by a body itself. Missing ones stay empty, because the defaults of planes differ.
 struct Material {
     std::optional<Color> color;
     std::optional<double> density;       // kg/m^3
@@ -20,7 +20,7 @@ struct Material {
     std::optional<double> metallic;
     std::optional<Pattern> pattern;
 
-    /// The same with everything that `over` says in place of what this says.
+    /// A copy in which the properties of `over` take precedence.
     Material overridden_by(const Material& over) const;
 };
 
@@ -28,13 +28,13 @@ using Materials = std::map<std::string, Material, std::less<>>;
 
 Materials read_materials(const TomlTable& root);
 
-/// Reads the keys of a material from a table that may hold others too (a body).
+/// Reads the keys of a material from a table with other keys (a body).
 Material read_material_keys(const TomlTable& table);
 
-/// The material of that name, or an error that names those that are near or there.
+/// The material of that name, or an error with the nearest or all known names.
 const Material& find_material(const Materials& materials, const TomlValue& name);
 
-/// Matter and looks of a body, with the defaults of its shape filled in.
+/// Sets the physical and visual properties of a body, with the defaults of its shape.
 void apply_material(const Material& material, BodyDescription& body);
 
 }  // namespace tumble

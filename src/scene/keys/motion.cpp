@@ -14,14 +14,14 @@ Quat rotation_about_axis(const TomlTable& table) {
     table.expect_keys({"axis", "angle"});
     const Vec3 axis = table.require("axis").direction();
     const double angle = table.require("angle").number(limits::angle);
-    // Whole turns go first, in degrees, where they are exact: 360 degrees are no rotation at all.
+    // Whole turns are removed first, in degrees, where they are exact: 360 degrees are no rotation at all.
     const SinCos half = sincos(0.5 * std::remainder(angle, 360.0) * pi / 180.0);
     const Vec3 v = half.sin * axis;
     return Quat(half.cos, v.x(), v.y(), v.z()).normalized();
 }
 
 Quat rotation_from_numbers(const TomlValue& value) {
-    constexpr Range component{-1e6, 1e6, ""};   // far from a unit quaternion, and its square is still a number
+    constexpr Range component{-1e6, 1e6, ""};   // far above a unit quaternion, with a finite square
     const auto item = value.items(4, "numbers w, x, y, z (or a table with axis and angle)");
     const Quat q(item[0].number(component), item[1].number(component), item[2].number(component),
                  item[3].number(component));

@@ -1,4 +1,4 @@
-// Where a body is and how it starts to move; the keyframes of a kinematic one.
+// Initial pose and velocity of a body; the keyframes of a kinematic one.
 #pragma once
 
 #include "scene/description/description.h"
@@ -13,10 +13,10 @@ inline constexpr Choice<Interpolation> interpolations[] = {
 };
 
 /// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
-/// With keyframes, its pose is that of the first.
+/// With keyframes, its pose is that of the first one.
 void read_motion(const TomlTable& table, BodyDescription& body);
 
-/// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is made 1), or `{ axis = [...], angle = degrees }`.
+/// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is normalized), or `{ axis = [...], angle = degrees }`.
 Quat read_rotation(const TomlValue& value);
 
 }  // namespace tumble

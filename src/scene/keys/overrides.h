@@ -1,4 +1,4 @@
-// Values of the command line that take the place of the scene file's.
+// Values of the command line that override the scene file's.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,7 @@
 
 namespace tumble {
 
-/// What the command line may say in place of the file. Each is checked like the file's own value;
-/// an error names the option ("--fps: ...").
+/// Overrides by the command line. Each is checked like the file's own value; an error names the option ("--fps: ...").
 struct SceneOverrides {
     std::optional<double> duration, fps, step;
     std::optional<int> steps_per_frame, width, height, samples;

@@ -6,7 +6,8 @@
 namespace tumble {
 namespace {
 
-/// Neighbouring seeds to unrelated ones (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators").
+/// Maps neighboring seeds to unrelated ones (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
+/// generators").
 std::uint64_t mixed(std::uint64_t z) {
     z += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -14,7 +15,7 @@ std::uint64_t mixed(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-// Points this near the middle of the ball are drawn again: dividing by their length would lose digits.
+// Points this near the center of the ball are redrawn, because division by their length would lose digits.
 constexpr double least_square = 1e-6;
 
 }  // namespace
@@ -30,7 +31,7 @@ std::size_t Random::index(std::size_t count) {
     return std::min(count - 1, static_cast<std::size_t>(unit() * static_cast<double>(count)));
 }
 
-// Named one by one: the order in which a function's arguments are evaluated is not specified.
+// Separate statements, because the order of evaluation of a function's arguments is unspecified.
 Vec3 Random::in_box(const Vec3& half) {
     Vec3 p;
     for (int i = 0; i < 3; ++i) p[i] = between(-half[i], half[i]);

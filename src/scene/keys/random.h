@@ -1,5 +1,5 @@
-// Random numbers that are the same everywhere: std::mt19937_64 is specified to the bit, the standard's distributions
-// are not, so these are our own. No trigonometry: directions and rotations come from points drawn in a ball.
+// Random numbers that are the same on every machine: std::mt19937_64 is specified to the bit, the standard's
+// distributions are not and are replaced. No trigonometry: directions and rotations come from points drawn in a ball.
 #pragma once
 
 #include "core/vector.h"
@@ -11,7 +11,7 @@ namespace tumble {
 
 class Random {
 public:
-    /// What a stream is for. Each has its own, so that a palette added to a grid leaves its positions as they were.
+    /// Purpose of a stream. Each has its own, so that a palette added to a grid does not change its positions.
     enum class Purpose : std::uint64_t { place, turn, size, look };
 
     /// The stream of one body table of a scene with that seed.

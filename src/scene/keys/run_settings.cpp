@@ -34,14 +34,14 @@ constexpr Choice<RotationForm> rotation_forms[] = {
     {"matrix", RotationForm::matrix},
 };
 
-/// A value that somebody gave, and who.
+/// A given value and its source.
 template <class Value>
 struct Given {
     Value value;
     SourcePosition origin;
 };
 
-/// What was asked for about time, by the file or over its head by the command line.
+/// The requested time settings, from the file or the command line.
 struct TimeRequest {
     std::optional<Given<double>> duration, fps, step;
     std::optional<Given<std::int64_t>> steps_per_frame;
@@ -106,7 +106,7 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
     if (overrides.step && overrides.steps_per_frame) {
         SourcePosition{"--step", {}}.fail("cannot be given together with --steps-per-frame: give one of them");
     }
-    // Either of the two says all about the step: what the file said about it no longer counts.
+    // Either option defines the step completely, so the file's settings of the step are dropped.
     if (overrides.step || overrides.steps_per_frame) time.step.reset(), time.steps_per_frame.reset();
     override_number(overrides.step, "--step", time.step, limits::step);
     if (overrides.steps_per_frame) {
@@ -132,10 +132,10 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
     }
 }
 
-/// The whole number of steps that a frame of 1/fps seconds holds, to within the contract's tolerance.
+/// The integer number of steps in a frame of 1/fps seconds, within the tolerance of the scene format.
 int steps_in_a_frame(const TimeRequest& time, double fps) {
     const double step = time.step->value;
-    // When --fps came after the file's step, it is the option that does not fit.
+    // If --fps replaced the file's rate, the error names the option.
     const SourcePosition& origin = time.fps && time.fps->origin.is_option() ? time.fps->origin : time.step->origin;
     const double frame = 1.0 / fps;
     const double ratio = frame / step;
@@ -157,7 +157,8 @@ int steps_in_a_frame(const TimeRequest& time, double fps) {
 void check_frame_count(const TimeRequest& time, double duration, double fps) {
     const double frames = std::floor(duration * fps) + 1.0;
     if (frames <= static_cast<double>(limits::frames)) return;
-    // The defaults alone never get here, so one of the two was given; an option outranks the file.
+    // The defaults alone satisfy the limit, so one of the two was given; the error names an option rather than the
+    // file.
     const bool blame_fps =
         !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
     (blame_fps ? time.fps : time.duration)->origin.fail(

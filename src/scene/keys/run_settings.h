@@ -1,6 +1,6 @@
-// [simulation] and [output]: how long, how fine, how it is computed, and the frames that come out.
-// The file and the command line are merged first, each value with its origin, and checked together afterwards:
-// a step that fits the file's fps may not fit the one of --fps.
+// [simulation] and [output]: duration, step, methods, and the frames. The file and the command line are merged first,
+// each value with its source, and checked together after that: a step that fits the file's fps may not fit that of
+// --fps.
 #pragma once
 
 #include "scene/description/description.h"
@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// Reads both tables (either may be missing) under the overrides.
+/// Reads both tables (either may be missing) with the overrides.
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output);
 

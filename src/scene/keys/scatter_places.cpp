@@ -7,8 +7,8 @@
 namespace tumble {
 namespace {
 
-/// The placed spheres by cell of a lattice as wide as the largest reach, so that only the 27 cells around a place can
-/// hold neighbours. Only looked up, never walked through.
+/// The placed spheres in a grid with cells as wide as the largest diameter, so that only the 27 cells around a place
+/// can contain neighbors. Only for lookups, never iterated over.
 class NeighborBoxes {
 public:
     NeighborBoxes(const std::vector<BoundingSphere>& spheres, double clearance)
@@ -43,7 +43,7 @@ private:
         return {std::int64_t(std::floor(c.x())), std::int64_t(std::floor(c.y())), std::int64_t(std::floor(c.z()))};
     }
 
-    /// Two cells of one key are harmless: distances decide.
+    /// Two cells with one key are harmless, because distances are tested.
     static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
         return std::uint64_t(x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(y) * 0xc2b2ae3d27d4eb4fu ^
                std::uint64_t(z) * 0x165667b19e3779f9u;

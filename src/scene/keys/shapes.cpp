@@ -22,7 +22,7 @@ constexpr Choice<ShapeKind> shape_kinds[] = {
     {"compound", ShapeKind::compound},
 };
 
-// One convex hull around the mesh, or one around each object of the file.
+// One convex hull of the mesh, or one of each object of the file.
 enum class MeshParts { whole, objects };
 
 constexpr Choice<MeshParts> mesh_parts[] = {
@@ -36,8 +36,8 @@ PlaneShape read_plane(const TomlTable& table) {
     return plane;
 }
 
-/// A dynamic body's mass and inertia are those of what its mesh encloses, so it must enclose something.
-/// `which`: nothing, or the object of the file.
+/// A dynamic body's mass and inertia are those of the volume enclosed by its mesh, so it must enclose one. `which`:
+/// empty, or the object of the file.
 void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::string& which = {}) {
     const Closedness& c = mesh.closedness;
     if (c.open_edges > 0) {
@@ -53,7 +53,8 @@ void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::str
                         which, c.crowded_edges));
     }
     const double extent = mesh.asset->surface.bounds().extent().norm();
-    constexpr double rounding = 1e-12;   // of the bounds' diagonal cubed; a closed sheet has less, a hair has more
+    // of the bounds' diagonal cubed; a closed surface without volume has less, a hair has more
+    constexpr double rounding = 1e-12;
     if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
 }
 

@@ -9,17 +9,17 @@
 
 namespace tumble {
 
-/// A shape as the file gives it, from which copies of other scales can be made.
+/// A shape as given by the file, from which scaled copies can be made.
 struct ShapeRequest {
     Shape shape;                       // at scale 1
     std::filesystem::path mesh_file;   // of a mesh
     double mesh_scale = 1.0;
 };
 
-/// Reads and checks the shape of a body of that type; relative mesh files start from `folder`.
+/// Reads and checks the shape of a body of that type. Relative mesh paths are relative to `folder`.
 ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesystem::path& folder, MeshCache& meshes);
 
-/// The shape made larger by a factor. Meshes of equal scale are shared.
+/// The shape enlarged by a factor. Meshes of equal scale are shared.
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// [light] and [wind]: what surrounds the bodies.
+// [light] and [wind]: the surroundings of the bodies.
 #pragma once
 
 #include "scene/description/description.h"

@@ -26,13 +26,13 @@
 namespace tumble {
 namespace {
 
-// Bytes beyond the program's own: importers take about ten times the file, and small files their fixed tables.
+// Bytes beyond the program's own: importers take about ten times the file, plus fixed tables.
 constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
-constexpr unsigned import_seconds = 60;             // the largest mesh that is allowed takes about ten
-constexpr unsigned deepest_node = 1000;             // nested transforms: deeper, a file is made to exhaust the stack
+constexpr unsigned import_seconds = 60;             // the largest allowed mesh takes about ten
+constexpr unsigned deepest_node = 1000;             // nested transforms: a file with more is made to exhaust the stack
 constexpr std::size_t words_shown = 120;            // characters of assimp's own message
 
-/// A mesh has one file: whatever else it names is not there.
+/// Hides all other files, so that a mesh consists of one file only.
 class NoOtherFiles : public Assimp::IOSystem {
 public:
     bool Exists(const char*) const override { return false; }
@@ -86,7 +86,7 @@ void add_node(const aiNode& node, const aiScene& scene, const MeshTransform& par
 MeshFile import(std::string_view bytes, const std::string& extension) {
     Assimp::Importer importer;
     importer.SetIOHandler(new NoOtherFiles);   // the importer deletes it
-    // Only its check of the data: welding, normals and the cutting of polygons are ours.
+    // Only assimp's check of the data is used: welding, normals and triangulation follow later.
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, extension.c_str() + 1);
     if (!scene || !scene->mRootNode)
@@ -96,7 +96,7 @@ MeshFile import(std::string_view bytes, const std::string& extension) {
     return result;
 }
 
-// -- From the child to the parent: a byte that says which, then the mesh or the words of an error.
+// -- From the child to the parent: a byte for the kind, then the mesh or the text of an error.
 
 constexpr char is_mesh = 'm', is_error = 'e';
 
@@ -148,7 +148,7 @@ void write_list(int file, const std::vector<T>& list) {
     ::_exit(0);
 }
 
-/// The child's end of the pipe closes when it ends, however it ends.
+/// The child's end of the pipe closes when the child ends, even if it crashes.
 std::string read_all(int file) {
     std::string all;
     char part[1 << 16];
@@ -160,7 +160,7 @@ std::string read_all(int file) {
     return all;
 }
 
-/// The lists of a mesh, each behind its length, as far as they are there.
+/// The lists of a mesh, each behind its length, as far as they are complete.
 class Lists {
 public:
     explicit Lists(std::string_view bytes) : bytes_(bytes) {}
@@ -182,7 +182,7 @@ private:
     std::string_view bytes_;
 };
 
-/// A child whose importer was led astray may have written anything: each value is checked again.
+/// A child with a corrupted importer may have written anything, so each value is checked again.
 MeshFile checked_mesh(std::string_view bytes) {
     Lists lists(bytes);
     MeshFile mesh;
@@ -190,13 +190,13 @@ MeshFile checked_mesh(std::string_view bytes) {
     for (const auto& triangle : lists.next<std::array<MeshFile::Corner, 3>>()) {
         for (const MeshFile::Corner& corner : triangle)
             if (corner.position >= mesh.positions.size() || !corner.normal.allFinite())
-                throw MeshError("was imported with a corner that means nothing");
+                throw MeshError("was imported with a corner that has no valid position or normal");
         mesh.add_triangle(triangle);
     }
     mesh.objects = lists.next<std::size_t>();
     for (std::size_t i = 0; i < mesh.objects.size(); ++i)
         if (mesh.objects[i] > mesh.triangles.size() || (i > 0 && mesh.objects[i] <= mesh.objects[i - 1]))
-            throw MeshError("was imported with objects that mean nothing");
+            throw MeshError("was imported with invalid objects");
     return mesh;
 }
 

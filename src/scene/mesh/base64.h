@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Nothing when the text is none. Padding may be left out.
+/// Empty for text that is not base64. Padding is optional.
 std::optional<std::string> decode_base64(std::string_view text);
 
 }  // namespace tumble

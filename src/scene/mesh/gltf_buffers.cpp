@@ -15,7 +15,7 @@
 namespace tumble {
 namespace {
 
-/// glTF's numbers for the types of components.
+/// Component types of glTF.
 enum class Component { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, uint32 = 5125, float32 = 5126 };
 
 std::size_t size_of(Component type) {
@@ -41,7 +41,7 @@ Component component_type(const Json& holder) {
 template <class Number>
 Number take(const char* at) {
     Number value;
-    std::memcpy(&value, at, sizeof value);   // x86-64 is little endian, as glTF is
+    std::memcpy(&value, at, sizeof value);   // x86-64 is little-endian, like glTF
     return value;
 }
 
@@ -75,7 +75,7 @@ std::uint32_t index_value(const char* at, Component type) {
     throw MeshError("has indices that are not unsigned whole numbers");
 }
 
-/// %20 and the like as the bytes that they stand for.
+/// Decodes %20 and similar escapes.
 std::string without_percents(std::string_view uri) {
     std::string result;
     const auto digit = [&](std::size_t at) {
@@ -90,7 +90,7 @@ std::string without_percents(std::string_view uri) {
     return result;
 }
 
-/// The file that the links lead to, when it lies in the folder that the links lead to, or below.
+/// The file after following links; it must be in the folder (after following links) or below.
 std::filesystem::path within(const std::filesystem::path& folder, const std::string& name) {
     const std::filesystem::path asked(name);
     if (name.empty() || name.find('\0') != name.npos || asked.is_absolute()) throw MeshError("is not a file of its folder");
@@ -120,8 +120,8 @@ struct GltfBuffers::Elements {
     bool normalized;
     std::uint64_t count;
     std::size_t size, stride;   // bytes
-    std::string_view bytes;     // none: all are zero
-    Sparse sparse;              // those that are something else
+    std::string_view bytes;     // empty: all are zero
+    Sparse sparse;              // elements with other values
 };
 
 std::string GltfBuffers::load_file(std::string_view uri) {
@@ -181,7 +181,7 @@ std::string_view GltfBuffers::view(const Json& holder, std::size_t& stride) {
 
 namespace {
 
-/// So many elements must lie within the bytes. The count is below 2^32 here, so products fit.
+/// Checks that the elements lie within the bytes. The count is below 2^32 here, so products do not overflow.
 void check_extent(std::string_view bytes, std::uint64_t count, std::size_t size, std::size_t stride) {
     if (count > 0 && (bytes.size() < size || (count - 1) * stride > bytes.size() - size))
         throw MeshError(fmt::format("has an accessor of {} elements beyond its buffer view", count));
@@ -207,7 +207,7 @@ GltfBuffers::Elements GltfBuffers::elements(std::uint64_t accessor, std::size_t 
         if (stride > 0) result.stride = stride;
     }
     if (const Json* sparse = find_member(item, "sparse")) result.sparse = sparse_of(*sparse, result);
-    if (result.count > bytes_read_)   // those without a buffer view are zeros, which need no bytes
+    if (result.count > bytes_read_)   // elements without a buffer view are zeros, which need no bytes
         throw MeshError(fmt::format("has an accessor of {} elements in {} bytes", result.count, bytes_read_));
     if (has_view) check_extent(result.bytes, result.count, result.size, result.stride);
     return result;

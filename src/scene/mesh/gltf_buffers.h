@@ -1,4 +1,4 @@
-// The buffers of a glTF file and what its accessors read from them.
+// The buffers of a glTF file and the values of its accessors.
 #pragma once
 
 #include "scene/mesh/gltf_json.h"
@@ -15,19 +15,19 @@ namespace tumble {
 
 class GltfBuffers {
 public:
-    /// `binary` is the binary chunk of a GLB file, else empty; `file_bytes` the size of the file. The document and the chunk
-    /// outlive the buffers. Other files are read from `folder` and below.
+    /// `binary`: the binary chunk of a GLB file, else empty; `file_bytes`: size of the file. The document and the chunk
+    /// must outlive the buffers. Other files are read from `folder` and below.
     GltfBuffers(const Json& document, std::string_view binary, std::size_t file_bytes, std::filesystem::path folder)
         : document_(document), binary_(binary), folder_(std::move(folder)), bytes_read_(file_bytes) {}
 
-    /// The number of elements of an accessor. Throws MeshError when there are more than bytes were read.
+    /// The number of elements of an accessor. Throws MeshError if it exceeds the number of bytes read.
     std::uint64_t count_vectors(std::uint64_t accessor);
     std::uint64_t count_indices(std::uint64_t accessor);
-    /// An accessor of 3-vectors; whole numbers become floats, of -1 to 1 or 0 to 1 where they are normalized.
+    /// An accessor of 3-vectors; integers become floats, of -1 to 1 or 0 to 1 if they are normalized.
     std::vector<std::array<float, 3>> vectors(std::uint64_t accessor);
     /// An accessor of indices.
     std::vector<std::uint32_t> indices(std::uint64_t accessor);
-    /// The files that were read beside the glTF itself.
+    /// The files that were read in addition to the glTF file.
     const std::vector<std::filesystem::path>& other_files() const { return other_files_; }
 
 private:

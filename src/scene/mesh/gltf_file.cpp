@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-/// A node's own transform, in float as glTF's numbers are.
+/// A node's own transform, in single precision like glTF's numbers.
 Eigen::Matrix4f local_transform(const Json& node) {
     Eigen::Matrix4f result = Eigen::Matrix4f::Identity();
     if (const auto matrix = find_floats(node, "matrix", 16)) {
@@ -53,7 +53,7 @@ public:
         const auto scene = find_whole(document_, "scene").value_or(0);
         std::vector<Visit> open;
         push(whole_numbers(require_item(document_, "scenes", scene), "nodes"), {}, open);
-        while (!open.empty()) {   // depth first; a stack of our own, for a file may nest as deep as it likes
+        while (!open.empty()) {   // depth first, with an explicit stack, because a file may have any depth
             const Visit visit = open.back();
             open.pop_back();
             const Json& node = require_item(document_, "nodes", visit.node);
@@ -70,7 +70,7 @@ private:
         MeshTransform parent;
     };
 
-    /// glTF's nodes are a forest. So each is visited once, and there are neither cycles nor branches that double.
+    /// The nodes of glTF form a forest: each is visited once, so there are neither cycles nor branches that double.
     void push(const std::vector<std::uint64_t>& nodes, const MeshTransform& parent, std::vector<Visit>& open) {
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
             require_item(document_, "nodes", *node);
@@ -81,7 +81,7 @@ private:
         }
     }
 
-    /// Those without triangles are left out once and for all: nodes that show them cost nothing.
+    /// Primitives without triangles are dropped once, so that nodes that refer to them cost nothing.
     const std::vector<Primitive>& primitives_of(std::uint64_t mesh) {
         const auto [entry, is_new] = meshes_.try_emplace(mesh);
         if (!is_new) return entry->second;
@@ -157,7 +157,7 @@ private:
     std::map<std::uint64_t, std::vector<Primitive>> meshes_;
 };
 
-/// Extensions that the geometry needs and that are not read. Others only change what is looked at.
+/// Rejects required extensions that change the geometry and cannot be read. Others change the appearance only.
 void check_extensions(const Json& document) {
     const Json* required = find_member(document, "extensionsRequired");
     if (!required || !required->is_array()) return;
@@ -184,7 +184,7 @@ Chunks split_glb(std::string_view bytes) {
     const auto take = [&] {
         std::uint32_t number = 0;
         if (bytes.size() < sizeof number) throw MeshError("is a GLB file that ends early");
-        std::memcpy(&number, bytes.data(), sizeof number);   // x86-64 is little endian, as GLB is
+        std::memcpy(&number, bytes.data(), sizeof number);   // x86-64 is little-endian, like GLB
         bytes.remove_prefix(sizeof number);
         return number;
     };

@@ -8,13 +8,12 @@
 
 namespace tumble {
 
-/// A kind of glTF that has no reader of our own: version 1, or meshes compressed by Draco.
+/// A kind of glTF without a reader in Tumble: version 1, or meshes compressed by Draco.
 struct UnsupportedGltf : MeshError {
     using MeshError::MeshError;
 };
 
-/// The bytes are those of the file. Buffers may be files in the folder and below. Throws MeshError, or
-/// UnsupportedGltf.
+/// `bytes`: content of the file. Buffers may be files in the folder and below. Throws MeshError, or UnsupportedGltf.
 MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder);
 
 }  // namespace tumble

@@ -9,7 +9,8 @@ namespace tumble {
 
 namespace {
 
-/// Counts the values of a text and stops at one too many. (The parser's own filter looks at all of an array once an object.)
+/// Counts the values of a text and stops beyond the limit. (The parser's own filter rescans an array for each object in
+/// it.)
 class Counter : public nlohmann::json_sax<Json> {
 public:
     bool too_many() const { return values_ > limits::json_values; }
@@ -37,7 +38,7 @@ private:
 
 Json parse_json(std::string_view text) {
     Counter counter;
-    Json::sax_parse(text.begin(), text.end(), &counter);   // a mistake is found again below
+    Json::sax_parse(text.begin(), text.end(), &counter);   // a syntax error is found again below
     if (counter.too_many()) throw MeshError(fmt::format("holds more than {} JSON values", limits::json_values));
     try {
         return Json::parse(text.begin(), text.end());

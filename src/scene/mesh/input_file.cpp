@@ -35,11 +35,12 @@ private:
 }  // namespace
 
 std::string read_regular_file(const std::filesystem::path& file, std::int64_t limit) {
-    // Asked before opening, for opening alone does something to some devices.
+    // Checked before opening, because opening has an effect on some devices.
     struct stat state {};
     if (stat(file.c_str(), &state) != 0) fail_with(errno);
     if (!S_ISREG(state.st_mode)) throw MeshError("is not a regular file");
-    // And after it, for the name may have changed hands; O_NONBLOCK keeps a FIFO from waiting for its writer.
+    // Checked again after opening, because the name may have been replaced; O_NONBLOCK avoids waiting for the writer of
+    // a FIFO.
     const Descriptor opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (opened.number() < 0 || fstat(opened.number(), &state) != 0) fail_with(errno);
     if (!S_ISREG(state.st_mode)) throw MeshError("is not a regular file");
@@ -47,7 +48,7 @@ std::string read_regular_file(const std::filesystem::path& file, std::int64_t li
         if (size > limit) throw MeshError(fmt::format("is larger than {} MiB", limit >> 20));
     };
     check_size(state.st_size);
-    std::string bytes(static_cast<std::size_t>(state.st_size) + 1, '\0');   // one more: it shows that the file ends there
+    std::string bytes(static_cast<std::size_t>(state.st_size) + 1, '\0');   // one more, to detect the end of the file
     std::size_t size = 0;
     while (true) {
         const ssize_t got = read(opened.number(), bytes.data() + size, bytes.size() - size);

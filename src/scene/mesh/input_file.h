@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// The whole of a regular file; links are followed. Throws MeshError when it is missing, of another kind (a folder, a FIFO,
-/// a device: none of them is waited on), unreadable, or larger than the limit in bytes.
+/// The whole of a regular file; links are followed. Throws MeshError if it is missing, of another kind (a folder, a
+/// FIFO or a device, without waiting for it), unreadable, or larger than the limit in bytes.
 std::string read_regular_file(const std::filesystem::path& file, std::int64_t limit);
 
 }  // namespace tumble

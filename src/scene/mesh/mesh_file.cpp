@@ -26,7 +26,7 @@ std::string lower_extension(const std::filesystem::path& file) {
     return text;
 }
 
-/// What our reader does not know, assimp may; buffers in other files are then not there.
+/// assimp may read a file that the own reader does not support; buffers in other files are then missing.
 MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& folder, const std::string& extension) {
     try {
         return read_gltf(bytes, folder);
@@ -93,7 +93,7 @@ void MeshFile::check_more_triangles(std::uint64_t more) const {
 }
 
 void MeshFile::check_more_positions(std::uint64_t more) const {
-    constexpr std::uint64_t most = 3 * limits::mesh_triangles;   // a corner each, and none to spare
+    constexpr std::uint64_t most = 3 * limits::mesh_triangles;   // a corner each
     if (more > most || positions.size() + more > most) throw MeshError(fmt::format("has more than {} vertices", most));
 }
 

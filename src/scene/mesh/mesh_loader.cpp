@@ -14,12 +14,12 @@
 namespace tumble {
 namespace {
 
-constexpr double weld_tolerance = 1e-9;   // of the mesh's size: rounding of a transform, far below any modelled detail
-constexpr double flat = 1e-14;            // of longest edge squared: below, a triangle's area is nothing but rounding
+constexpr double weld_tolerance = 1e-9;   // of the mesh's size: rounding of a transform, far below any modeled detail
+constexpr double flat = 1e-14;            // of longest edge squared: a smaller area of a triangle is only rounding
 
 using Corners = std::array<MeshFile::Corner, 3>;
 
-/// Cells of a cubic lattice with the vertices in them; only looked up, never walked through.
+/// Cells of a cubic grid with the vertices in them; only for lookups, never iterated over.
 class Lattice {
 public:
     Lattice(const Vec3& origin, double cell) : origin_(origin), cell_(cell) {}
@@ -29,7 +29,7 @@ public:
         return {std::int64_t(std::floor(c.x())), std::int64_t(std::floor(c.y())), std::int64_t(std::floor(c.z()))};
     }
     std::vector<std::uint32_t>& operator[](const std::array<std::int64_t, 3>& cell) {
-        std::uint64_t key = 0;   // two cells of one key are harmless: distances decide
+        std::uint64_t key = 0;   // two cells with one key are harmless, because distances are tested
         for (const std::int64_t c : cell) key = (key ^ std::uint64_t(c)) * 0x9e3779b97f4a7c15u + (key >> 29);
         return cells_[key];
     }
@@ -46,7 +46,7 @@ bool has_area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return a.cross(b).norm() > flat * longest;
 }
 
-/// The vertices that triangles use, in file order, and the triangles renumbered to them.
+/// The vertices that triangles use, in file order, and the triangles with new indices.
 TriangleMesh compact(const std::vector<Vec3>& positions, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     constexpr std::uint32_t unused = ~std::uint32_t(0);
     std::vector<std::uint32_t> number(positions.size(), unused);
@@ -69,7 +69,7 @@ void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 face = face_normal(mesh, t);
         for (int i = 0; i < 3; ++i) {
-            // A normal that looks into the body is a mistake of the file (or it has none at all: zero).
+            // A normal that points into the body is a fault of the file; a missing one is zero.
             const Vec3& own = corners[t][i].normal;
             const Vec3& n = own.dot(face) > 0.0 ? own : made[t][i];
             const std::uint32_t v = mesh.triangles[t][i];
@@ -101,7 +101,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
     std::vector<std::uint32_t> result(positions.size());
     if (positions.empty()) return result;
     const double tolerance = std::max(weld_tolerance * bounds.extent().norm(), 1e-300);
-    Lattice lattice(bounds.min, 4.0 * tolerance);   // mostly one cell to look at
+    Lattice lattice(bounds.min, 4.0 * tolerance);   // mostly one cell per search
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
         const Vec3& p = positions[v];
         const auto low = lattice.cell_of(p.array() - tolerance), high = lattice.cell_of(p.array() + tolerance);
@@ -137,7 +137,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         std::swap(corners[t][1], corners[t][2]);
     };
     if (result.closedness.crowded_edges > 0) {
-        // Their normals stay: those that look the wrong way are found when drawn vertices are made.
+        // Normals are not changed: those with the wrong direction are detected when drawn vertices are made.
         const std::vector<char> to_turn = triangles_to_turn(whole);
         for (std::size_t t = 0; t < corners.size(); ++t)
             if (to_turn[t]) turn(t);
@@ -151,7 +151,8 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         result.closedness.signed_volume = -result.closedness.signed_volume;
     }
 
-    // A sliver of no area may close a gap, so it counted for closedness; it has no normal, so it goes no further.
+    // A sliver without area may close a gap, so it counts for closedness; it has no normal, so it is dropped after
+    // that.
     std::vector<std::array<std::uint32_t, 3>> kept;
     std::vector<Corners> kept_corners;
     for (std::size_t t = 0; t < corners.size(); ++t) {

@@ -1,4 +1,4 @@
-// From a mesh file to what bodies use: a welded surface to compute with and shaded vertices to draw.
+// From a mesh file to the data of bodies: a welded surface for computation and shaded vertices for drawing.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -13,22 +13,22 @@
 
 namespace tumble {
 
-/// A mesh and what a body must know before it uses it.
+/// A mesh and its properties.
 struct LoadedMesh {
     std::shared_ptr<const MeshAsset> asset;
     Closedness closedness;   // of the surface before triangles without area were dropped; its volume is in m^3
 };
 
-/// Loads each file once, and makes each (file, scale) once, so that bodies share.
+/// Loads each file once, and makes each (file, scale) once, so that bodies share data.
 class MeshCache {
 public:
-    /// Throws MeshError. `file` is resolved already.
+    /// Throws MeshError. `file` is a resolved path.
     const LoadedMesh& load(const std::filesystem::path& file, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
     const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
-    /// The files that were read, in the order in which they were met first.
+    /// The files that were read, in the order of first use.
     const std::vector<std::filesystem::path>& files() const { return read_; }
-    /// All parts larger by a factor, their places too.
+    /// All parts and their places enlarged by a factor.
     CompoundShape enlarged(const CompoundShape& shape, double factor);
 
 private:
@@ -36,7 +36,7 @@ private:
     std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
     std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
-    // By address, so the keys are kept alive beside the values; only looked up.
+    // The keys are addresses of the data that the values keep alive; only for lookups.
     template <class T>
     struct Larger {
         std::shared_ptr<const T> original, made;
@@ -45,17 +45,17 @@ private:
     std::map<std::pair<const void*, double>, Larger<std::vector<CompoundPart>>> larger_compounds_;
 };
 
-/// One file at scale 1: welded, turned to face outward when it is closed, without triangles that have no area, with
-/// normals for drawing. Throws MeshError. The files that were read are appended to `read`, where that is given.
+/// One file at scale 1: welded, oriented outward if it is closed, without triangles of zero area, with normals for
+/// drawing. Throws MeshError. Appends the files that were read to `read`, if given.
 LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr);
 
-/// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; of other kinds the whole.
-/// Throws MeshError too when they are more than a body has parts.
+/// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; the whole file for
+/// other formats. Throws MeshError also if there are more objects than a body may have parts.
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
                                           std::vector<std::filesystem::path>* read = nullptr);
 
-/// Merges vertices that are closer than 1e-9 of the mesh's size; the first of each group in file order stays.
-/// Returns for each vertex the one that stands for it.
+/// Merges vertices that are closer than 1e-9 of the mesh's size into the first of each group in file order. Returns for
+/// each vertex the index of its representative.
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions);
 
 }  // namespace tumble

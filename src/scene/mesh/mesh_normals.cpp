@@ -5,9 +5,9 @@
 namespace tumble {
 namespace {
 
-constexpr double crease_angle = 40.0;   // degrees: a tube of 10 sides is round, one of 8 has edges
+constexpr double crease_angle = 40.0;   // degrees: a tube of 10 sides is smooth, one of 8 has edges
 
-constexpr std::size_t most_faces_at_a_vertex = 2000;   // beyond, a fan is drawn flat: its cost grows with the square
+constexpr std::size_t most_faces_at_a_vertex = 2000;   // a larger fan is drawn flat, because its cost grows with the square
 
 struct Incidence {
     std::uint32_t triangle;
@@ -49,7 +49,7 @@ std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh) {
             for (const Incidence& other : neighbours) {
                 if (normals[other.triangle].dot(normals[t]) > crease) sum += other.angle * normals[other.triangle];
             }
-            // The faces of a crease group lie within it of this one, so the sum cannot vanish.
+            // The faces of a crease group differ from this one by less than the crease angle, so the sum cannot vanish.
             result[t][i] = sum.normalized();
         }
     }

@@ -1,4 +1,4 @@
-// Normals for drawing, made where the file has none: smooth across gentle edges, hard across sharp ones.
+// Normals for drawing if the file has none: smooth across gentle edges, hard across sharp ones.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -9,11 +9,11 @@
 namespace tumble {
 
 /// A unit normal for every corner of every triangle: the mean of the normals of the faces at its vertex, weighted by
-/// their angles there (Thuermer and Wuethrich 1998), over those that differ from the corner's own face by less than
-/// the crease angle. The mesh is welded and its triangles have area.
+/// their angles there (Thuermer and Wuethrich 1998), over those that differ from the corner's own face by less than the
+/// crease angle. Precondition: the mesh is welded and its triangles have area.
 std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh);
 
-/// The unit normal of a triangle; zero when it has no area.
+/// The unit normal of a triangle; zero if it has no area.
 Vec3 face_normal(const TriangleMesh& mesh, std::size_t triangle);
 
 }  // namespace tumble

@@ -19,7 +19,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 constexpr double tenths[] = {1.0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
                              1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};   // 10 to the power of -i
 
-/// 10 to the power of a whole number, rounded once.
+/// 10 to the power of an integer, rounded once.
 float power_of_ten(int exponent) {
     if (exponent > std::numeric_limits<float>::max_exponent10) return std::numeric_limits<float>::infinity();
     char text[16] = "1e";
@@ -38,9 +38,9 @@ struct Cursor {
         skip(1);
         return true;
     }
-    /// The digits up to `most`, as a number; the others are skipped. How many were used is told in `used`.
+    /// The digits up to `most`, as a number; the others are skipped. `used`: number of used digits.
     double digits(int most, int& used) {
-        double value = 0.0;   // exact up to 15 digits, which is all that a float can tell
+        double value = 0.0;   // exact up to 15 digits, more than a float can represent
         for (used = 0; is_digit(peek()); skip(1)) {
             if (used == most) continue;
             value = value * 10.0 + (peek() - '0');
@@ -122,7 +122,7 @@ float mesh_number(std::string_view word, std::size_t line) {
             c.skip(1);
             const bool small = c.take('-');
             if (!small) c.take('+');
-            constexpr int largest = 100;   // beyond it any float is 0 or infinite
+            constexpr int largest = 100;   // with a larger one any float is 0 or infinite
             const int exponent = static_cast<int>(std::min<double>(c.digits(all, used), largest));
             if (value != 0.0f) value *= power_of_ten(small ? -exponent : exponent);
         }

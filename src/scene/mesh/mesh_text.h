@@ -6,13 +6,13 @@
 
 namespace tumble {
 
-/// Walks through a text line by line and word by word. A line that ends in a backslash goes on in the next one, and # begins
-/// a comment.
+/// Reads a text line by line and word by word. A backslash at the end continues a line in the next one, and # begins a
+/// comment.
 class TextWords {
 public:
     explicit TextWords(std::string_view text) : text_(text) {}
 
-    /// The next word of the line; empty at the line's end.
+    /// The next word of the line; empty at the end of the line.
     std::string_view word();
     /// Goes to the next line; false at the end of the text.
     bool next_line();
@@ -27,9 +27,9 @@ private:
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// A decimal number with a point or a comma, `nan` or `inf`. Whole part, fraction and power of ten are each rounded to a
-/// float, as assimp rounds them: meshes keep the coordinates that they had when it read them.
-/// Throws MeshError, which names the line, when the word is none.
+/// A decimal number with a point or a comma, `nan` or `inf`. Integer part, fraction and power of ten are each rounded
+/// to a float, as in assimp, so that coordinates equal those of assimp. Throws MeshError, which names the line, if the
+/// word is not a number.
 float mesh_number(std::string_view word, std::size_t line);
 
 }  // namespace tumble

@@ -3,7 +3,8 @@
 namespace tumble {
 namespace {
 
-/// Normals turn with the cofactors of the transform: no inverse, and right for mirrors too once the winding follows.
+/// Normals are transformed by the cofactors of the matrix: no inverse, and correct for mirrored parts with adapted
+/// winding.
 Mat3 normal_transform(const Mat3& m) {
     Mat3 cofactors;
     cofactors.col(0) = m.col(1).cross(m.col(2));

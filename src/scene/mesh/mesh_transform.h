@@ -1,4 +1,4 @@
-// Where a part of a mesh file lies in the mesh.
+// Placement of a part of a mesh file in the mesh.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Nothing is moved by default; a zero of a file may lose its sign even so.
+/// The default is the identity, although a zero of a file may lose its sign.
 class MeshTransform {
 public:
     MeshTransform() : MeshTransform(Mat3::Identity(), Vec3::Zero()) {}
@@ -18,7 +18,7 @@ public:
     Vec3 point(const std::array<float, 3>& p) const;
     /// Unit, or zero.
     Vec3 normal(const std::array<float, 3>& n) const;
-    /// Polygons must be turned.
+    /// True if the winding of polygons must be reversed.
     bool mirrored() const { return mirrored_; }
 
 private:

@@ -5,10 +5,10 @@
 namespace tumble {
 namespace {
 
-/// One sheet, wound as its first triangle is.
+/// One component, wound like its first triangle.
 struct Piece {
     double volume = 0.0;        // m^3
-    double turned_area = 0.0;   // less that of the others, m^2
+    double turned_area = 0.0;   // of triangles that are turned, less that of the others, m^2
     bool disagrees = false, closed = true;
     bool to_turn() const { return closed ? volume < 0.0 : turned_area > 0.0; }
 };

@@ -1,4 +1,4 @@
-// Faces of a file that are wound one way here and the other way there.
+// Repairs inconsistent winding of faces.
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-/// Which triangles to turn so that those that share an edge agree: of a closed piece, to face outward; of an open one as most of
-/// its area does. A piece that agrees already stays as it is (a hollow's inner side faces inward), and so does one that
-/// cannot agree, as a Moebius strip.
+/// The triangles to turn so that those that share an edge are consistent: a closed component is oriented outward, an
+/// open one like most of its area. A consistent component is unchanged (the inner surface of a hollow faces inward),
+/// and so is one that cannot be consistent, such as a Moebius strip.
 std::vector<char> triangles_to_turn(const TriangleMesh& mesh);
 
 }  // namespace tumble

@@ -84,7 +84,7 @@ private:
         mesh_.add_polygon(polygon_);
     }
 
-    /// Their points count for the size of the mesh, and nothing else of them.
+    /// Points and lines count for the size of the mesh only.
     void read_points_or_line(TextWords& words) {
         for (std::string_view word = words.word(); !word.empty(); word = words.word()) corner(word);
     }
@@ -106,7 +106,7 @@ private:
         return result;
     }
 
-    /// Counted from 1, or from -1 backward from those seen in the file.
+    /// Counted from 1, or from -1 backward from those read so far.
     static std::size_t index(std::string_view text, std::size_t seen, std::size_t count, const char* what) {
         std::int64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -119,8 +119,8 @@ private:
     }
 
     const Points& points_;
-    const MeshTransform transform_;       // none
-    std::vector<std::uint32_t> number_;   // of a position in the mesh, or none
+    const MeshTransform transform_;       // identity
+    std::vector<std::uint32_t> number_;   // index of a position in the mesh, or none
     MeshFile mesh_;
     std::vector<MeshFile::Corner> polygon_;
     std::size_t positions_seen_ = 0, normals_seen_ = 0;
@@ -130,7 +130,7 @@ private:
 }  // namespace
 
 MeshFile read_obj(std::string_view bytes) {
-    const Points points = read_points(bytes);   // first, for a face may name a point that comes after it
+    const Points points = read_points(bytes);   // first, because a face may name a point that comes after it
     FaceReader reader(points);
     visit_lines(bytes, [&](std::string_view keyword, TextWords& words) { reader.read_line(keyword, words); });
     return reader.take();

@@ -1,5 +1,5 @@
-// Wavefront OBJ files: positions, normals, polygons and their objects. Materials, texture coordinates and curves are passed
-// over, and no other file is opened.
+// Wavefront OBJ files: positions, normals, polygons and their objects. Materials, texture coordinates and curves are
+// skipped, and no other file is opened.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// The bytes are those of the file. Throws MeshError.
+/// `bytes`: content of the file. Throws MeshError.
 MeshFile read_obj(std::string_view bytes);
 
 }  // namespace tumble

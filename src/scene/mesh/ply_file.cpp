@@ -31,7 +31,7 @@ constexpr Choice<Type> types[] = {
     {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64},
 };
 
-constexpr std::size_t header_bytes = 64 << 10;   // a hundred elements; more would only take time
+constexpr std::size_t header_bytes = 64 << 10;   // a hundred elements; a longer header would only take time
 
 struct Property {
     std::string_view name;
@@ -54,7 +54,7 @@ Value named(std::string_view name, std::span<const Choice<Value>> choices, const
     throw MeshError(fmt::format("has a header with an unknown {}", what));
 }
 
-/// Takes the text up to the next separator off the front of `text`.
+/// Removes the text up to the next separator from the front of `text` and returns it.
 std::string_view take_until(char separator, std::string_view& text) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view taken = text.substr(0, end);
@@ -91,7 +91,7 @@ Property read_property(std::string_view words) {
     return property;
 }
 
-/// Reads the header and takes it off the front of `bytes`.
+/// Reads the header and removes it from the front of `bytes`.
 Header read_header(std::string_view& bytes) {
     const std::string_view whole = bytes;
     const auto next_line = [&] {
@@ -120,7 +120,7 @@ Header read_header(std::string_view& bytes) {
     return header;
 }
 
-/// The numbers after the header, one after the other.
+/// The sequence of numbers after the header.
 class Body {
 public:
     Body(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
@@ -132,7 +132,7 @@ public:
 private:
     double next_word() {
         while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
-        if (at_ < data_.size() && data_[at_] == '+') ++at_;   // from_chars takes no plus
+        if (at_ < data_.size() && data_[at_] == '+') ++at_;   // from_chars accepts no plus
         if (at_ == data_.size()) throw MeshError("ends early");
         const char* first = data_.data() + at_;
         double value = 0.0;
@@ -148,7 +148,7 @@ private:
         if (bytes_left() < sizeof(Number)) throw MeshError("ends early");
         char bytes[sizeof(Number)];
         std::memcpy(bytes, data_.data() + at_, sizeof bytes);
-        if (encoding_ == Encoding::big_endian) std::reverse(bytes, bytes + sizeof bytes);   // x86-64 is little endian
+        if (encoding_ == Encoding::big_endian) std::reverse(bytes, bytes + sizeof bytes);   // x86-64 is little-endian
         at_ += sizeof bytes;
         Number value;
         std::memcpy(&value, bytes, sizeof bytes);
@@ -174,7 +174,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// A whole number below `limit`, or an error.
+/// An integer below `limit`, or an error.
 std::size_t whole(double value, double limit, const char* what) {
     if (!(value >= 0.0 && value < limit) || value != std::trunc(value)) {
         throw MeshError(fmt::format("has {} of {}", what, number_text(value)));
@@ -204,7 +204,7 @@ std::optional<std::size_t> property_index(const Element& element, std::string_vi
     return std::nullopt;
 }
 
-/// The properties of three names, when the element has them all.
+/// The properties of three names, if the element has all of them.
 std::optional<std::array<std::size_t, 3>> triple(const Element& element, const std::array<const char*, 3>& names) {
     std::array<std::size_t, 3> result{};
     for (int i = 0; i < 3; ++i) {
@@ -222,7 +222,7 @@ MeshFile read_ply(std::string_view bytes) {
     Body body(bytes, header.encoding);
 
     MeshFile mesh;
-    std::vector<Vec3> normals;   // one a vertex, or none at all
+    std::vector<Vec3> normals;   // one per vertex, or none at all
     for (const Element& element : header.elements) {
         const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
         const auto position = triple(element, {"x", "y", "z"}), normal = triple(element, {"nx", "ny", "nz"});
@@ -230,7 +230,7 @@ MeshFile read_ply(std::string_view bytes) {
         if (!corners) corners = property_index(element, "vertex_index", true);
         if (is_vertex && !position) throw MeshError("has vertices without x, y and z");
         if (is_face && !corners) throw MeshError("has faces without vertex_indices");
-        if (element.properties.empty() && element.count > 0) continue;   // rows of nothing
+        if (element.properties.empty() && element.count > 0) continue;   // empty rows
 
         std::vector<double> scalar(element.properties.size());
         std::vector<std::vector<double>> list(element.properties.size());

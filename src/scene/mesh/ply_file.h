@@ -1,5 +1,4 @@
-// PLY files (Turk 1994): text and binary, positions, normals and polygons; other elements and properties are passed
-// over.
+// PLY files (Turk 1994): text and binary, positions, normals and polygons; other elements and properties are skipped.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
@@ -8,7 +7,7 @@
 
 namespace tumble {
 
-/// The bytes are those of the file. Throws MeshError.
+/// `bytes`: content of the file. Throws MeshError.
 MeshFile read_ply(std::string_view bytes);
 
 }  // namespace tumble

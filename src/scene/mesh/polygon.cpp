@@ -11,12 +11,12 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// Twice the signed area of a triangle, positive when it turns counter-clockwise.
+/// Twice the signed area of a triangle, positive if it turns counter-clockwise.
 double turn(const Point& a, const Point& b, const Point& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// The corners in the plane that shows most of the polygon, counter-clockwise (Newell's normal; Sutherland 1974).
+/// The corners projected along the dominant axis of the normal, counter-clockwise (Newell's normal; Sutherland 1974).
 std::vector<Point> flattened(const std::vector<Vec3>& corners) {
     Vec3 normal = Vec3::Zero();
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -36,14 +36,14 @@ bool is_strictly_convex(const std::vector<Point>& p) {
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) <= 0.0) return false;
     }
-    // Turning left everywhere is not enough for a star that goes round twice: a fan would fold over.
+    // Left turns everywhere are not sufficient for a star that winds twice: a fan would fold over.
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
         if (turn(p[0], p[i], p[i + 1]) <= 0.0) return false;
     }
     return true;
 }
 
-/// Points of the plane in square cells: those within a triangle are found without a look at all.
+/// Points of the plane in square cells, to find those within a triangle without visiting all.
 class PointGrid {
 public:
     explicit PointGrid(const std::vector<Point>& points) : points_(points), place_(points.size()) {
@@ -52,7 +52,7 @@ public:
         for (const Point& p : points) min_ = min_.cwiseMin(p), max = max.cwiseMax(p);
         const double largest = std::max(min_.cwiseAbs().maxCoeff(), max.cwiseAbs().maxCoeff());
         const double extent = (max - min_).maxCoeff();
-        // About a point a cell. One cell for all where a cell would be narrower than rounding.
+        // About one point per cell; a single cell if cells would be narrower than rounding.
         if (extent > fine * largest) side_ = std::size_t(std::ceil(std::sqrt(double(points.size()))));
         cell_size_ = extent / double(side_);
         cells_.resize(side_ * side_);
@@ -70,7 +70,7 @@ public:
         cell.pop_back();
     }
 
-    /// A point within the triangle or on its edge that is no corner of it, if there is one.
+    /// A point within the triangle or on its edge that is not one of its corners, if any.
     std::optional<std::uint32_t> find_within(const std::array<std::uint32_t, 3>& corners) const {
         const Point &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
         const auto [first, last] = std::minmax({a.y(), b.y(), c.y()});
@@ -89,13 +89,14 @@ public:
     }
 
 private:
-    static constexpr double fine = 1e-9;   // of the largest coordinate: far above its rounding, at a cell for each of 2000 points
+    // of the largest coordinate: far above its rounding, with a cell for each of 2000 points
+    static constexpr double fine = 1e-9;
 
     std::size_t row_or_column(double distance) const {
         return cell_size_ > 0.0 ? std::min(std::size_t(std::max(distance / cell_size_, 0.0)), side_ - 1) : 0;
     }
 
-    /// The first and the last column that the triangle reaches in a row, and one more on either side against rounding.
+    /// The first and the last column that the triangle reaches in a row, and one more on either side for rounding.
     std::pair<std::size_t, std::size_t> columns(std::size_t row, const std::array<Point, 3>& corners) const {
         const double low = min_.y() + (double(row) - 1.0) * cell_size_, high = low + 3.0 * cell_size_;
         double from = std::numeric_limits<double>::infinity(), to = -from;
@@ -124,8 +125,8 @@ private:
     std::size_t side_ = 1;
 };
 
-/// Cuts ears in the order in which a walk around the polygon comes upon them. Corners that are none are not looked at again
-/// until a neighbour or the point that lies in their triangle is gone.
+/// Ear clipping in the order of a walk around the polygon. A corner that is no ear is not tested again until a
+/// neighbor, or the point in its triangle, is removed.
 class EarCutter {
 public:
     explicit EarCutter(const std::vector<Point>& points)
@@ -141,7 +142,7 @@ public:
         std::vector<std::array<std::uint32_t, 3>> triangles;
         std::uint32_t at = 1;
         while (left_ > 3) {
-            // When no corner is an ear the polygon is not simple: cut one off regardless.
+            // If no corner is an ear, the polygon is not simple: cut one off regardless.
             const std::uint32_t ear = next_ear(at).value_or(before_[at]);
             triangles.push_back(triangle(ear));
             at = after_[ear];

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t binary_header_bytes = 80, count_bytes = 4, facet_bytes = 50, normal_bytes = 12;
 
-/// The file's words, over the ends of lines.
+/// The file's words, across line ends.
 class Words {
 public:
     explicit Words(std::string_view text) : words_(text) {}
@@ -24,7 +24,7 @@ public:
             if (!word.empty() || !words_.next_line()) return word;
         }
     }
-    /// The word after a solid's begin or end, which could be any.
+    /// The word after the begin or end of a solid, which may be any word.
     void skip_name() { words_.word(); }
     std::size_t line() const { return words_.line(); }
 
@@ -41,7 +41,7 @@ MeshFile read_text(std::string_view bytes) {
     MeshFile mesh;
     const MeshTransform in_place;
     Words words(bytes);
-    int corners = 3;   // of the facet; outside of one no vertex is expected
+    int corners = 3;   // of the facet; outside a facet no vertex is expected
     const auto end_facet = [&] {
         if (corners != 3) throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, words.line()));
     };
@@ -84,7 +84,7 @@ MeshFile read_binary(std::string_view bytes) {
 }  // namespace
 
 MeshFile read_stl(std::string_view bytes) {
-    // Binary files may begin with "solid" too; so their length decides.
+    // Binary files may begin with "solid" as well, so the length decides.
     std::uint32_t facets = 0;
     const bool long_enough = bytes.size() >= binary_header_bytes + count_bytes;
     if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);

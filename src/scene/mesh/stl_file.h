@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-/// The bytes are those of the file. Each solid of a text is an object. Normals are left out: they are those of the facets and
-/// say nothing of smoothness. Throws MeshError.
+/// `bytes`: content of the file. Each solid of a text is an object. Normals are ignored, because they are those of
+/// facets and carry no information about smoothness. Throws MeshError.
 MeshFile read_stl(std::string_view bytes);
 
 }  // namespace tumble

@@ -12,8 +12,8 @@
 namespace tumble {
 namespace {
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn a into b
-/// (Damerau 1964, in the restricted form: optimal string alignment).
+/// Number of insertions, deletions, replacements and swaps of adjacent characters that turn a into b (Damerau 1964, in
+/// the restricted form: optimal string alignment).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
     std::iota(last.begin(), last.end(), 0u);
@@ -46,7 +46,7 @@ std::string quoted_list(const std::vector<std::string_view>& names) {
 
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& known) {
     constexpr std::size_t readable_list = 12;     // names in a message
-    constexpr std::size_t longest_guess = 64;     // characters: the distance costs their product
+    constexpr std::size_t longest_guess = 64;     // characters: the cost is the product of both lengths
     std::size_t best = std::string_view::npos;
     std::string_view nearest;
     for (std::string_view name : known) {
@@ -54,7 +54,7 @@ std::string suggestion(std::string_view given, const std::vector<std::string_vie
         const std::size_t distance = edit_distance(given, name);
         if (distance < best) best = distance, nearest = name;
     }
-    // Up to a third of the letters wrong is a slip; more is another word.
+    // Up to a third of the letters wrong is a typing error; more is another word.
     if (best != std::string_view::npos && best <= std::max<std::size_t>(1, nearest.size() / 3)) {
         return fmt::format(" (did you mean \"{}\"?)", safe_text(nearest));
     }

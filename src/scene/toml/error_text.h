@@ -1,4 +1,4 @@
-// Words for error messages: numbers, lists of names, guesses at what was meant.
+// Text for error messages: numbers, lists of names, suggestions.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace tumble {
 
-/// A number as a message shows it: 16, 0.5, 1e+09, and all the digits that tell it from its neighbours.
+/// A number for a message: 16, 0.5, 1e+09, with all digits that distinguish it from its neighbors.
 std::string number_text(double value);
 
 /// `"plain", "grid", "checker"`.
 std::string quoted_list(const std::vector<std::string_view>& names);
 
-/// ` (did you mean "duration"?)` when one of the known names is close to the given one; otherwise, when there are few
-/// enough to read, ` (known: ...)`; otherwise nothing.
+/// ` (did you mean "duration"?)` if one of the known names is close to the given one; else ` (known: ...)` if there are
+/// few enough to read; else empty.
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& known);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// What a number or a name may be, and the words for one that is not.
+// Ranges of numbers and sets of names, with the error texts for values outside.
 #pragma once
 
 #include "scene/toml/error_text.h"
@@ -13,7 +13,7 @@
 
 namespace tumble {
 
-/// The values a number may take. NaN and infinities are outside of every range.
+/// The valid values of a number. NaN and infinities are outside of every range.
 struct Range {
     double min, max;
     const char* unit = "";       // for messages
@@ -26,11 +26,11 @@ struct Range {
     std::string requirement() const;
 };
 
-/// The value itself when it is in the range; otherwise fails at its origin.
+/// The value if it is in the range; else fails at its position.
 double checked(double value, const Range& range, const SourcePosition& origin);
 std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const SourcePosition& origin);
 
-/// A name in the file and what it stands for.
+/// A name in the file and its value.
 template <class Value>
 struct Choice {
     std::string_view name;

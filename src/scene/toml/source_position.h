@@ -1,4 +1,4 @@
-// Where a value came from, so that every error can point: a place in the scene file or an option of the command line.
+// The origin of a value, for errors: a place in the scene file or an option of the command line.
 #pragma once
 
 #include "core/error.h"

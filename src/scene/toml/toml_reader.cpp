@@ -16,10 +16,10 @@ SourceLocation location_of(const toml::source_region& source, const std::string&
     return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
-/// The array as a message shows it: as many items as fit into `room` bytes, and the number of all.
+/// The array for a message: as many items as fit into `room` bytes, and the total number.
 std::string given_text(const toml::array& array, std::size_t room);
 
-/// The value as a message shows it, of readable length and on one line.
+/// The value for a message, of readable length and on one line.
 std::string given_text(const toml::node& node, std::size_t room = value_text_bytes) {
     if (const auto* s = node.as_string()) return fmt::format("\"{}\"", safe_text(s->get()));
     if (const auto* i = node.as_integer()) return fmt::format("{}", i->get());
@@ -41,7 +41,7 @@ std::string given_text(const toml::array& array, std::size_t room) {
     return text + "]";
 }
 
-constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser's, with what it saw
+constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser with the rejected text
 
 }  // namespace
 
@@ -86,7 +86,7 @@ Color TomlValue::color() const {
     if (node_->is_string()) {
         if (const auto color = parse_color(node_->as_string()->get())) return *color;
     }
-    fail("must be a colour \"#rrggbb\"");
+    fail("must be a color \"#rrggbb\"");
 }
 
 Vec3 TomlValue::vector(const Range& range) const {
@@ -98,7 +98,7 @@ Vec3 TomlValue::direction() const {
     const Vec3 v = vector(limits::direction);
     const double largest = v.cwiseAbs().maxCoeff();
     if (largest == 0.0) fail("must not be zero");
-    return (v / largest).normalized();   // scaled first: squares of tiny components would vanish
+    return (v / largest).normalized();   // scaled first, because squares of tiny components would vanish
 }
 
 TomlTable TomlValue::table() const {

@@ -1,6 +1,6 @@
-// Typed reading of a TOML document in which every value knows its place, so that every complaint can point.
-// TomlTable hands out values by key and rejects keys that nobody knows; TomlValue turns into a number, a vector, a
-// colour, ... of the wanted kind and range, or throws InputError at its line and column.
+// Typed reading of a TOML document in which every value knows its position for errors. TomlTable returns values by key
+// and rejects unknown keys; TomlValue is converted to a number, a vector, a color, ... of the required kind and range,
+// or throws InputError at its line and column.
 #pragma once
 
 #include "core/color.h"
@@ -8,9 +8,10 @@
 #include "scene/toml/source_position.h"
 #include "scene/toml/range.h"
 
-// toml++ 3.3 asserts that a key begins with a key's character before it checks it ("[?]" ends a debug build).
+// toml++ 3.3 asserts that a key begins with a valid character before it checks it ("[?]" aborts a debug build).
 #define TOML_ASSERT(expr) static_assert(true)
-// Its table of spaces beyond ASCII takes letters like U+00E9 for impossible, which is undefined behavior: they are no spaces.
+// Its table of spaces beyond ASCII treats letters like U+00E9 as unreachable, which is undefined behavior; they are not
+// spaces.
 #include <toml++/impl/preprocessor.h>
 #undef TOML_UNREACHABLE
 #define TOML_UNREACHABLE return false
@@ -38,7 +39,7 @@ public:
     bool is_number() const { return node_->is_number(); }
     bool is_table() const { return node_->is_table(); }
 
-    double number(const Range& range) const;   // integers are numbers too
+    double number(const Range& range) const;   // integers are accepted
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
     bool boolean() const;
     std::string text() const;
@@ -55,7 +56,7 @@ public:
         return chosen(text(), choices, origin_);
     }
 
-    /// Throws "NAME PROBLEM (given ...)" at this value's place.
+    /// Throws "NAME PROBLEM (given ...)" at this value's position.
     [[noreturn]] void fail(std::string_view problem) const;
 
 private:
@@ -67,27 +68,27 @@ private:
 
 class TomlTable {
 public:
-    /// `title` names the table in messages: "[simulation]", "a box".
+    /// `title`: name of the table in messages: "[simulation]", "a box".
     TomlTable(const toml::table& table, SourcePosition origin, std::string title)
         : table_(&table), origin_(std::move(origin)), title_(std::move(title)) {}
 
     const SourcePosition& origin() const { return origin_; }
     void set_title(std::string title) { title_ = std::move(title); }
 
-    /// Throws at the first key (in file order) that is not among these, naming the nearest that is.
+    /// Throws at the first key (in file order) that is not among these, with the nearest known key.
     void expect_keys(std::initializer_list<std::string_view> known) const;
 
     bool has(std::string_view key) const { return table_->contains(key); }
     std::optional<TomlValue> find(std::string_view key) const;
     TomlValue require(std::string_view key) const;
 
-    /// The sub-table of a key; empty when it is absent.
+    /// The sub-table of a key; empty if it is absent.
     std::optional<TomlTable> find_table(std::string_view key) const;
 
-    /// All entries in file order, for tables whose keys are the user's own names.
+    /// All entries in file order, for tables whose keys are names chosen by the user.
     std::vector<std::pair<std::string, TomlValue>> entries() const;
 
-    // Sets the target when the key is there, and leaves its default when not.
+    // Sets the target if the key exists; otherwise leaves its default.
     void read(std::string_view key, double& target, const Range& range) const;
     void read(std::string_view key, std::optional<double>& target, const Range& range) const;
     void read(std::string_view key, Vec3& target, const Range& range) const;
@@ -107,7 +108,7 @@ private:
     std::string title_;
 };
 
-/// Parses the text; a syntax error becomes an InputError at the parser's place in `file`.
+/// Parses the text; a syntax error becomes an InputError at its position in `file`.
 toml::table parse_toml(const std::string& text, const std::string& file);
 
 }  // namespace tumble

@@ -13,11 +13,11 @@
 namespace tumble {
 namespace {
 
-// Bytes of toml++ 3.3's nodes on the heap (glibc, x86-64), measured with some million of each: keys of numbers take 173 and
-// of tables 220, items 59 to 103. What is refused surely does not fit.
+// Bytes of toml++ 3.3's nodes on the heap (glibc, x86-64), measured with some million of each: keys of numbers take 173
+// and of tables 220, items 59 to 103. A refused text certainly does not fit.
 constexpr std::uint64_t key_bytes = 170, item_bytes = 59;
 
-/// Line breaks end a string of one line that is not closed: the parser complains there.
+/// A line break ends an unclosed string of one line: the parser reports an error there.
 std::size_t end_of_string(std::string_view text, std::size_t first) {
     const char quote = text[first];
     const bool escapes = quote == '"';
@@ -33,12 +33,12 @@ std::size_t end_of_string(std::string_view text, std::size_t first) {
 
 struct Scan {
     TomlAmounts amounts;
-    std::optional<std::size_t> deep_key;   // where a key has too many parts
+    std::optional<std::size_t> deep_key;   // position of a key with too many parts
 };
 
 Scan scanned(std::string_view text) {
     Scan scan;
-    std::size_t dots = 0;   // in the key or number that goes on here
+    std::size_t dots = 0;   // in the current key or number
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         if (c == '"' || c == '\'') {
@@ -75,7 +75,7 @@ Scan scanned(std::string_view text) {
     return scan;
 }
 
-/// Columns count characters, as the parser's do.
+/// Columns count characters, like the parser's.
 SourceLocation location_in(std::string_view text, std::size_t at, const std::string& file) {
     const std::string_view before = text.substr(0, at);
     const std::size_t line_start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;

@@ -1,4 +1,4 @@
-// Motion against points that are carried along and projected by hand; and which frames are told to be the same.
+// Motion compared with points that are moved and projected independently; and detection of equal frames.
 #include "world_rays.h"
 
 #include "render/camera/camera_animation.h"
@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr double tolerance = 2e-5;   // pixels: a depth is a float here, and so is the result
+constexpr double tolerance = 2e-5;   // pixels: depth and the result have single precision
 
 struct Moving {
     SceneDescription scene;
@@ -21,7 +21,7 @@ AovFrame made(const Moving& m) {
     return AovRenderer(m.scene, aovs).make({m.now, m.next});
 }
 
-/// A box that flies and tumbles, a ball that only turns, and the ground.
+/// A box that flies and tumbles, a ball that only rotates, and the ground.
 Moving moving_bodies() {
     Moving m;
     m.scene = empty_scene();
@@ -36,7 +36,7 @@ Moving moving_bodies() {
     return m;
 }
 
-/// Each pixel's point, carried along with its body by hand and projected into the next picture.
+/// Each pixel's point, moved with its body independently and projected into the next frame.
 void expect_motion(const Moving& m) {
     const AovFrame frame = made(m);
     const CameraAnimation path(m.scene.camera);
@@ -99,7 +99,7 @@ TEST(AovMotion, IsZeroToTheBitWhereNothingMoves) {
     }
 }
 
-TEST(AovMotion, IsNotANumberWhereThePointGoesBehindTheEye) {
+TEST(AovMotion, IsNaNWhereThePointGoesBehindTheEye) {
     Moving m = moving_bodies();
     m.next.bodies[2].origin.z() = 20.0;
     const AovFrame frame = made(m);

@@ -23,7 +23,7 @@ AovFrame made(const SceneDescription& scene, const AovSet& aovs = all()) {
     return AovRenderer(scene, aovs).make({snapshot, snapshot});
 }
 
-/// Calls back with each pixel's index, column and row.
+/// Calls visit(index, column, row) for each pixel.
 template <class Visit>
 void for_pixels(const SceneDescription& scene, const Visit& visit) {
     for (int row = 0; row < scene.output.height; ++row)
@@ -121,7 +121,7 @@ TEST(AovSurface, ABallIsRound) {
     });
 }
 
-/// Bodies of all kinds anywhere around an eye anywhere, some of them near, behind it, or around it.
+/// Bodies of all kinds at random places around a random eye, some of them near, behind it, or around it.
 SceneDescription random_scene(unsigned seed) {
     Random random(seed);
     const auto between = [&](double low, double high) { return random.between(low, high); };
@@ -150,7 +150,7 @@ SceneDescription random_scene(unsigned seed) {
     return scene;
 }
 
-TEST(AovSurface, EveryPixelShowsWhatItsRayMeetsFirst) {
+TEST(AovSurface, EveryPixelShowsTheFirstSurfaceOnItsRay) {
     int several = 0;
     for (unsigned seed = 0; seed < 40; ++seed) {
         const SceneDescription scene = random_scene(seed);
@@ -188,13 +188,13 @@ TEST(AovSurface, AMeshHasNoGapsAndTheNormalsItIsShadedWith) {
     for_pixels(scene, [&](std::size_t pixel, int column, int row) {
         if (frame.segmentation[pixel] != 1) return;
         ++inside;
-        // The mesh's triangles are near the true torus, and its normals those of the torus.
+        // The mesh's triangles are near the exact torus, and its normals are those of the torus.
         const Vec3 p = turn.conjugate() * (view.ray(column, row).at(frame.depth[pixel]) - Vec3(0.0, 1.0, 0.0));
         const Vec3 on_ring = ring * Vec3(p.x(), 0.0, p.z()).normalized();
         EXPECT_NEAR((p - on_ring).norm(), tube, 0.05);
         EXPECT_NEAR(normal_at(frame, pixel).norm(), 1.0, 1e-6);
         EXPECT_GT((turn.conjugate() * normal_at(frame, pixel)).dot((p - on_ring).normalized()), 0.99);
-        // No cracks: a single empty pixel in a row of the mesh's.
+        // No cracks: no empty pixel in a row of the mesh.
         if (column < 2 || frame.segmentation[pixel - 1] == 1) return;
         EXPECT_NE(frame.segmentation[pixel - 2], 1) << column << " " << row;
     });
@@ -222,7 +222,7 @@ TEST(AovSurface, AnOpenMeshIsSeenFromBothSidesAndAClosedShapeFromOutsideOnly) {
     }
 }
 
-TEST(AovSurface, PartsOfACompoundAreOneBodyWithColoursOfTheirOwn) {
+TEST(AovSurface, PartsOfACompoundAreOneBodyWithTheirOwnColors) {
     SceneDescription scene = empty_scene();
     auto parts = std::make_shared<std::vector<CompoundPart>>(2);
     (*parts)[0].shape = BoxShape{{0.5, 0.5, 0.5}};
@@ -235,7 +235,7 @@ TEST(AovSurface, PartsOfACompoundAreOneBodyWithColoursOfTheirOwn) {
     scene.bodies = {ground_plane(), body};
     const AovFrame frame = made(scene);
     const WorldView view(scene);
-    // Turned half around, the box is on the left.
+    // After half a turn, the box is on the left.
     for (const auto& [at, red] : {std::pair(Vec3(-1.0, 1.0, 0.0), 1), std::pair(Vec3(1.0, 1.0, 0.0), 7)}) {
         const Eigen::Vector2d place = view.place(at);
         const auto pixel = std::size_t(std::lround(place.y()) * 320 + std::lround(place.x()));
@@ -267,7 +267,7 @@ TEST(AovSurface, ACordIsACylinder) {
     EXPECT_GT(pixels, 300);
 }
 
-TEST(AovSurface, WhatIsNotAskedForIsNotMade) {
+TEST(AovSurface, ArraysThatAreNotRequestedStayEmpty) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
     AovSet depth;

@@ -9,7 +9,7 @@ WorldRay in_body(const WorldRay& ray, const BodyState& state) {
     return {back * (ray.eye - state.origin), back * ray.direction};
 }
 
-/// By its faces: each that looks at the eye, and only within its rectangle.
+/// Intersects each face that is turned to the eye, within its rectangle.
 double depth_of(const BoxShape& box, const WorldRay& ray) {
     for (int k = 0; k < 3; ++k)
         for (const double side : {-1.0, 1.0}) {

@@ -1,5 +1,5 @@
-// The rays of a picture written once more, in the world, by the formula of render/camera_view.h; and the nearest surface
-// on one by other means than the program's: shape after shape, triangle after triangle.
+// The rays of a frame in the world, by the formula of render/camera/camera.h; and the nearest surface on a ray by a
+// method independent of the program: shape by shape, triangle by triangle.
 #pragma once
 
 #include "example_scenes.h"
@@ -26,14 +26,14 @@ struct WorldView {
     }
     explicit WorldView(const SceneDescription& scene) : WorldView(scene, scene.camera) {}
 
-    /// Through the centre of a pixel.
+    /// Through the center of a pixel.
     WorldRay ray(int column, int row) const {
         const double x = tangent * width / height * (2.0 * (column + 0.5) / width - 1.0);
         const double y = tangent * (1.0 - 2.0 * (row + 0.5) / height);
         return {eye, forward + x * right + y * up};
     }
 
-    /// Where a point is seen: a pixel's centre has whole numbers.
+    /// Screen position of a point; pixel centers are integers.
     Eigen::Vector2d place(const Vec3& point) const {
         const Vec3 p = point - eye;
         const double scale = 0.5 * height / (tangent * p.dot(forward));
@@ -45,7 +45,7 @@ struct WorldView {
     int width, height;
 };
 
-/// What a ray of the world meets first, and second (for telling a tie): depths, and the body's number.
+/// First and second intersection of a ray in the world (to detect a tie): depths, and the body's number.
 struct WorldHit {
     double first = std::numeric_limits<double>::infinity(), second = first;
     std::size_t body = ~std::size_t(0);
@@ -62,7 +62,7 @@ struct WorldHit {
     }
 };
 
-/// Boxes, balls, planes and closed meshes in any order; compounds are left out.
+/// Boxes, balls, planes and closed meshes in any order, without compounds.
 WorldHit nearest_in_world(const SceneDescription& scene, const Snapshot& snapshot, const WorldRay& ray);
 
 }  // namespace tumble
