@@ -3,6 +3,7 @@
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "api/spec_text.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -40,12 +41,15 @@ SceneOverrides to_overrides(const LoadOptions& options) {
 }
 
 /// "--steps-per-frame: must be ..." is about the field steps_per_frame.
-Error option_error(const std::string& message) {
+Error option_error(const LoadOptions& options, const std::string& message) {
     const std::size_t end = message.find(": ");
     if (message.rfind("--", 0) != 0 || end == std::string::npos) return Error(ErrorKind::input, {}, message);
     std::string field = message.substr(2, end - 2);
     std::replace(field.begin(), field.end(), '-', '_');
-    if (field == "size") field = "width";
+    if (field == "size") {
+        const bool width_fits = !options.width || (*options.width >= 1 && *options.width <= limits::image_side);
+        field = width_fits ? "height" : "width";
+    }
     return Error(ErrorKind::input, {{}, 0, 0, field}, message.substr(end + 2));
 }
 
@@ -59,6 +63,12 @@ std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     } catch (const InputError& error) {
         throw Error(ErrorKind::input, {{}, 0, 0, element_of_line(spec, error.where().line)}, error.message());
     }
+}
+
+const BodyDescription& body_of(const SceneData& data, std::size_t body) {
+    const auto& bodies = data.description.bodies;
+    if (body < bodies.size()) return bodies[body];
+    throw Error(ErrorKind::input, {}, fmt::format("a body's index must be below {} (given {})", bodies.size(), body));
 }
 
 }  // namespace
@@ -77,7 +87,7 @@ Scene load_scene(const std::string& file, const LoadOptions& options) {
             SceneDescription description = tumble::load_scene(file, to_overrides(options), &files);
             return make_scene(std::move(description), std::move(files));
         } catch (const InputError& error) {
-            if (error.where().file.empty()) throw option_error(error.message());
+            if (error.where().file.empty()) throw option_error(options, error.message());
             throw;
         }
     });
@@ -91,12 +101,10 @@ int Scene::steps_per_frame() const { return data_->description.simulation.steps_
 std::int64_t Scene::frame_count() const { return data_->description.frame_count(); }
 std::size_t Scene::body_count() const { return data_->description.bodies.size(); }
 
-const std::string& Scene::body_name(std::size_t body) const {
-    return guarded([&]() -> const std::string& { return data_->description.bodies.at(body).name; });
-}
+const std::string& Scene::body_name(std::size_t body) const { return body_of(*data_, body).name; }
 
 BodyType Scene::body_type(std::size_t body) const {
-    switch (guarded([&] { return data_->description.bodies.at(body).type; })) {
+    switch (body_of(*data_, body).type) {
         case tumble::BodyType::fixed:
             return BodyType::fixed;
         case tumble::BodyType::kinematic:

@@ -113,7 +113,10 @@ private:
 
     void write(const OutputSettings& o) {
         header("[output]", "output");
-        value("size", "width", fmt::format("[{}, {}]", o.width, o.height));
+        line("size = [", prefix_, "width");   // a line for each, so that an error names the right one
+        line(fmt::format("    {},", o.width), prefix_, "width");
+        line(fmt::format("    {},", o.height), prefix_, "height");
+        line("]", prefix_, "height");
         set("fps", o.fps);
         value("samples", "samples", std::to_string(o.samples));
     }
