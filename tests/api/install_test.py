@@ -73,6 +73,24 @@ class InstallTest(unittest.TestCase):
                      "-of", "default=nw=1:nk=1", clip).stdout
         self.assertEqual(int(frames), 61)
 
+    def test_program_of_the_tutorial(self):
+        page = (ROOT / "docs/tutorials/from-cpp.md").read_text()
+        blocks = dict(re.findall(r"```(cpp|cmake)\n(.*?)```", page, re.S))
+        self.assertLessEqual(blocks["cpp"].count("\n"), 32)
+        project = self.folder / "tutorial"
+        project.mkdir()
+        (project / "fall.cpp").write_text(blocks["cpp"])
+        (project / "CMakeLists.txt").write_text(blocks["cmake"])
+        run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            f"-DCMAKE_CXX_COMPILER={CXX}", f"-DCMAKE_CXX_FLAGS={FLAGS}")
+        run(CMAKE, "--build", project / "build")
+        run(project / "build/fall", cwd=project)
+        self.assertTrue((project / "fall.mp4").is_file())
+
+    def test_examples_have_at_most_60_lines(self):
+        for example in (ROOT / "examples").glob("*.cpp"):
+            self.assertLessEqual(len(example.read_text().splitlines()), 60, example.name)
+
     def test_error_has_the_place_and_the_exit_code_of_the_program(self):
         scene = self.folder / "wrong.toml"
         scene.write_text("format = 1\n[simulation]\nduratoin = 1\n")
