@@ -31,7 +31,7 @@ enum class ClipQuality { draft, normal, best };
 
 struct ClipOptions {
     ClipQuality quality = ClipQuality::normal;
-    bool constant_rate = false;   // true: equal images are stored again, not shown longer
+    bool variable_rate = false;   // true: an image that stays is stored once and shown longer
 };
 
 /// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the format:

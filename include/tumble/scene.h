@@ -24,6 +24,7 @@ struct LoadOptions {
     std::optional<Integrator> integrator;
     std::optional<ImpactMode> impacts;
     std::optional<ImpactLaw> impact_law;
+    bool allow_import_process = false;    // for mesh files other than OBJ, STL, PLY and glTF: see below
 };
 
 struct SceneData;   // of the library
@@ -60,7 +61,8 @@ private:
 };
 
 /// Reads a scene file and its meshes. Throws Error (input) with file, line and column.
-/// Mesh files other than OBJ, STL, PLY and glTF are read in a child process, which ends before this function returns.
+/// Mesh files other than OBJ, STL, PLY and glTF can crash their importer. It runs in a child process, which is forked and
+/// ends before the function returns; without allow_import_process such a file is an error.
 Scene load_scene(const std::string& file, const LoadOptions& options = {});
 
 TUMBLE_END

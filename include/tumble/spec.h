@@ -173,6 +173,7 @@ struct SceneSpec {
     std::vector<Force> forces;
     std::vector<Cord> cords;
     std::string folder;                   // where relative mesh files start; empty: the current folder
+    bool allow_import_process = false;    // for mesh files other than OBJ, STL, PLY and glTF: see load_scene()
 
     /// Appends a body. The reference is valid until the next call.
     Body& add(Shape shape, BodyType type = BodyType::dynamic) {

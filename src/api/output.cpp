@@ -16,7 +16,7 @@ namespace {
 
 tumble::ClipOptions to_internal(const ClipOptions& options) {
     tumble::ClipOptions to;
-    to.times = options.constant_rate ? FrameTimes::constant_rate : FrameTimes::longer_frames;
+    to.times = options.variable_rate ? FrameTimes::longer_frames : FrameTimes::constant_rate;
     to.quality = options.quality == ClipQuality::draft  ? VideoQuality::draft
                  : options.quality == ClipQuality::best ? VideoQuality::best
                                                         : VideoQuality::normal;
@@ -56,7 +56,7 @@ struct ClipWriter::State {
 
     int width, height;
     std::int64_t frames = 0;
-    tumble::Image last;   // an image that stays is stored once and shown longer
+    tumble::Image last;   // converted once, however often it comes
     VideoWriter writer;
 };
 

@@ -25,6 +25,11 @@ std::shared_ptr<const SceneData> make_data(SceneDescription description, FileLis
     return data;
 }
 
+template <class Options>
+MeshImports imports_of(const Options& options) {
+    return options.allow_import_process ? MeshImports::in_child_process : MeshImports::refused;
+}
+
 SceneOverrides to_overrides(const LoadOptions& options) {
     SceneOverrides o;
     o.duration = options.duration;
@@ -57,7 +62,7 @@ std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     FileList files;
     const fs::path file = fs::path(spec.folder) / "scene";   // the folder counts; no such file is opened
     try {
-        SceneDescription description = parse_scene(spec_text(spec), file, {}, &files);
+        SceneDescription description = parse_scene(spec_text(spec), file, {}, &files, imports_of(spec));
         files.erase(files.begin());
         return make_data(std::move(description), std::move(files));
     } catch (const InputError& error) {
@@ -84,7 +89,7 @@ Scene load_scene(const std::string& file, const LoadOptions& options) {
     return guarded([&] {
         FileList files;
         try {
-            SceneDescription description = tumble::load_scene(file, to_overrides(options), &files);
+            SceneDescription description = tumble::load_scene(file, to_overrides(options), &files, imports_of(options));
             return make_scene(std::move(description), std::move(files));
         } catch (const InputError& error) {
             if (error.where().file.empty()) throw option_error(options, error.message());

@@ -73,6 +73,31 @@ class InstallTest(unittest.TestCase):
                      "-of", "default=nw=1:nk=1", clip).stdout
         self.assertEqual(int(frames), 61)
 
+    def test_clip_equals_that_of_the_program(self):
+        source = self.folder / "clip.cpp"
+        source.write_text("""#include <tumble/tumble.h>
+            int main(int, char** arguments) {
+                tumble::LoadOptions options;
+                options.duration = 0.5;
+                const tumble::Scene scene = tumble::load_scene(arguments[1], options);
+                tumble::World world(scene);
+                tumble::Renderer renderer(scene);
+                tumble::ClipWriter clip(arguments[2], scene.output());
+                for (int frame = 0; frame < scene.frame_count(); ++frame) {
+                    if (frame > 0) world.advance_frame();
+                    clip.write(renderer.render(world.snapshot()));
+                }
+                clip.finish();
+            }
+            """)
+        place = self.library.parent
+        run(CXX, "-std=c++17", *FLAGS.split(), source, f"-I{self.prefix / 'include'}", f"-L{place}", f"-Wl,-rpath,{place}", "-ltumble",
+            "-o", self.folder / "clip")
+        ours, theirs = self.folder / "ours.mkv", self.folder / "theirs.mkv"
+        run(self.folder / "clip", SCENE, ours)
+        run(TUMBLE, "render", SCENE, "--duration", 0.5, "-o", theirs, "--quiet")
+        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+
     def test_program_of_the_tutorial(self):
         page = (ROOT / "docs/tutorials/from-cpp.md").read_text()
         blocks = dict(re.findall(r"```(cpp|cmake)\n(.*?)```", page, re.S))

@@ -42,10 +42,13 @@ struct MeshFile {
     void check_more_positions(std::uint64_t more) const;
 };
 
+/// Whether a file without a reader of our own may be imported in a child process.
+enum class MeshImports { in_child_process, refused };
+
 /// The file's ending says its kind: a reader of our own, or assimp (assimp_import.h).
 /// Throws MeshError when the file is missing, of another kind, unreadable or empty, or holds indices or numbers that
 /// mean nothing. Opens the file itself and, for glTF, the files of its buffers under its folder; nothing else.
-MeshFile read_mesh_file(const std::filesystem::path& file);
+MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports = MeshImports::in_child_process);
 
 /// Text of a mesh file as a message shows it: printable, and cut to so many characters.
 std::string readable(std::string_view text, std::size_t longest);

@@ -22,6 +22,8 @@ struct LoadedMesh {
 /// Loads each file once, and makes each (file, scale) once, so that bodies share.
 class MeshCache {
 public:
+    explicit MeshCache(MeshImports imports = MeshImports::in_child_process) : imports_(imports) {}
+
     /// Throws MeshError. `file` is resolved already.
     const LoadedMesh& load(const std::filesystem::path& file, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
@@ -32,6 +34,7 @@ public:
     CompoundShape enlarged(const CompoundShape& shape, double factor);
 
 private:
+    MeshImports imports_;
     std::vector<std::filesystem::path> read_;
     std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
@@ -47,12 +50,14 @@ private:
 
 /// One file at scale 1: welded, turned to face outward when it is closed, without triangles that have no area, with
 /// normals for drawing. Throws MeshError. The files that were read are appended to `read`, where that is given.
-LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr);
+LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr,
+                     MeshImports imports = MeshImports::in_child_process);
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; of other kinds the whole.
 /// Throws MeshError too when they are more than a body has parts.
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
-                                          std::vector<std::filesystem::path>* read = nullptr);
+                                          std::vector<std::filesystem::path>* read = nullptr,
+                                          MeshImports imports = MeshImports::in_child_process);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size; the first of each group in file order stays.
 /// Returns for each vertex the one that stands for it.
