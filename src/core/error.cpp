@@ -21,9 +21,10 @@ std::string located(const SourceLocation& where, const std::string& message) {
 InputError::InputError(const std::string& message) : InputError(SourceLocation(), message) {}
 
 InputError::InputError(const SourceLocation& where, const std::string& message)
-    : std::runtime_error(located(where, message)) {}
+    : std::runtime_error(located(where, message)), where_(where), message_(safe_text(message, message_text_bytes)) {}
 
 // Several lines, because the message may contain another program's output.
-RunError::RunError(const std::string& message) : std::runtime_error("error: " + safe_lines(message)) {}
+RunError::RunError(const std::string& message)
+    : std::runtime_error("error: " + safe_lines(message)), message_(safe_lines(message)) {}
 
 }  // namespace tumble

@@ -21,6 +21,13 @@ class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message);
     InputError(const SourceLocation& where, const std::string& message);
+
+    const SourceLocation& where() const { return where_; }
+    const std::string& message() const { return message_; }   // without the place
+
+private:
+    SourceLocation where_;
+    std::string message_;
 };
 
 /// The run failed: the environment (a full disk, no ffmpeg) or the numbers (a body with a NaN). Exit code 1; finished
@@ -28,6 +35,11 @@ public:
 class RunError : public std::runtime_error {
 public:
     explicit RunError(const std::string& message);
+
+    const std::string& message() const { return message_; }   // without "error: "
+
+private:
+    std::string message_;
 };
 
 }  // namespace tumble

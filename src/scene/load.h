@@ -3,6 +3,7 @@
 
 #include "scene/description/description.h"
 #include "scene/keys/overrides.h"
+#include "scene/mesh/mesh_file.h"
 
 #include <filesystem>
 #include <string>
@@ -15,10 +16,11 @@ using FileList = std::vector<std::filesystem::path>;
 /// Throws InputError with file, line and column for any violation of the format. Appends the files that were read to
 /// `read`, if given: the scene's own and those of its meshes.
 SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {},
-                            FileList* read = nullptr);
+                            FileList* read = nullptr, MeshImports imports = MeshImports::in_child_process);
 
 /// The same from text, for tests; relative mesh paths are relative to the folder of `file`.
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
-                             const SceneOverrides& overrides = {}, FileList* read = nullptr);
+                             const SceneOverrides& overrides = {}, FileList* read = nullptr,
+                             MeshImports imports = MeshImports::in_child_process);
 
 }  // namespace tumble

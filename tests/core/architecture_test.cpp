@@ -33,7 +33,10 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/description/", "sim/snapshot/snapshot.h", "render/"},
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
-    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "app/"}, {}}},
+    {"api",
+     {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
+      {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/", "app/"}, {}}},
 };
 
 /// The included folders of each folder below src/.

@@ -3,6 +3,7 @@
 #include "app/cli/standard_streams.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "tumble/error.h"
 
 #include <csignal>
 #include <exception>
@@ -24,6 +25,9 @@ int main(int argc, char** argv) {
     } catch (const tumble::RunError& error) {
         tumble::say("{}\n", error.what());
         return 1;
+    } catch (const tumble::v0::Error& error) {
+        tumble::say("{}\n", error.what());
+        return error.kind() == tumble::v0::ErrorKind::input ? 2 : 1;
     } catch (const std::bad_alloc&) {
         tumble::say_text("error: out of memory\n");
         return 1;

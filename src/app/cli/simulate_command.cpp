@@ -1,3 +1,4 @@
+#include "api/scene_data.h"
 #include "app/cli/commands.h"
 #include "app/threads/interrupt.h"
 #include "app/files/output_plan.h"
@@ -6,66 +7,18 @@
 #include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/table_writer.h"
-#include "sim/world.h"
+#include "tumble/output.h"
+#include "tumble/world.h"
 
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 constexpr double interrupt_period = 0.02;   // s between checks for Ctrl-C, because a frame may take only a microsecond
-
-void write_vector(TableWriter& table, const Vec3& v) { table.number(v.x()).number(v.y()).number(v.z()); }
-
-/// One row per frame and movable body, in scene order.
-class TrajectoryTable {
-public:
-    TrajectoryTable(const std::filesystem::path& path, const SceneDescription& scene)
-        : scene_(scene), table_(path, "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz") {}
-
-    void add(const Snapshot& snapshot) {
-        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-            if (scene_.bodies[i].type == BodyType::fixed) continue;
-            const BodyState& body = snapshot.bodies[i];
-            table_.integer(snapshot.frame).number(snapshot.time).text(scene_.bodies[i].name);
-            write_vector(table_, body.center_of_mass);
-            const Quat& q = body.orientation;
-            table_.number(q.w()).number(q.x()).number(q.y()).number(q.z());
-            write_vector(table_, body.velocity);
-            write_vector(table_, body.angular_velocity);
-            table_.end_row();
-        }
-    }
-
-    void finish() { table_.finish(); }
-
-private:
-    const SceneDescription& scene_;
-    TableWriter table_;
-};
-
-/// One row per frame, over all dynamic bodies.
-class EnergyTable {
-public:
-    explicit EnergyTable(const std::filesystem::path& path)
-        : table_(path, "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration") {}
-
-    void add(std::int64_t frame, double time, const Measurement& m) {
-        table_.integer(frame).number(time).number(m.kinetic).number(m.potential).number(m.kinetic + m.potential);
-        write_vector(table_, m.momentum);
-        write_vector(table_, m.angular_momentum);
-        table_.integer(m.contacts).number(m.max_penetration);
-        table_.end_row();
-    }
-
-    void finish() { table_.finish(); }
-
-private:
-    TableWriter table_;
-};
 
 /// Checks for Ctrl-C and shows the progress, without a system call per frame.
 class Watch {
@@ -91,24 +44,26 @@ private:
 void run_simulate(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
-    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    SceneDescription description = load_scene(command.scene, command.overrides, &inputs);
     OutputPlan plan;
     for (const auto& file : inputs) plan.add_input(file);
     if (command.trajectory) plan.add("--trajectory", *command.trajectory);
     if (command.energy) plan.add("--energy", *command.energy);
+    const v0::Scene scene = v0::make_scene(std::move(description), std::move(inputs));
     const std::int64_t frames = scene.frame_count();
+    const double fps = scene.output().fps;
     {
         Watch watch(frames, command.quiet);
-        World world(scene, command.threads);
-        std::optional<TrajectoryTable> trajectory;
+        v0::World world(scene, command.threads);
+        std::optional<v0::TrajectoryTable> trajectory;
         if (command.trajectory) trajectory.emplace(*command.trajectory, scene);
-        std::optional<EnergyTable> energy;
+        std::optional<v0::EnergyTable> energy;
         if (command.energy) energy.emplace(*command.energy);
 
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
             if (trajectory) trajectory->add(world.snapshot());
-            if (energy) energy->add(n, double(n) / scene.output.fps, world.measure());
+            if (energy) energy->add(n, double(n) / fps, world.energies());
             watch.look(n + 1);
         }
         if (trajectory) trajectory->finish();
@@ -119,8 +74,8 @@ void run_simulate(const SimulateCommand& command) {
     for (const auto& file : {command.trajectory, command.energy})
         if (file) say("wrote {}\n", safe_path(*file));
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
-               (frames - 1) * scene.simulation.steps_per_frame, scene.step(), seconds,
-               double(frames - 1) / scene.output.fps / seconds);
+               (frames - 1) * scene.steps_per_frame(), scene.step(), seconds,
+               double(frames - 1) / fps / seconds);
 }
 
 }  // namespace tumble

@@ -3,12 +3,28 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <cstdlib>
 #include <vector>
 
 namespace tumble {
+namespace {
+
+/// The program, or the shared library, that holds this function.
+std::filesystem::path own_binary() {
+    static const char anchor = 0;
+    Dl_info info{};
+    link_map* object = nullptr;   // its name is empty for the program
+    const bool known = ::dladdr1(&anchor, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+    std::error_code failed;
+    if (known && object != nullptr && *object->l_name != '\0') return std::filesystem::canonical(object->l_name, failed);
+    return std::filesystem::read_symlink("/proc/self/exe", failed);
+}
+
+}  // namespace
 
 std::filesystem::path find_shader_folder() {
     namespace fs = std::filesystem;
@@ -16,9 +32,10 @@ std::filesystem::path find_shader_folder() {
     if (const char* named = std::getenv("TUMBLE_SHADERS"); named != nullptr && *named != '\0') {
         places.emplace_back(named);  // a named folder is used exclusively, without a fallback
     } else {
-        std::error_code failed;
-        const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-        if (!failed) places.push_back(program.parent_path() / ".." / "share" / "tumble" / "shaders");
+        // A library folder may have a folder for the processor's architecture in it.
+        if (const fs::path binary = own_binary(); !binary.empty())
+            for (const char* up : {"..", "../.."})
+                places.push_back(binary.parent_path() / up / "share" / "tumble" / "shaders");
         places.emplace_back(TUMBLE_SHADER_SOURCE_FOLDER);
     }
     std::string tried;

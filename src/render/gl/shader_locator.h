@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// $TUMBLE_SHADERS if set; else a folder beside the installed program; else the source tree of the build. Throws
-/// RunError that names the searched folders.
+/// $TUMBLE_SHADERS if set; else a folder beside the installed program or shared library; else the source tree of the
+/// build. Throws RunError that names the searched folders.
 std::filesystem::path find_shader_folder();
 
 }  // namespace tumble

@@ -26,28 +26,34 @@ std::string lower_extension(const std::filesystem::path& file) {
     return text;
 }
 
+MeshFile import(std::string_view bytes, const std::string& extension, MeshImports imports) {
+    if (imports == MeshImports::in_child_process) return import_with_assimp(bytes, extension);
+    throw MeshError("needs an import in a child process, which has to be allowed first");
+}
+
 /// assimp may read a file that the own reader does not support; buffers in other files are then missing.
-MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& folder, const std::string& extension) {
+MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& folder, const std::string& extension,
+                       MeshImports imports) {
     try {
         return read_gltf(bytes, folder);
     } catch (const UnsupportedGltf& unsupported) {
         try {
-            return import_with_assimp(bytes, extension);
+            return import(bytes, extension, imports);
         } catch (const MeshError& error) {
             throw MeshError(fmt::format("{} (assimp: {})", unsupported.what(), error.what()));
         }
     }
 }
 
-MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension) {
+MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension, MeshImports imports) {
     const bool gltf = extension == ".gltf" || extension == ".glb";
     const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
     if (!own && !assimp_reads(extension))
         throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     const std::string bytes = read_regular_file(file, limits::mesh_bytes);
     if (bytes.empty()) throw MeshError("is empty");
-    if (!own) return import_with_assimp(bytes, extension);
-    if (gltf) return read_any_gltf(bytes, file.parent_path(), extension);
+    if (!own) return import(bytes, extension, imports);
+    if (gltf) return read_any_gltf(bytes, file.parent_path(), extension, imports);
     if (extension == ".obj") return read_obj(bytes);
     return extension == ".stl" ? read_stl(bytes) : read_ply(bytes);
 }
@@ -111,8 +117,8 @@ Vec3 unit_or_zero(const Vec3& v) {
     return length > 0.0 && std::isfinite(length) ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
-MeshFile read_mesh_file(const std::filesystem::path& file) {
-    MeshFile mesh = read_bytes(file, lower_extension(file));
+MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports) {
+    MeshFile mesh = read_bytes(file, lower_extension(file), imports);
     if (mesh.triangles.empty()) throw MeshError("holds no triangles");
     if (mesh.objects.empty() || mesh.objects.front() != 0) mesh.objects.insert(mesh.objects.begin(), 0);
     if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();   // an object of points and lines

@@ -45,10 +45,13 @@ struct MeshFile {
     void check_more_positions(std::uint64_t more) const;
 };
 
+/// Whether a file without a reader of Tumble's may be imported in a child process.
+enum class MeshImports { in_child_process, refused };
+
 /// The file's ending determines the reader: one of Tumble's, or assimp (assimp_import.h). Throws MeshError if the file
 /// is missing, of another kind, unreadable or empty, or has invalid indices or numbers. Opens the file itself and, for
 /// glTF, the files of its buffers in its folder and below; nothing else.
-MeshFile read_mesh_file(const std::filesystem::path& file);
+MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports = MeshImports::in_child_process);
 
 /// Text of a mesh file for a message: printable, and cut to this many characters.
 std::string readable(std::string_view text, std::size_t longest);

@@ -188,8 +188,8 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     return object;
 }
 
-MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
-    MeshFile mesh = read_mesh_file(file);
+MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read, MeshImports imports) {
+    MeshFile mesh = read_mesh_file(file, imports);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), mesh.other_files.begin(), mesh.other_files.end());
@@ -199,12 +199,13 @@ MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::files
 
 }  // namespace
 
-LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
-    return loaded(read_and_note(file, read), file);
+LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read, MeshImports imports) {
+    return loaded(read_and_note(file, read, imports), file);
 }
 
-std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std::vector<std::filesystem::path>* read) {
-    const MeshFile whole = read_and_note(file, read);
+std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std::vector<std::filesystem::path>* read,
+                                          MeshImports imports) {
+    const MeshFile whole = read_and_note(file, read, imports);
     if (whole.objects.size() > std::size_t(limits::parts))
         throw MeshError(fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
@@ -214,7 +215,7 @@ std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std
 
 const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scale) {
     auto found = files_.find(file);
-    if (found == files_.end()) found = files_.emplace(file, load_mesh(file, &read_)).first;
+    if (found == files_.end()) found = files_.emplace(file, load_mesh(file, &read_, imports_)).first;
     if (scale == 1.0) return found->second;
     const auto key = std::pair(file, scale);
     auto made = scaled_.find(key);
@@ -224,7 +225,7 @@ const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scal
 
 const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::path& file, double scale) {
     const auto find = [&](double at) { return objects_.find(std::pair(file, at)); };
-    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file, &read_));
+    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file, &read_, imports_));
     if (find(scale) == objects_.end()) {
         std::vector<LoadedMesh> made;
         for (const LoadedMesh& mesh : find(1.0)->second) made.push_back(scaled(mesh, scale));

@@ -22,6 +22,8 @@ struct LoadedMesh {
 /// Loads each file once, and makes each (file, scale) once, so that bodies share data.
 class MeshCache {
 public:
+    explicit MeshCache(MeshImports imports = MeshImports::in_child_process) : imports_(imports) {}
+
     /// Throws MeshError. `file` is a resolved path.
     const LoadedMesh& load(const std::filesystem::path& file, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
@@ -32,6 +34,7 @@ public:
     CompoundShape enlarged(const CompoundShape& shape, double factor);
 
 private:
+    MeshImports imports_;
     std::vector<std::filesystem::path> read_;
     std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
@@ -47,12 +50,14 @@ private:
 
 /// One file at scale 1: welded, oriented outward if it is closed, without triangles of zero area, with normals for
 /// drawing. Throws MeshError. Appends the files that were read to `read`, if given.
-LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr);
+LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr,
+                     MeshImports imports = MeshImports::in_child_process);
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; the whole file for
 /// other formats. Throws MeshError also if there are more objects than a body may have parts.
 std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
-                                          std::vector<std::filesystem::path>* read = nullptr);
+                                          std::vector<std::filesystem::path>* read = nullptr,
+                                          MeshImports imports = MeshImports::in_child_process);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size into the first of each group in file order. Returns for
 /// each vertex the index of its representative.

@@ -1,0 +1,88 @@
+// Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error (run)
+// with the path, unless a comment says otherwise.
+#pragma once
+
+#include "image.h"
+#include "scene.h"
+#include "snapshot.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+TUMBLE_BEGIN
+
+/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`.
+void write_png(const std::string& file, const Image& image);
+/// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
+Image read_png(const std::string& file);
+
+/// Whether two images are the same for the eye, by the default rules of `tumble compare`.
+struct Comparison {
+    bool alike = false;
+    std::string reason;                     // the rules that do not hold, with figures; empty where alike
+    std::int64_t differing_pixels = 0;      // any difference
+    int max_difference = 0;                 // levels of 255
+};
+/// Throws Error (input) where the sizes differ.
+Comparison compare_images(const Image& a, const Image& b);
+
+enum class ClipQuality { draft, normal, best };
+
+struct ClipOptions {
+    ClipQuality quality = ClipQuality::normal;
+    bool variable_rate = false;   // true: an image that stays is stored once and shown longer
+};
+
+/// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the format:
+/// .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
+class ClipWriter {
+public:
+    /// Throws Error (input) for an unknown ending or a frame rate that the format cannot keep.
+    ClipWriter(const std::string& file, const OutputSettings& output, const ClipOptions& options = {});
+    ~ClipWriter();
+    ClipWriter(ClipWriter&&) noexcept;
+    ClipWriter& operator=(ClipWriter&&) noexcept;
+
+    /// The next frame; of the size of `output`.
+    void write(const Image& image);
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The table of `tumble simulate --trajectory`: one row per frame and body that is not fixed.
+class TrajectoryTable {
+public:
+    TrajectoryTable(const std::string& file, const Scene& scene);
+    ~TrajectoryTable();
+    TrajectoryTable(TrajectoryTable&&) noexcept;
+    TrajectoryTable& operator=(TrajectoryTable&&) noexcept;
+
+    void add(const Snapshot& snapshot);
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The table of `tumble simulate --energy`: one row per frame.
+class EnergyTable {
+public:
+    explicit EnergyTable(const std::string& file);
+    ~EnergyTable();
+    EnergyTable(EnergyTable&&) noexcept;
+    EnergyTable& operator=(EnergyTable&&) noexcept;
+
+    void add(std::int64_t frame, double time, const Energies& energies);   // s
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+TUMBLE_END

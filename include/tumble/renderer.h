@@ -1,0 +1,45 @@
+// Drawing without a display.
+#pragma once
+
+#include "image.h"
+#include "scene.h"
+#include "snapshot.h"
+
+#include <memory>
+#include <string>
+
+TUMBLE_BEGIN
+
+enum class Backend { osmesa, egl };
+
+struct RenderOptions {
+    Backend backend = Backend::osmesa;
+    std::string shader_folder;   // empty: $TUMBLE_SHADERS, else the installed one
+};
+
+/// One OpenGL context and one image. Draws in the calling process; used from the thread that made it. Several renderers
+/// may take turns in one thread. Each call leaves its own OpenGL context current.
+class Renderer {
+public:
+    explicit Renderer(const Scene& scene, const RenderOptions& options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// Draws the poses at the scene's output size, from where the camera is at their time. The image belongs to the
+    /// renderer and is valid until the next call: copy it to keep it. Only what changed since the last call is drawn.
+    const Image& render(const Snapshot& snapshot);
+
+    /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so frame
+    /// n has the bytes of `tumble render` when each frame before it was rendered or skipped, in order.
+    void skip(const Snapshot& snapshot);
+
+    /// The name and the version of the OpenGL driver.
+    std::string driver() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+TUMBLE_END

@@ -1,0 +1,42 @@
+// The simulation.
+#pragma once
+
+#include "scene.h"
+#include "snapshot.h"
+
+#include <cstddef>
+#include <memory>
+
+TUMBLE_BEGIN
+
+struct BodyProperties {
+    double mass = 0.0;       // kg; infinity for fixed and kinematic bodies
+    Vec3 inertia;            // kg m^2, principal moments about the center of mass, ascending
+    Vec3 center_of_mass;     // m, body frame, from the body's origin
+};
+
+/// One simulation, at time 0 when made. Not for several threads at once; several worlds are independent of each other.
+class World {
+public:
+    /// The number of threads changes the time taken, never a byte of the result.
+    explicit World(const Scene& scene, int threads = 1);
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Advances by one fixed step, or by the steps of one frame. Throws Error (run) with the step and the body when a
+    /// state is not finite; the world cannot advance after that.
+    void advance_step();
+    void advance_frame();
+
+    Snapshot snapshot() const;
+    /// Finds the contacts of the present poses, which costs about as much as a step.
+    Energies energies() const;
+    BodyProperties properties(std::size_t body) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+TUMBLE_END

@@ -1,0 +1,63 @@
+// Values of the interface as those of the layers below, and back; to the bit.
+#pragma once
+
+#include "core/error.h"
+#include "core/image.h"
+#include "core/vector.h"
+#include "sim/snapshot/snapshot.h"
+#include "tumble/image.h"
+#include "tumble/snapshot.h"
+#include "tumble/vector.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace tumble::v0 {
+
+inline tumble::Vec3 to_internal(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline tumble::Quat to_internal(const Quat& q) { return {q.w, q.x, q.y, q.z}; }
+inline Vec3 to_public(const tumble::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Quat to_public(const tumble::Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+inline Snapshot to_public(const tumble::Snapshot& from) {
+    Snapshot to{from.frame, from.time, {}};
+    to.bodies.reserve(from.bodies.size());
+    for (const tumble::BodyState& b : from.bodies)
+        to.bodies.push_back({to_public(b.origin), to_public(b.center_of_mass), to_public(b.orientation), to_public(b.velocity),
+                             to_public(b.angular_velocity)});
+    return to;
+}
+
+/// Throws InputError where the snapshot is not of a scene with that many bodies.
+inline tumble::Snapshot to_internal(const Snapshot& from, std::size_t bodies) {
+    if (from.bodies.size() != bodies)
+        throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})", bodies, from.bodies.size()));
+    tumble::Snapshot to{from.frame, from.time, {}};
+    to.bodies.reserve(bodies);
+    for (const BodyState& b : from.bodies)
+        to.bodies.push_back({to_internal(b.origin), to_internal(b.center_of_mass), to_internal(b.orientation),
+                             to_internal(b.velocity), to_internal(b.angular_velocity)});
+    return to;
+}
+
+/// The pixels change hands; nothing is copied.
+inline tumble::Image take(Image&& from) {
+    tumble::Image to;
+    to.width = std::exchange(from.width, 0);
+    to.height = std::exchange(from.height, 0);
+    to.pixels = std::move(from.pixels);
+    return to;
+}
+inline Image take(tumble::Image&& from) { return {from.width, from.height, std::move(from.pixels)}; }
+
+/// A copy. Throws InputError where the number of pixels does not fit the size.
+inline tumble::Image to_internal(const Image& from) {
+    if (from.width < 1 || from.height < 1 ||
+        from.pixels.size() != std::size_t(from.width) * std::size_t(from.height) * 4)
+        throw InputError(fmt::format("an image must have width * height * 4 bytes (given {} x {} pixels with {} bytes)",
+                                     from.width, from.height, from.pixels.size()));
+    return take(Image(from));
+}
+
+}  // namespace tumble::v0

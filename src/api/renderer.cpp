@@ -1,0 +1,61 @@
+#include "tumble/renderer.h"
+
+#include "render/renderer.h"
+
+#include "api/convert.h"
+#include "api/guard.h"
+#include "api/scene_data.h"
+#include "render/scene/pose_filter.h"
+
+namespace tumble::v0 {
+namespace {
+
+tumble::RenderOptions to_internal(const RenderOptions& options) {
+    tumble::RenderOptions to;
+    to.backend = options.backend == Backend::egl ? GlBackend::egl : GlBackend::osmesa;
+    to.shader_folder = options.shader_folder;
+    return to;
+}
+
+}  // namespace
+
+struct Renderer::State {
+    State(const Scene& drawn, const RenderOptions& options)
+        : scene(drawn), filter(scene.data().description), renderer(scene.data().description, to_internal(options)) {}
+
+    Scene scene;   // keeps what the renderer reads
+    PoseFilter filter;
+    tumble::Renderer renderer;
+    Image image;   // as last drawn; empty after an error, so that the next one is drawn whole
+};
+
+Renderer::Renderer(const Scene& scene, const RenderOptions& options) {
+    guarded([&] { state_ = std::make_unique<State>(scene, options); });
+}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const Image& Renderer::render(const Snapshot& snapshot) {
+    return guarded([&]() -> const Image& {
+        tumble::Snapshot drawn = v0::to_internal(snapshot, state_->scene.body_count());
+        state_->filter.follow(drawn);
+        tumble::Image image = take(std::move(state_->image));
+        state_->renderer.render(drawn, image);
+        state_->image = take(std::move(image));
+        return state_->image;
+    });
+}
+
+void Renderer::skip(const Snapshot& snapshot) {
+    guarded([&] {
+        tumble::Snapshot drawn = v0::to_internal(snapshot, state_->scene.body_count());
+        state_->filter.follow(drawn);
+    });
+}
+
+std::string Renderer::driver() const {
+    return guarded([&] { return state_->renderer.driver(); });
+}
+
+}  // namespace tumble::v0

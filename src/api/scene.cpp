@@ -1,0 +1,130 @@
+#include "tumble/scene.h"
+
+#include "api/guard.h"
+#include "api/scene_data.h"
+#include "api/spec_text.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tumble::v0 {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<const SceneData> make_data(SceneDescription description, FileList files) {
+    auto data = std::make_shared<SceneData>();
+    const auto& from = description.output;
+    data->output = {from.width, from.height, from.fps, from.samples};
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) data->names.emplace(description.bodies[i].name, i);
+    data->description = std::move(description);
+    data->files = std::move(files);
+    return data;
+}
+
+template <class Options>
+MeshImports imports_of(const Options& options) {
+    return options.allow_import_process ? MeshImports::in_child_process : MeshImports::refused;
+}
+
+SceneOverrides to_overrides(const LoadOptions& options) {
+    SceneOverrides o;
+    o.duration = options.duration;
+    o.fps = options.fps;
+    o.step = options.step;
+    o.steps_per_frame = options.steps_per_frame;
+    o.width = options.width;
+    o.height = options.height;
+    o.samples = options.samples;
+    if (options.integrator) o.integrator = name_of(*options.integrator);
+    if (options.impacts) o.impacts = name_of(*options.impacts);
+    if (options.impact_law) o.impact_law = name_of(*options.impact_law);
+    return o;
+}
+
+/// "--steps-per-frame: must be ..." is about the field steps_per_frame.
+Error option_error(const LoadOptions& options, const std::string& message) {
+    const std::size_t end = message.find(": ");
+    if (message.rfind("--", 0) != 0 || end == std::string::npos) return Error(ErrorKind::input, {}, message);
+    std::string field = message.substr(2, end - 2);
+    std::replace(field.begin(), field.end(), '-', '_');
+    if (field == "size") {
+        const bool width_fits = !options.width || (*options.width >= 1 && *options.width <= limits::image_side);
+        field = width_fits ? "height" : "width";
+    }
+    return Error(ErrorKind::input, {{}, 0, 0, field}, message.substr(end + 2));
+}
+
+std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
+    FileList files;
+    const fs::path file = fs::path(spec.folder) / "scene";   // the folder counts; no such file is opened
+    try {
+        SceneDescription description = parse_scene(spec_text(spec), file, {}, &files, imports_of(spec));
+        files.erase(files.begin());
+        return make_data(std::move(description), std::move(files));
+    } catch (const InputError& error) {
+        throw Error(ErrorKind::input, {{}, 0, 0, element_of_line(spec, error.where().line)}, error.message());
+    }
+}
+
+const BodyDescription& body_of(const SceneData& data, std::size_t body) {
+    const auto& bodies = data.description.bodies;
+    if (body < bodies.size()) return bodies[body];
+    throw Error(ErrorKind::input, {}, fmt::format("a body's index must be below {} (given {})", bodies.size(), body));
+}
+
+}  // namespace
+
+Scene::Scene(std::shared_ptr<const SceneData> data) : data_(std::move(data)) {}
+Scene::Scene(const SceneSpec& spec) : data_(guarded([&] { return check(spec); })) {}
+
+Scene make_scene(SceneDescription description, FileList files) {
+    return Scene(make_data(std::move(description), std::move(files)));
+}
+
+Scene load_scene(const std::string& file, const LoadOptions& options) {
+    return guarded([&] {
+        FileList files;
+        try {
+            SceneDescription description = tumble::load_scene(file, to_overrides(options), &files, imports_of(options));
+            return make_scene(std::move(description), std::move(files));
+        } catch (const InputError& error) {
+            if (error.where().file.empty()) throw option_error(options, error.message());
+            throw;
+        }
+    });
+}
+
+const std::string& Scene::title() const { return data_->description.title; }
+const OutputSettings& Scene::output() const { return data_->output; }
+double Scene::duration() const { return data_->description.simulation.duration; }
+double Scene::step() const { return data_->description.step(); }
+int Scene::steps_per_frame() const { return data_->description.simulation.steps_per_frame; }
+std::int64_t Scene::frame_count() const { return data_->description.frame_count(); }
+std::size_t Scene::body_count() const { return data_->description.bodies.size(); }
+
+const std::string& Scene::body_name(std::size_t body) const { return body_of(*data_, body).name; }
+
+BodyType Scene::body_type(std::size_t body) const {
+    switch (body_of(*data_, body).type) {
+        case tumble::BodyType::fixed:
+            return BodyType::fixed;
+        case tumble::BodyType::kinematic:
+            return BodyType::kinematic;
+        default:
+            return BodyType::dynamic;
+    }
+}
+
+std::optional<std::size_t> Scene::find_body(const std::string& name) const {
+    const auto found = data_->names.find(name);
+    if (found == data_->names.end()) return std::nullopt;
+    return found->second;
+}
+
+std::vector<std::string> Scene::files() const { return {data_->files.begin(), data_->files.end()}; }
+
+}  // namespace tumble::v0

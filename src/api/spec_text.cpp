@@ -1,0 +1,274 @@
+#include "api/spec_text.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+namespace tumble::v0 {
+namespace {
+
+template <class Enum, std::size_t n>
+std::string choice(Enum value, const char* type, const std::array<const char*, n>& names) {
+    const auto i = static_cast<std::size_t>(value);
+    if (i >= n) throw InputError(fmt::format("{} has no enumerator of value {}", type, static_cast<long long>(value)));
+    return names[i];
+}
+
+std::string name_of(ContactSolver solver) { return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"}); }
+std::string name_of(RotationForm form) { return choice(form, "RotationForm", std::array{"quaternion", "matrix"}); }
+std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
+std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
+std::string name_of(Interpolation form) { return choice(form, "Interpolation", std::array{"smooth", "linear"}); }
+
+std::string text_of(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') (quoted += '\\') += c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else quoted += c;
+    }
+    return quoted + "\"";
+}
+
+// 17 digits bring every double back to the bit; a point makes a whole number a double, which keeps the sign of zero.
+std::string text_of(double value) {
+    std::string text = fmt::format("{:.17g}", value);
+    if (text.find_first_of(".en") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string text_of(bool value) { return value ? "true" : "false"; }
+std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", text_of(v.x), text_of(v.y), text_of(v.z)); }
+std::string text_of(Color c) { return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.r, c.g, c.b); }
+std::string text_of(const Rotation& rotation) {
+    if (const auto* turn = std::get_if<AxisAngle>(&rotation))
+        return fmt::format("{{ axis = {}, angle = {} }}", text_of(turn->axis), text_of(turn->degrees));
+    const Quat& q = std::get<Quat>(rotation);
+    return fmt::format("[{}, {}, {}, {}]", text_of(q.w), text_of(q.x), text_of(q.y), text_of(q.z));
+}
+
+class SpecWriter {
+public:
+    /// Remembers the element of that line; 0: of none.
+    explicit SpecWriter(int wanted_line) : wanted_(wanted_line) {}
+
+    void write(const SceneSpec& spec) {
+        value("format", "format", std::string("1"));
+        if (!spec.title.empty()) set("title", spec.title);
+        write(spec.simulation);
+        write(spec.output);
+        write(spec.camera);
+        header("[light]", "light");
+        set("direction", spec.light.direction);
+        set("shadows", spec.light.shadows);
+        if (spec.wind) write(*spec.wind);
+        for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
+        for (std::size_t i = 0; i < spec.forces.size(); ++i) write(spec.forces[i], i);
+        for (std::size_t i = 0; i < spec.cords.size(); ++i) write(spec.cords[i], i);
+    }
+
+    std::string text, element;
+
+private:
+    void line(std::string_view content, std::string_view prefix, std::string_view field) {
+        (text += content) += '\n';
+        if (++lines_ != wanted_) return;
+        element = prefix;
+        if (!prefix.empty() && !field.empty()) element += '.';
+        element += field;
+    }
+
+    void header(const std::string& content, std::string prefix) {
+        prefix_ = std::move(prefix);
+        line(content, prefix_, "");
+    }
+    void value(std::string_view key, std::string_view field, const std::string& content) {
+        line(fmt::format("{} = {}", key, content), prefix_, field);
+    }
+    template <class T>
+    void set(std::string_view key, const T& content) { value(key, key, text_of(content)); }
+    template <class T>
+    void set(std::string_view key, const std::optional<T>& content) {
+        if (content) set(key, *content);
+    }
+    void name(std::string_view key, const std::string& content) { value(key, key, text_of(content)); }
+
+    void write(const SimulationSettings& s) {
+        header("[simulation]", "simulation");
+        set("duration", s.duration);
+        if (s.step) set("step", *s.step);
+        else value("steps_per_frame", "steps_per_frame", std::to_string(s.steps_per_frame));
+        set("gravity", s.gravity);
+        name("integrator", v0::name_of(s.integrator));
+        name("impacts", v0::name_of(s.impacts));
+        name("impact_law", v0::name_of(s.impact_law));
+        name("contact_solver", name_of(s.contact_solver));
+        name("rotation", name_of(s.rotation));
+        set("sleep", s.sleep);
+        value("seed", "seed", std::to_string(s.seed));
+    }
+
+    void write(const OutputSettings& o) {
+        header("[output]", "output");
+        line("size = [", prefix_, "width");   // a line for each, so that an error names the right one
+        line(fmt::format("    {},", o.width), prefix_, "width");
+        line(fmt::format("    {},", o.height), prefix_, "height");
+        line("]", prefix_, "height");
+        set("fps", o.fps);
+        value("samples", "samples", std::to_string(o.samples));
+    }
+
+    void write(const Camera& c) {
+        header("[camera]", "camera");
+        set("eye", c.eye);
+        set("target", c.target);
+        set("up", c.up);
+        set("vertical_fov", c.vertical_fov);
+        if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth) name("interpolation", name_of(c.interpolation));
+        set("orbit", c.orbit);
+        if (!c.follow.empty()) set("follow", c.follow);
+        for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
+            header("[[camera.keyframes]]", fmt::format("camera.keyframes[{}]", i));
+            set("time", c.keyframes[i].time);
+            set("eye", c.keyframes[i].eye);
+            set("target", c.keyframes[i].target);
+            set("vertical_fov", c.keyframes[i].vertical_fov);
+        }
+    }
+
+    void write(const Wind& w) {
+        header("[wind]", "wind");
+        set("velocity", w.velocity);
+        set("density", w.density);
+        set("drag", w.drag);
+    }
+
+    // A table of its own, because a body may have the mass in place of its material's density.
+    bool write(const Material& m, std::size_t body) {
+        if (!m.color && !m.density && !m.restitution && !m.friction && !m.roughness && !m.metallic && !m.pattern) return false;
+        header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
+        set("color", m.color);
+        set("density", m.density);
+        set("restitution", m.restitution);
+        set("friction", m.friction);
+        set("roughness", m.roughness);
+        set("metallic", m.metallic);
+        if (m.pattern) name("pattern", name_of(*m.pattern));
+        return true;
+    }
+
+    void write(const Body& b, std::size_t i) {
+        const std::string prefix = fmt::format("bodies[{}]", i);
+        const bool material = write(b.material, i);
+        header("[[body]]", prefix);
+        if (!b.name.empty()) set("name", b.name);
+        if (b.type != BodyType::dynamic) name("type", name_of(b.type));
+        if (material) value("material", "material", fmt::format("\"body{}\"", i));
+        set("mass", b.mass);
+        if (!b.visible) set("visible", b.visible);
+        write_pose(b.position, b.rotation);
+        if (b.velocity != Vec3{}) set("velocity", b.velocity);
+        if (b.angular_velocity != Vec3{}) set("angular_velocity", b.angular_velocity);
+        if (b.integrator) name("integrator", v0::name_of(*b.integrator));
+        if (b.interpolation != Interpolation::smooth) name("interpolation", name_of(b.interpolation));
+        for (std::size_t k = 0; k < b.keyframes.size(); ++k) {
+            header("[[body.keyframes]]", fmt::format("{}.keyframes[{}]", prefix, k));
+            set("time", b.keyframes[k].time);
+            set("position", b.keyframes[k].position);
+            set("rotation", b.keyframes[k].rotation);
+        }
+        write(b.shape, "body.shape", prefix + ".shape");
+    }
+
+    void write_pose(const Vec3& position, const Rotation& rotation) {
+        if (position != Vec3{}) set("position", position);
+        if (rotation != Rotation{}) set("rotation", rotation);
+    }
+
+    void write(const Shape& shape, const std::string& table, const std::string& prefix) {
+        header(fmt::format("[{}]", table), prefix);
+        std::visit([&](const auto& one) { write_shape(one, table, prefix); }, shape);
+    }
+
+    void shape_type(const char* type) { value("type", "", text_of(std::string(type))); }
+
+    void write_shape(const Plane& plane, const std::string&, const std::string&) {
+        shape_type("plane");
+        set("normal", plane.normal);
+        set("offset", plane.offset);
+    }
+    void write_shape(const Box& box, const std::string&, const std::string&) {
+        shape_type("box");
+        set("size", box.size);
+    }
+    void write_shape(const Sphere& sphere, const std::string&, const std::string&) {
+        shape_type("sphere");
+        set("radius", sphere.radius);
+    }
+    void write_shape(const Mesh& mesh, const std::string&, const std::string&) {
+        shape_type("mesh");
+        set("file", mesh.file);
+        set("scale", mesh.scale);
+        if (mesh.objects_are_parts) value("parts", "objects_are_parts", "\"objects\"");
+    }
+    void write_shape(const Compound& compound, const std::string& table, const std::string& prefix) {
+        shape_type("compound");
+        if (compound.parts.empty()) value("parts", "parts", "[]");
+        for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+            const CompoundPart& part = compound.parts[i];
+            const std::string name = fmt::format("{}.parts[{}]", prefix, i);
+            header(fmt::format("[[{}.parts]]", table), name);
+            write_pose(part.position, part.rotation);
+            set("density", part.density);
+            set("color", part.color);
+            write(part.shape, table + ".parts.shape", name + ".shape");
+        }
+    }
+
+    void write(const Force& f, std::size_t i) {
+        header("[[force]]", fmt::format("forces[{}]", i));
+        set("body", f.body);
+        set("point", f.point);
+        set("force", f.force);
+        if (f.body_frame) value("frame", "body_frame", "\"body\"");
+        set("start", f.start);
+        if (f.end != std::numeric_limits<double>::infinity()) set("end", f.end);   // a file leaves it out
+    }
+
+    void write(const Cord& c, std::size_t i) {
+        header("[[cord]]", fmt::format("cords[{}]", i));
+        set("body", c.body);
+        set("point", c.point);
+        set("anchor", c.anchor);
+        set("radius", c.radius);
+        set("color", c.color);
+    }
+
+    int wanted_, lines_ = 0;
+    std::string prefix_;
+};
+
+}  // namespace
+
+std::string name_of(Integrator integrator) {
+    return choice(integrator, "Integrator", std::array{"explicit-euler", "symplectic-euler", "splitting", "rk4", "exact"});
+}
+std::string name_of(ImpactMode mode) { return choice(mode, "ImpactMode", std::array{"stepped", "exact"}); }
+std::string name_of(ImpactLaw law) { return choice(law, "ImpactLaw", std::array{"propagating", "simultaneous"}); }
+
+std::string spec_text(const SceneSpec& spec) {
+    SpecWriter writer(0);
+    writer.write(spec);
+    return std::move(writer.text);
+}
+
+std::string element_of_line(const SceneSpec& spec, int line) {
+    SpecWriter writer(line);
+    writer.write(spec);
+    return writer.element;
+}
+
+}  // namespace tumble::v0

@@ -1,0 +1,21 @@
+// A SceneSpec as the text of a scene file: one value on a line, so that the line of an error names the element.
+#pragma once
+
+#include "tumble/spec.h"
+
+#include <string>
+
+namespace tumble::v0 {
+
+/// Throws InputError for a value of an enum that has no name.
+std::string spec_text(const SceneSpec& spec);
+
+/// The element that the line describes ("bodies[2].shape.radius"); lines count from 1. Empty for other lines.
+std::string element_of_line(const SceneSpec& spec, int line);
+
+/// Names of the scene file.
+std::string name_of(Integrator integrator);
+std::string name_of(ImpactMode mode);
+std::string name_of(ImpactLaw law);
+
+}  // namespace tumble::v0

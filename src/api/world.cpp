@@ -1,0 +1,63 @@
+#include "tumble/world.h"
+
+#include "sim/world.h"
+
+#include "api/convert.h"
+#include "api/guard.h"
+#include "api/scene_data.h"
+
+#include <fmt/format.h>
+
+namespace tumble::v0 {
+namespace {
+
+constexpr int most_threads = 1024;   // beyond any machine; an absurd number is an argument that is wrong
+
+}  // namespace
+
+struct World::State {
+    State(const SceneDescription& scene, int threads) : world(scene, threads), bodies(scene.bodies.size()) {}
+
+    tumble::World world;
+    std::size_t bodies;
+};
+
+World::World(const Scene& scene, int threads) {
+    guarded([&] {
+        if (threads < 1 || threads > most_threads)
+            throw InputError(fmt::format("threads must be from 1 to {} (given {})", most_threads, threads));
+        state_ = std::make_unique<State>(scene.data().description, threads);
+    });
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::advance_step() {
+    guarded([&] { state_->world.step(); });
+}
+void World::advance_frame() {
+    guarded([&] { state_->world.advance_frame(); });
+}
+
+Snapshot World::snapshot() const {
+    return guarded([&] { return to_public(state_->world.snapshot()); });
+}
+
+Energies World::energies() const {
+    return guarded([&] {
+        const Measurement m = state_->world.measure();
+        return Energies{m.kinetic, m.potential, to_public(m.momentum), to_public(m.angular_momentum), m.contacts, m.max_penetration};
+    });
+}
+
+BodyProperties World::properties(std::size_t body) const {
+    return guarded([&] {
+        if (body >= state_->bodies)
+            throw InputError(fmt::format("a body's index must be below {} (given {})", state_->bodies, body));
+        const BodyReport report = state_->world.report(body);
+        return BodyProperties{report.mass, to_public(report.principal_inertia), to_public(report.center_of_mass)};
+    });
+}
+
+}  // namespace tumble::v0

@@ -1,0 +1,64 @@
+#include "scenes.h"
+#include "support/folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+Image plain(std::uint8_t level) {
+    Image image{16, 16, std::vector<std::uint8_t>(16 * 16 * 4, level)};
+    for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+    return image;
+}
+
+TEST(Output, APngGivesTheImageBack) {
+    const TestFolder folder;
+    const Scene scene(crate_and_ball());
+    const Image image = Renderer(scene).render(after(scene, 0));
+    write_png(folder / "a.png", image);
+    EXPECT_EQ(read_png(folder / "a.png"), image);
+}
+
+TEST(Output, ComparisonTellsTheRule) {
+    const Comparison same = compare_images(plain(10), plain(10));
+    EXPECT_TRUE(same.alike);
+    EXPECT_TRUE(same.reason.empty());
+    const Comparison other = compare_images(plain(10), plain(60));
+    EXPECT_FALSE(other.alike);
+    EXPECT_FALSE(other.reason.empty());
+    EXPECT_EQ(other.differing_pixels, 256);
+    EXPECT_EQ(other.max_difference, 50);
+}
+
+TEST(Output, FilesAppearWhenFinishedOrNever) {
+    const TestFolder folder;
+    const Scene scene(crate_and_ball());
+    {
+        World world(scene);
+        TrajectoryTable trajectory(folder / "t.csv", scene), left(folder / "left.csv", scene);
+        EnergyTable energy(folder / "e.csv");
+        ClipWriter clip(folder / "c.mkv", scene.output()), left_clip(folder / "left.mkv", scene.output());
+        Renderer renderer(scene);
+        const Image& image = renderer.render(world.snapshot());
+        for (int i = 0; i < 3; ++i) clip.write(image);
+        left_clip.write(image);
+        trajectory.add(world.snapshot());
+        left.add(world.snapshot());
+        energy.add(0, 0.0, world.energies());
+        trajectory.finish();
+        energy.finish();
+        clip.finish();
+    }
+    EXPECT_EQ(folder.files(), 3u);
+    const std::string table = read_text(folder / "t.csv");
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);   // the head, the crate and the ball
+    EXPECT_EQ(table.rfind("frame,time,body,x,y,z,", 0), 0u);
+    EXPECT_EQ(read_text(folder / "e.csv").rfind("frame,time,kinetic,", 0), 0u);
+}
+
+}  // namespace
+}  // namespace tumble
