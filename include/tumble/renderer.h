@@ -27,7 +27,7 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Draws the poses at the scene's output size, from where the camera is at their time. The image belongs to the
-    /// renderer and is valid until the next call: copy it to keep it. Only what changed since the last call is drawn.
+    /// renderer and is valid until the next call: copy it to keep it. Only changes since the last call are drawn.
     const Image& render(const Snapshot& snapshot);
 
     /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so frame
