@@ -30,7 +30,7 @@ struct AovRenderer::State {
         return {made.camera.width, made.camera.height, made.depth, made.normal, made.segmentation, made.motion, made.albedo};
     }
 
-    Scene scene;   // keeps what the renderer reads
+    Scene scene;   // the renderer reads its data
     bool motion;
     tumble::AovRenderer renderer;
 };

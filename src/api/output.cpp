@@ -52,7 +52,9 @@ Comparison compare_images(const Image& a, const Image& b) {
 
 struct ClipWriter::State {
     State(const std::string& file, const OutputSettings& output, const ClipOptions& options)
-        : width(output.width), height(output.height), writer(file, width, height, output.fps, to_internal(options)) {}
+        : width(output.width),
+          height(output.height),
+          writer(file, width, height, output.fps, to_internal(options)) {}
 
     int width, height;
     std::int64_t frames = 0;

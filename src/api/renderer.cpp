@@ -23,7 +23,7 @@ struct Renderer::State {
     State(const Scene& drawn, const RenderOptions& options)
         : scene(drawn), filter(scene.data().description), renderer(scene.data().description, to_internal(options)) {}
 
-    Scene scene;   // keeps what the renderer reads
+    Scene scene;   // the renderer reads its data
     PoseFilter filter;
     tumble::Renderer renderer;
     Image image;   // as last drawn; empty after an error, so that the next one is drawn whole

@@ -68,18 +68,14 @@ struct World::State {
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
     std::vector<BodyVelocity> old_velocities;   // at the start of the step, before its forces: explicit Euler moves bodies by them
-    // Momenta before and after this step's forces: the start of the integrators of higher order, and a test whether
-    // contact has added anything since.
+    // Momenta before and after this step's forces: start of the higher-order integrators; they show any impulse of contact.
     struct Momenta {
         Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
         bool operator==(const Momenta&) const = default;
     };
-    struct alignas(64) ForceStep {
-        Momenta before, after;
-    };
+    struct alignas(64) ForceStep { Momenta before, after; };
     std::vector<ForceStep> force_steps;
-    // of this step, of forces that end at some time; by body, empty in scenes without forces at points
-    std::vector<Impulse> pulses;
+    std::vector<Impulse> pulses;   // of this step's ending forces; by body, empty without forces at points
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
         : settings(scene.simulation), fps(timing.fps), h(timing.step()),

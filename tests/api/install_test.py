@@ -91,8 +91,8 @@ class InstallTest(unittest.TestCase):
             }
             """)
         place = self.library.parent
-        run(CXX, "-std=c++17", *FLAGS.split(), source, f"-I{self.prefix / 'include'}", f"-L{place}", f"-Wl,-rpath,{place}", "-ltumble",
-            "-o", self.folder / "clip")
+        run(CXX, "-std=c++17", *FLAGS.split(), source, f"-I{self.prefix / 'include'}", f"-L{place}",
+            f"-Wl,-rpath,{place}", "-ltumble", "-o", self.folder / "clip")
         ours, theirs = self.folder / "ours.mkv", self.folder / "theirs.mkv"
         run(self.folder / "clip", SCENE, ours)
         run(TUMBLE, "render", SCENE, "--duration", 0.5, "-o", theirs, "--quiet")
