@@ -17,8 +17,7 @@ SceneDescription shadow_scene() {
     scene.camera.eye = Vec3(0.0, 5.0, 9.0);
     scene.camera.target = Vec3(0.0, 0.5, 0.0);
     scene.light.direction = Vec3(-0.5, -1.0, 0.0);
-    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain),
-                    box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {200, 133, 60})};
+    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain), box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {200, 133, 60})};
     return scene;
 }
 
@@ -36,8 +35,7 @@ std::vector<double> levels_taken(const SceneDescription& scene, const std::vecto
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_diffuse), 1.0); // ");
-    for (const Color color :
-         {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
+    for (const Color color : {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
         SceneDescription scene = empty_scene();
         scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), color)};
         const Image image = drawn(scene, shaders.options());
