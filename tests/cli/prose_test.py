@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts/check-prose"
 
 # A sentence that breaks one rule, and the name of the finding.
+# Sentences that break the rules on purpose, each with the name of the finding that it must give.
 BAD = [("What rests, rests.", "free relative"), ("It tells what was read.", "free relative"),
        ("Here is what moved and what is drawn.", "free relative"), ("Whatever happens in a step takes time.", "free relative"),
        ("All who fly are moved.", "who"), ("Whom the blow has come to takes part.", "whom"), ("Then he stops.", "a body is 'it'"),

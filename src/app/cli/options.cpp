@@ -282,7 +282,7 @@ int run_command_line(int argc, char** argv) {
     app.footer(
         "Start here:\n"
         "  tumble doctor                                     is everything there?\n"
-        "  tumble info assets/scenes/falling_boxes.toml      what is in the scene?\n"
+        "  tumble info assets/scenes/falling_boxes.toml      bodies, shapes and settings of the scene\n"
         "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4\n"
         "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
         "or bad input. Messages and progress go to standard error.");

@@ -1,6 +1,5 @@
-// Mesh files of formats without a reader in Tumble (.dae, .3ds, .off, .fbx, ...), imported by assimp. Its importers
-// allocate as much as a file claims and can crash on a malformed one, so they run in a child process with limits of
-// memory and time.
+// Import by assimp of the mesh formats that Tumble does not read itself (.dae, .3ds, .off, .fbx, ...). It runs in a child
+// process with limits of memory and time: assimp allocates as much as a file claims, and a malformed file can crash it.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
