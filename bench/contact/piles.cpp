@@ -98,7 +98,7 @@ void add_piles(std::vector<ContactCase>& cases) {
     cases.push_back(pile("pile of 1000 rotated", 10, true));
     cases.push_back(pile("pile of 8000", 20, false));
     cases.push_back(pile("pile of 8000 rotated", 20, true));
-    for (const bool rotated : {false, true}) {   // with time to come to rest
+    for (const bool rotated : {false, true}) {  // with time to come to rest
         cases.push_back(pile(rotated ? "pile of 1000 rotated, settled" : "pile of 1000, settled", 10, rotated));
         cases.back().task = Task::settled;
         cases.back().seconds = 30.0;

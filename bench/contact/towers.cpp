@@ -28,7 +28,8 @@ ContactCase stack(int boxes) {
 
 // Tilted by up to 0.02 rad, shifted by up to 5 cm, with falls through gaps of about 3 cm.
 ContactCase loose_stack(int boxes) {
-    ContactCase c = standing("loose stack of " + std::to_string(boxes), 30.0, 4.0);  // sum of the gaps of 30 boxes: 0.9 m
+    ContactCase c =
+        standing("loose stack of " + std::to_string(boxes), 30.0, 4.0);  // sum of the gaps of 30 boxes: 0.9 m
     Random random(11);
     for (int i = 0; i < boxes; ++i) {
         const double y = 0.05 * random.both(), x = 0.05 * random.both();

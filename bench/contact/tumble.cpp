@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
     exact.impacts = tumble::ImpactMode::exact;
     return run_contact(
         argc, argv, "Tumble",
-        {way("default", {Task::pile, Task::settled, Task::spheres, Task::tower}, one), way("two threads", {Task::pile}, two),
-         way("sleep", {Task::pile, Task::settled, Task::sleeping}, asleep),
+        {way("default", {Task::pile, Task::settled, Task::spheres, Task::tower}, one),
+         way("two threads", {Task::pile}, two), way("sleep", {Task::pile, Task::settled, Task::sleeping}, asleep),
          way("soft", {Task::pile, Task::spheres, Task::tower}, soft),
          way("direct", {Task::spheres, Task::tower}, direct), way("exact + exact impacts", {Task::tower}, exact)});
 }

@@ -13,8 +13,8 @@ bool wanted(const std::vector<std::string>& names, const std::string& name) {
 }
 
 int explain(const char* program, const CommandLine& line) {
-    std::fprintf(stderr, "usage: %s [--header] [--quick] [--case NAME]... [--%s NAME]...%s | --list\n", program, line.way.c_str(),
-                 line.patience ? " [--patience SECONDS]" : "");
+    std::fprintf(stderr, "usage: %s [--header] [--quick] [--case NAME]... [--%s NAME]...%s | --list\n", program,
+                 line.way.c_str(), line.patience ? " [--patience SECONDS]" : "");
     return 2;
 }
 

@@ -9,18 +9,18 @@ namespace tumble::bench {
 
 struct Options {
     bool quick = false;
-    double patience = 150.0;                // CPU s
-    std::vector<std::string> cases, ways;   // empty: all
+    double patience = 150.0;               // CPU s
+    std::vector<std::string> cases, ways;  // empty: all
 
     bool wants_case(const std::string& name) const;
     bool wants_way(const std::string& name) const;
 };
 
 struct CommandLine {
-    std::string header;               // the first line of the results
-    std::vector<std::string> cases;   // lines of --list
-    std::string way = "way";          // name of the option that selects a way
-    bool patience = false;            // whether --patience exists
+    std::string header;              // the first line of the results
+    std::vector<std::string> cases;  // lines of --list
+    std::string way = "way";         // name of the option that selects a way
+    bool patience = false;           // whether --patience exists
 };
 
 /// Reads the arguments; prints the header or the list on request. Returns the exit status if nothing more is to be

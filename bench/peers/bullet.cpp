@@ -32,8 +32,7 @@ public:
         btContactSolverInfo& info = world_.getSolverInfo();
         info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower impacts do not bounce
         info.m_numIterations = settings.iterations;
-        if (settings.elastic)
-            info.m_erp2 = 0.0f;  // no position correction: that adds energy, up to 40-fold in the pit
+        if (settings.elastic) info.m_erp2 = 0.0f;  // no position correction: that adds energy, up to 40-fold in the pit
         for (const Body& body : scene.bodies) add(body, settings);
     }
     ~BulletSimulator() override {

@@ -47,7 +47,8 @@ public:
 
 private:
     void add(const Body& body) {
-        auto skeleton = dart::dynamics::Skeleton::create(std::to_string(bodies_.size()));  // without a name it prints warnings
+        auto skeleton =
+            dart::dynamics::Skeleton::create(std::to_string(bodies_.size()));  // without a name it prints warnings
         dart::dynamics::ShapePtr shape;
         Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
         place.translation() = vec(body.position);

@@ -5,8 +5,8 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double edge_spread = 8.0;   // levels
-constexpr int window = 8;             // pixels
+constexpr double edge_spread = 8.0;  // levels
+constexpr int window = 8;            // pixels
 
 // ITU-R BT.709
 double brightness(const std::uint8_t* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }

@@ -20,7 +20,7 @@ public:
 
 private:
     int width_ = 0, height_ = 0, count_ = 0;
-    std::vector<double> sum_, squares_;   // sums of the four channels; of the squared brightness
+    std::vector<double> sum_, squares_;  // sums of the four channels; of the squared brightness
 };
 
 /// Root of the mean squared difference over red, green and blue of the selected pixels, levels.

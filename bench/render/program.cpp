@@ -4,8 +4,8 @@
 #include "harness/clock.h"
 #include "output/png_writer.h"
 #include "render/clip.h"
-#include "render/picture_error.h"
 #include "render/passes/pass_timer.h"
+#include "render/picture_error.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 
@@ -37,7 +37,9 @@ Arguments read_arguments(int argc, char** argv) {
     Arguments a{argv[1], argv[2], {}, {}};
     for (int i = 3; i < argc; ++i) {
         const std::string option = argv[i];
-        const auto value = [&] { return ++i < argc ? std::string(argv[i]) : throw std::runtime_error(option + " what?"); };
+        const auto value = [&] {
+            return ++i < argc ? std::string(argv[i]) : throw std::runtime_error(option + " what?");
+        };
         if (option == "--size") {
             const auto [width, height] = two_numbers(value(), 'x');
             a.overrides.width = width;
@@ -75,7 +77,7 @@ void measure_cost(const Arguments& a) {
     double pixels = 0.0, rectangles = 0.0;
     PassTimes sum_of_times;
     for (int round = 0; round < a.rounds; ++round) {
-        renderer.render(clip.front(), frame);   // excludes the initial work, and the jump back to the start
+        renderer.render(clip.front(), frame);  // excludes the initial work, and the jump back to the start
         times = {};
         for (std::size_t i = 1; i < clip.size(); ++i) {
             const double start = cpu_seconds();
@@ -90,9 +92,11 @@ void measure_cost(const Arguments& a) {
     for (const double cost : costs) sum += cost;
     std::sort(costs.begin(), costs.end());
     const double frames = double(costs.size());
-    fmt::print("CPU ms per frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture in {:.0f} rectangles\n",
-               costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
-               pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
+    fmt::print(
+        "CPU ms per frame: median {:.2f}, mean {:.2f}, tenth {:.2f}, ninetieth {:.2f}; redrawn {:.3f} of the picture "
+        "in {:.0f} rectangles\n",
+        costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
+        pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
     if (!a.stages) return;
     for (std::size_t i = 0; i < render_stages; ++i)
         fmt::print("  {:<12} {:6.2f}\n", render_stage_names[i], 1e3 * sum_of_times.seconds[i] / frames);
@@ -118,15 +122,14 @@ void measure_edges(const Arguments& a) {
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
     for (const Snapshot& snapshot : {clip.front(), clip.back()}) {
         PictureMean many;
-        for (int i = 0; i < 64; ++i)   // an 8 x 8 lattice, sheared so that no two samples share a row or column
+        for (int i = 0; i < 64; ++i)  // an 8 x 8 lattice, sheared so that no two samples share a row or column
             many.add(picture(scene, snapshot, 1, false, ((i % 8) + (i / 8 + 0.5) / 8.0) / 8.0 - 0.5,
                              ((i / 8) + (i % 8 + 0.5) / 8.0) / 8.0 - 0.5));
         const Image reference = many.mean();
         const std::vector<bool> edges = many.edges();
         fmt::print("frame {}: {:.4f} of the pixels are edges\n", snapshot.frame,
                    double(std::count(edges.begin(), edges.end(), true)) / double(edges.size()));
-        if (!a.pictures.empty())
-            write_png(fmt::format("{}/reference_{}.png", a.pictures, snapshot.frame), reference);
+        if (!a.pictures.empty()) write_png(fmt::format("{}/reference_{}.png", a.pictures, snapshot.frame), reference);
         struct Way {
             const char* name;
             int samples;
@@ -148,7 +151,7 @@ void measure_edges(const Arguments& a) {
 }  // namespace tumble::bench
 
 int main(int argc, char** argv) {
-    setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in the calling thread
+    setenv("LP_NUM_THREADS", "0", 1);  // llvmpipe draws in the calling thread
     try {
         const tumble::bench::Arguments arguments = tumble::bench::read_arguments(argc, argv);
         if (arguments.command == "cost") {

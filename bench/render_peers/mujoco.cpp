@@ -24,15 +24,15 @@
 
 namespace {
 
-constexpr int fps = 60, steps_per_frame = 4;   // the step of the scenes: 1/240 s
+constexpr int fps = 60, steps_per_frame = 4;  // the step of the scenes: 1/240 s
 
 struct Arguments {
     int count[3];
-    double spacing, size, height;   // m: of the grid, of a box, of the lowest layer
+    double spacing, size, height;  // m: of the grid, of a box, of the lowest layer
     int width, height_pixels, frames;
     std::string clip, poses;
-    double eye[3], target[3];       // m, y up as in the scenes
-    double orbit;                   // degrees/s
+    double eye[3], target[3];  // m, y up as in the scenes
+    double orbit;              // degrees/s
 };
 
 /// y up becomes z up: (x, y, z) to (x, -z, y).
@@ -50,14 +50,17 @@ std::string model_of(const Arguments& a) {
     const int boxes = a.count[0] * a.count[1] * a.count[2];
     const int contacts = a.poses.empty() ? boxes : 1;
     std::ostringstream xml;
-    xml << "<mujoco><option timestep='" << 1.0 / (fps * steps_per_frame) << "' cone='elliptic'/><size nconmax='" << 10 * contacts
-        << "' njmax='" << 30 * contacts << "' nstack='" << 100000 * boxes << "'/><visual><global offwidth='" << a.width << "' offheight='"
-        << a.height_pixels << "'/><quality shadowsize='2048' offsamples='4'/></visual><asset>"
-        << "<texture name='grid' type='2d' builtin='checker' width='512' height='512' rgb1='0.7 0.7 0.7' rgb2='0.6 0.6 0.6'/>"
+    xml << "<mujoco><option timestep='" << 1.0 / (fps * steps_per_frame) << "' cone='elliptic'/><size nconmax='"
+        << 10 * contacts << "' njmax='" << 30 * contacts << "' nstack='" << 100000 * boxes
+        << "'/><visual><global offwidth='" << a.width << "' offheight='" << a.height_pixels
+        << "'/><quality shadowsize='2048' offsamples='4'/></visual><asset>"
+        << "<texture name='grid' type='2d' builtin='checker' width='512' height='512' rgb1='0.7 0.7 0.7' rgb2='0.6 0.6 "
+           "0.6'/>"
         << "<material name='grid' texture='grid' texrepeat='1 1' texuniform='true'/></asset><worldbody>"
         << "<light directional='true' castshadow='true' pos='-6 6 14' dir='0.4 -0.3 -1'/>"
         << "<geom type='plane' size='40 40 1' material='grid' friction='0.7'/>";
-    const char* colors[] = {"0.78 0.52 0.24", "0.85 0.63 0.36", "0.18 0.5 0.53", "0.89 0.76 0.44", "0.71 0.32 0.23", "0.3 0.42 0.56"};
+    const char* colors[] = {"0.78 0.52 0.24", "0.85 0.63 0.36", "0.18 0.5 0.53",
+                            "0.89 0.76 0.44", "0.71 0.32 0.23", "0.3 0.42 0.56"};
     for (int i = 0; i < boxes; ++i) {
         const int x = i % a.count[0], y = i / a.count[0] % a.count[1], z = i / (a.count[0] * a.count[1]);
         const auto place = [&](int k, int n) { return (k - 0.5 * (n - 1)) * a.spacing + 0.1 * part(random); };
@@ -65,8 +68,7 @@ std::string model_of(const Arguments& a) {
         const double half = 0.5 * a.size * (0.975 + 0.125 * part(random));
         xml << "<body pos='" << text(at) << "' euler='" << 60.0 * part(random) << ' ' << 60.0 * part(random)
             << " 0'><freejoint/><geom type='box' size='" << text({half, half, half}) << "' density='400' friction='0.6'"
-            << (a.poses.empty() ? "" : " contype='0' conaffinity='0'") << " rgba='"
-            << colors[i % 6] << " 1'/></body>";
+            << (a.poses.empty() ? "" : " contype='0' conaffinity='0'") << " rgba='" << colors[i % 6] << " 1'/></body>";
     }
     xml << "</worldbody></mujoco>";
     return xml.str();
@@ -103,7 +105,7 @@ mjvCamera camera_of(const Arguments& a, mjModel& model) {
 }
 
 void run(const Arguments& a) {
-    std::vector<unsigned char> unused(std::size_t(800) * 800 * 4);   // the default framebuffer of the sample
+    std::vector<unsigned char> unused(std::size_t(800) * 800 * 4);  // the default framebuffer of the sample
     OSMesaContext osmesa = OSMesaCreateContextExt(GL_RGBA, 24, 8, 8, nullptr);
     if (!osmesa || !OSMesaMakeCurrent(osmesa, unused.data(), GL_UNSIGNED_BYTE, 800, 800))
         throw std::runtime_error("no OSMesa context");
@@ -122,7 +124,7 @@ void run(const Arguments& a) {
     mjvCamera camera = camera_of(a, *model);
     const double azimuth = camera.azimuth;
 
-    const char* encoder = std::getenv("BENCH_ENCODER");   // Tumble's, from scripts/bench-render
+    const char* encoder = std::getenv("BENCH_ENCODER");  // Tumble's, from scripts/bench-render
     if (!encoder) throw std::runtime_error("BENCH_ENCODER must hold ffmpeg's codec arguments");
     std::ostringstream command;
     command << "ffmpeg -v error -y -f rawvideo -pix_fmt rgb24 -video_size " << a.width << 'x' << a.height_pixels
@@ -132,7 +134,7 @@ void run(const Arguments& a) {
     const mjrRect view{0, 0, a.width, a.height_pixels};
     const std::size_t pixels = std::size_t(a.width) * std::size_t(a.height_pixels);
     std::vector<unsigned char> rgb(3 * pixels);
-    std::vector<float> depth(pixels);   // the sample reads it as well
+    std::vector<float> depth(pixels);  // the sample reads it as well
     std::FILE* poses = a.poses.empty() ? nullptr : std::fopen(a.poses.c_str(), "rb");
     if (!a.poses.empty() && !poses) throw std::runtime_error("no poses");
     for (int n = 0; n < a.frames; ++n) {
@@ -146,7 +148,7 @@ void run(const Arguments& a) {
         } else {
             for (int i = 0; i < steps_per_frame; ++i) mj_step(model, data);
         }
-        camera.azimuth = azimuth + a.orbit * n / fps;   // azimuth of the view direction, which rotates as the eye does
+        camera.azimuth = azimuth + a.orbit * n / fps;  // azimuth of the view direction, which rotates as the eye does
         mjv_updateScene(model, data, &option, nullptr, &camera, mjCAT_ALL, &scene);
         mjr_render(view, &scene, &context);
         mjr_readPixels(rgb.data(), depth.data(), view, &context);

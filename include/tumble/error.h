@@ -9,16 +9,16 @@
 TUMBLE_BEGIN
 
 enum class ErrorKind {
-    input,   // a scene, a file or an argument is wrong; nothing has been written
-    run,     // the environment (a full disk, no ffmpeg, no OpenGL) or the numbers (a state that is not finite) failed
+    input,  // a scene, a file or an argument is wrong; nothing has been written
+    run,    // the environment (a full disk, no ffmpeg, no OpenGL) or the numbers (a state that is not finite) failed
 };
 
 /// A place in the input. Lines and columns count from 1; 0 means unknown.
 struct ErrorLocation {
-    std::string file;      // empty where the error is not in a file
+    std::string file;  // empty where the error is not in a file
     int line = 0;
     int column = 0;
-    std::string element;   // of a SceneSpec ("bodies[2].shape.radius") or of LoadOptions ("fps"); else empty
+    std::string element;  // of a SceneSpec ("bodies[2].shape.radius") or of LoadOptions ("fps"); else empty
 };
 
 /// what() reads "FILE:LINE:COLUMN: error: MESSAGE", "ELEMENT: error: MESSAGE" or "error: MESSAGE".
@@ -31,7 +31,7 @@ public:
 
     ErrorKind kind() const { return kind_; }
     const ErrorLocation& where() const { return where_; }
-    const std::string& message() const { return message_; }   // without the place
+    const std::string& message() const { return message_; }  // without the place
 
 private:
     ErrorKind kind_;

@@ -11,8 +11,8 @@ TUMBLE_BEGIN
 
 /// RGBA, 8 bits per channel, sRGB, top row first, rows without padding.
 struct Image {
-    int width = 0, height = 0;          // pixels
-    std::vector<std::uint8_t> pixels;   // width * height * 4
+    int width = 0, height = 0;         // pixels
+    std::vector<std::uint8_t> pixels;  // width * height * 4
 
     /// The four bytes of a pixel; column and row count from 0, the row from the top.
     const std::uint8_t* at(int column, int row) const {

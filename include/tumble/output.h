@@ -20,9 +20,9 @@ Image read_png(const std::string& file);
 /// Whether two images are the same for the eye, by the default rules of `tumble compare`.
 struct Comparison {
     bool alike = false;
-    std::string reason;                     // the rules that do not hold, with figures; empty where alike
-    std::int64_t differing_pixels = 0;      // any difference
-    int max_difference = 0;                 // levels of 255
+    std::string reason;                 // the rules that do not hold, with figures; empty where alike
+    std::int64_t differing_pixels = 0;  // any difference
+    int max_difference = 0;             // levels of 255
 };
 /// Throws Error (input) where the sizes differ.
 Comparison compare_images(const Image& a, const Image& b);
@@ -31,7 +31,7 @@ enum class ClipQuality { draft, normal, best };
 
 struct ClipOptions {
     ClipQuality quality = ClipQuality::normal;
-    bool variable_rate = false;   // true: an image that stays is stored once and shown longer
+    bool variable_rate = false;  // true: an image that stays is stored once and shown longer
 };
 
 /// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the format:
@@ -77,7 +77,7 @@ public:
     EnergyTable(EnergyTable&&) noexcept;
     EnergyTable& operator=(EnergyTable&&) noexcept;
 
-    void add(std::int64_t frame, double time, const Energies& energies);   // s
+    void add(std::int64_t frame, double time, const Energies& energies);  // s
     void finish();
 
 private:

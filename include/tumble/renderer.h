@@ -14,7 +14,7 @@ enum class Backend { osmesa, egl };
 
 struct RenderOptions {
     Backend backend = Backend::osmesa;
-    std::string shader_folder;   // empty: $TUMBLE_SHADERS, else the installed one
+    std::string shader_folder;  // empty: $TUMBLE_SHADERS, else the installed one
 };
 
 /// One OpenGL context and one image. Draws in the calling process; used from the thread that made it. Several renderers

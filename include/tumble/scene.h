@@ -15,19 +15,19 @@ TUMBLE_BEGIN
 
 /// Values that replace those of a scene file, like the options of the command line. Each is checked like the file's own.
 struct LoadOptions {
-    std::optional<double> duration;       // s
-    std::optional<double> fps;            // frames per second
-    std::optional<double> step;           // s; not together with steps_per_frame
+    std::optional<double> duration;  // s
+    std::optional<double> fps;       // frames per second
+    std::optional<double> step;      // s; not together with steps_per_frame
     std::optional<int> steps_per_frame;
-    std::optional<int> width, height;     // pixels
-    std::optional<int> samples;           // 1, 2 or 4
+    std::optional<int> width, height;  // pixels
+    std::optional<int> samples;        // 1, 2 or 4
     std::optional<Integrator> integrator;
     std::optional<ImpactMode> impacts;
     std::optional<ImpactLaw> impact_law;
-    bool allow_import_process = false;    // for mesh files other than OBJ, STL, PLY and glTF: see below
+    bool allow_import_process = false;  // for mesh files other than OBJ, STL, PLY and glTF: see below
 };
 
-struct SceneData;   // of the library
+struct SceneData;  // of the library
 
 /// Immutable; copies share their data.
 class Scene {
@@ -37,15 +37,15 @@ public:
 
     const std::string& title() const;
     const OutputSettings& output() const;
-    double duration() const;              // s
-    double step() const;                  // s, the fixed step
+    double duration() const;  // s
+    double step() const;      // s, the fixed step
     int steps_per_frame() const;
     /// Frame n shows the time n / fps; the last one is at or before the duration.
     std::int64_t frame_count() const;
 
     /// Bodies in the order of the file, grids and scatters expanded.
     std::size_t body_count() const;
-    const std::string& body_name(std::size_t body) const;   // given, or the index
+    const std::string& body_name(std::size_t body) const;  // given, or the index
     BodyType body_type(std::size_t body) const;
     std::optional<std::size_t> find_body(const std::string& name) const;
 

@@ -9,27 +9,27 @@
 TUMBLE_BEGIN
 
 struct BodyState {
-    Vec3 origin;             // m, of the body's own origin: where its shape is drawn
-    Vec3 center_of_mass;     // m
-    Quat orientation;        // unit
-    Vec3 velocity;           // m/s, of the center of mass
-    Vec3 angular_velocity;   // rad/s
+    Vec3 origin;            // m, of the body's own origin: where its shape is drawn
+    Vec3 center_of_mass;    // m
+    Quat orientation;       // unit
+    Vec3 velocity;          // m/s, of the center of mass
+    Vec3 angular_velocity;  // rad/s
 };
 
 struct Snapshot {
-    std::int64_t frame = 0;          // the last frame at or before the time
-    double time = 0.0;               // s
-    std::vector<BodyState> bodies;   // in scene order, fixed ones included
+    std::int64_t frame = 0;         // the last frame at or before the time
+    double time = 0.0;              // s
+    std::vector<BodyState> bodies;  // in scene order, fixed ones included
 };
 
 /// Over all dynamic bodies.
 struct Energies {
-    double kinetic = 0.0;            // J
-    double potential = 0.0;          // J, -sum m g.x
-    Vec3 momentum;                   // kg m/s
-    Vec3 angular_momentum;           // kg m^2/s, about the world origin
-    int contacts = 0;                // touching contact points
-    double max_penetration = 0.0;    // m, deepest overlap
+    double kinetic = 0.0;          // J
+    double potential = 0.0;        // J, -sum m g.x
+    Vec3 momentum;                 // kg m/s
+    Vec3 angular_momentum;         // kg m^2/s, about the world origin
+    int contacts = 0;              // touching contact points
+    double max_penetration = 0.0;  // m, deepest overlap
 };
 
 TUMBLE_END

@@ -25,71 +25,71 @@ enum class Pattern { plain, grid, checker };
 enum class Interpolation { smooth, linear };
 
 struct SimulationSettings {
-    double duration = 5.0;            // s
-    int steps_per_frame = 16;         // the fixed step is 1 / (fps * steps_per_frame) s
-    std::optional<double> step;       // s, in place of steps_per_frame; divides 1 / fps to within 1e-9 s
-    Vec3 gravity{0.0, -9.81, 0.0};    // m/s^2
+    double duration = 5.0;          // s
+    int steps_per_frame = 16;       // the fixed step is 1 / (fps * steps_per_frame) s
+    std::optional<double> step;     // s, in place of steps_per_frame; divides 1 / fps to within 1e-9 s
+    Vec3 gravity{0.0, -9.81, 0.0};  // m/s^2
     Integrator integrator = Integrator::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;
     ImpactLaw impact_law = ImpactLaw::propagating;
     ContactSolver contact_solver = ContactSolver::by_island;
     RotationForm rotation = RotationForm::quaternion;
-    bool sleep = true;                // islands at rest are not simulated until something touches them
-    std::uint64_t seed = 1;           // below 2^63
+    bool sleep = true;       // islands at rest are not simulated until something touches them
+    std::uint64_t seed = 1;  // below 2^63
 };
 
 struct OutputSettings {
-    int width = 1280, height = 720;   // pixels
-    double fps = 60.0;                // frames per second
-    int samples = 4;                  // per pixel: 1, 2 or 4
+    int width = 1280, height = 720;  // pixels
+    double fps = 60.0;               // frames per second
+    int samples = 4;                 // per pixel: 1, 2 or 4
 };
 
 struct CameraKeyframe {
-    double time = 0.0;                    // s, later than the keyframe before
-    std::optional<Vec3> eye, target;      // m; the camera's where not given
-    std::optional<double> vertical_fov;   // degrees; the camera's where not given
+    double time = 0.0;                   // s, later than the keyframe before
+    std::optional<Vec3> eye, target;     // m; the camera's where not given
+    std::optional<double> vertical_fov;  // degrees; the camera's where not given
 };
 
 struct Camera {
-    std::optional<Vec3> eye, target;      // m; chosen to show all bodies where not given
+    std::optional<Vec3> eye, target;  // m; chosen to show all bodies where not given
     Vec3 up{0.0, 1.0, 0.0};
-    double vertical_fov = 40.0;           // degrees
+    double vertical_fov = 40.0;  // degrees
     std::vector<CameraKeyframe> keyframes;
-    Interpolation interpolation = Interpolation::smooth;   // between keyframes
-    double orbit = 0.0;                   // degrees/s about the target
-    std::string follow;                   // the name of a body; empty: none
+    Interpolation interpolation = Interpolation::smooth;  // between keyframes
+    double orbit = 0.0;                                   // degrees/s about the target
+    std::string follow;                                   // the name of a body; empty: none
 };
 
 struct Light {
-    Vec3 direction{-0.4, -1.0, -0.3};     // in which the light travels; its length is ignored
+    Vec3 direction{-0.4, -1.0, -0.3};  // in which the light travels; its length is ignored
     bool shadows = true;
 };
 
 struct Wind {
-    Vec3 velocity;                        // m/s
-    double density = 1.2;                 // kg/m^3
-    double drag = 1.0;                    // drag coefficient
+    Vec3 velocity;         // m/s
+    double density = 1.2;  // kg/m^3
+    double drag = 1.0;     // drag coefficient
 };
 
 /// A half-space: the points p with normal . p <= offset. Not for dynamic bodies.
 struct Plane {
-    Vec3 normal{0.0, 1.0, 0.0};           // body frame; its length is ignored
-    double offset = 0.0;                  // m
+    Vec3 normal{0.0, 1.0, 0.0};  // body frame; its length is ignored
+    double offset = 0.0;         // m
 };
 
 struct Box {
-    Vec3 size{1.0, 1.0, 1.0};             // m, full edge lengths
+    Vec3 size{1.0, 1.0, 1.0};  // m, full edge lengths
 };
 
 struct Sphere {
-    double radius = 0.5;                  // m
+    double radius = 0.5;  // m
 };
 
 /// The triangle mesh of a file.
 struct Mesh {
-    std::string file;                     // relative to SceneSpec::folder
+    std::string file;  // relative to SceneSpec::folder
     double scale = 1.0;
-    bool objects_are_parts = false;       // each object of the file is a part with a convex hull of its own
+    bool objects_are_parts = false;  // each object of the file is a part with a convex hull of its own
 };
 
 struct CompoundPart;
@@ -102,63 +102,63 @@ struct Compound {
 using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound>;
 
 struct CompoundPart {
-    Shape shape;                          // not a plane
-    Vec3 position;                        // m, of the part's origin, body frame
-    Rotation rotation;                    // body frame
-    std::optional<double> density;        // kg/m^3; the body's where not given
-    std::optional<Color> color;           // the body's where not given
+    Shape shape;                    // not a plane
+    Vec3 position;                  // m, of the part's origin, body frame
+    Rotation rotation;              // body frame
+    std::optional<double> density;  // kg/m^3; the body's where not given
+    std::optional<Color> color;     // the body's where not given
 };
 
 /// Physical and visual properties. A field that is not given has the default of the scene format.
 struct Material {
     std::optional<Color> color;
-    std::optional<double> density;        // kg/m^3
-    std::optional<double> restitution;    // 0 to 1; a pair uses the larger of the two
-    std::optional<double> friction;       // Coulomb's coefficient; a pair uses sqrt(a b)
-    std::optional<double> roughness;      // 0: mirror, 1: matte
-    std::optional<double> metallic;       // 0 to 1
+    std::optional<double> density;      // kg/m^3
+    std::optional<double> restitution;  // 0 to 1; a pair uses the larger of the two
+    std::optional<double> friction;     // Coulomb's coefficient; a pair uses sqrt(a b)
+    std::optional<double> roughness;    // 0: mirror, 1: matte
+    std::optional<double> metallic;     // 0 to 1
     std::optional<Pattern> pattern;
 };
 
 /// A pose of a kinematic body's origin.
 struct Keyframe {
-    double time = 0.0;                    // s, later than the keyframe before
-    Vec3 position;                        // m
+    double time = 0.0;  // s, later than the keyframe before
+    Vec3 position;      // m
     Rotation rotation;
 };
 
 struct Body {
-    std::string name;                     // unique; the index as text where empty
+    std::string name;  // unique; the index as text where empty
     BodyType type = BodyType::dynamic;
     Shape shape;
     Material material;
-    std::optional<double> mass;           // kg, in place of the density; dynamic bodies
+    std::optional<double> mass;  // kg, in place of the density; dynamic bodies
     bool visible = true;
-    Vec3 position;                        // m, of the body's origin
+    Vec3 position;  // m, of the body's origin
     Rotation rotation;
-    Vec3 velocity;                        // m/s, of the center of mass, at time 0; dynamic bodies
-    Vec3 angular_velocity;                // rad/s, world frame, at time 0; dynamic bodies
-    std::optional<Integrator> integrator; // in place of the simulation's
-    std::vector<Keyframe> keyframes;      // kinematic bodies
-    Interpolation interpolation = Interpolation::smooth;   // between keyframes
+    Vec3 velocity;                                        // m/s, of the center of mass, at time 0; dynamic bodies
+    Vec3 angular_velocity;                                // rad/s, world frame, at time 0; dynamic bodies
+    std::optional<Integrator> integrator;                 // in place of the simulation's
+    std::vector<Keyframe> keyframes;                      // kinematic bodies
+    Interpolation interpolation = Interpolation::smooth;  // between keyframes
 };
 
 /// A force at a point of a dynamic body over a time span.
 struct Force {
-    std::string body;                     // its name, or its index as text
-    Vec3 point;                           // m, body frame, from the body's origin
-    Vec3 force;                           // N
-    bool body_frame = false;              // the force turns with the body; else it is in the world frame
-    double start = 0.0;                   // s
-    double end = std::numeric_limits<double>::infinity();   // s
+    std::string body;         // its name, or its index as text
+    Vec3 point;               // m, body frame, from the body's origin
+    Vec3 force;               // N
+    bool body_frame = false;  // the force turns with the body; else it is in the world frame
+    double start = 0.0;       // s
+    double end = std::numeric_limits<double>::infinity();  // s
 };
 
 /// A cosmetic rope from a fixed point to a point of a body.
 struct Cord {
-    std::string body;                     // its name, or its index as text
-    Vec3 point;                           // m, body frame, from the body's origin
-    Vec3 anchor;                          // m
-    double radius = 0.01;                 // m
+    std::string body;      // its name, or its index as text
+    Vec3 point;            // m, body frame, from the body's origin
+    Vec3 anchor;           // m
+    double radius = 0.01;  // m
     Color color{0x3c, 0x3c, 0x3c};
 };
 
@@ -168,12 +168,12 @@ struct SceneSpec {
     OutputSettings output;
     Camera camera;
     Light light;
-    std::optional<Wind> wind;             // not given: no air
+    std::optional<Wind> wind;  // not given: no air
     std::vector<Body> bodies;
     std::vector<Force> forces;
     std::vector<Cord> cords;
-    std::string folder;                   // where relative mesh files start; empty: the current folder
-    bool allow_import_process = false;    // for mesh files other than OBJ, STL, PLY and glTF: see load_scene()
+    std::string folder;                 // where relative mesh files start; empty: the current folder
+    bool allow_import_process = false;  // for mesh files other than OBJ, STL, PLY and glTF: see load_scene()
 
     /// Appends a body. The reference is valid until the next call.
     Body& add(Shape shape, BodyType type = BodyType::dynamic) {

@@ -10,9 +10,9 @@
 TUMBLE_BEGIN
 
 struct BodyProperties {
-    double mass = 0.0;       // kg; infinity for fixed and kinematic bodies
-    Vec3 inertia;            // kg m^2, principal moments about the center of mass, ascending
-    Vec3 center_of_mass;     // m, body frame, from the body's origin
+    double mass = 0.0;    // kg; infinity for fixed and kinematic bodies
+    Vec3 inertia;         // kg m^2, principal moments about the center of mass, ascending
+    Vec3 center_of_mass;  // m, body frame, from the body's origin
 };
 
 /// One simulation, at time 0 when made. Not for several threads at once; several worlds are independent of each other.

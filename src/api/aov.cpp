@@ -27,10 +27,11 @@ struct AovRenderer::State {
 
     AovFrame render(const AovPoses& poses) {
         const tumble::AovFrame& made = renderer.make(poses);
-        return {made.camera.width, made.camera.height, made.depth, made.normal, made.segmentation, made.motion, made.albedo};
+        return {made.camera.width, made.camera.height, made.depth, made.normal,
+                made.segmentation, made.motion,        made.albedo};
     }
 
-    Scene scene;   // the renderer reads its data
+    Scene scene;  // the renderer reads its data
     bool motion;
     tumble::AovRenderer renderer;
 };

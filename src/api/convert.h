@@ -24,15 +24,16 @@ inline Snapshot to_public(const tumble::Snapshot& from) {
     Snapshot to{from.frame, from.time, {}};
     to.bodies.reserve(from.bodies.size());
     for (const tumble::BodyState& b : from.bodies)
-        to.bodies.push_back({to_public(b.origin), to_public(b.center_of_mass), to_public(b.orientation), to_public(b.velocity),
-                             to_public(b.angular_velocity)});
+        to.bodies.push_back({to_public(b.origin), to_public(b.center_of_mass), to_public(b.orientation),
+                             to_public(b.velocity), to_public(b.angular_velocity)});
     return to;
 }
 
 /// Throws InputError where the snapshot is not of a scene with that many bodies.
 inline tumble::Snapshot to_internal(const Snapshot& from, std::size_t bodies) {
     if (from.bodies.size() != bodies)
-        throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})", bodies, from.bodies.size()));
+        throw InputError(
+            fmt::format("the snapshot must hold each body of the scene: {} (given {})", bodies, from.bodies.size()));
     tumble::Snapshot to{from.frame, from.time, {}};
     to.bodies.reserve(bodies);
     for (const BodyState& b : from.bodies)

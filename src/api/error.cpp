@@ -18,8 +18,11 @@ std::string located(const ErrorLocation& where, const std::string& message) {
 }  // namespace
 
 Error::Error(ErrorKind kind, ErrorLocation where, std::string message)
-    : std::runtime_error(located(where, message)), kind_(kind), where_(std::move(where)), message_(std::move(message)) {}
+    : std::runtime_error(located(where, message)),
+      kind_(kind),
+      where_(std::move(where)),
+      message_(std::move(message)) {}
 
-Error::~Error() = default;   // here, so that the type has one home for all programs
+Error::~Error() = default;  // here, so that the type has one home for all programs
 
 }  // namespace tumble::v0

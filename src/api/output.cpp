@@ -25,7 +25,8 @@ tumble::ClipOptions to_internal(const ClipOptions& options) {
 
 void check_settings(const OutputSettings& output) {
     if (output.width < 1 || output.height < 1)
-        throw InputError(fmt::format("a clip needs a size of at least 1 x 1 pixels (given {} x {})", output.width, output.height));
+        throw InputError(
+            fmt::format("a clip needs a size of at least 1 x 1 pixels (given {} x {})", output.width, output.height));
     if (!(output.fps > 0.0)) throw InputError(fmt::format("a clip needs a frame rate above 0 (given {})", output.fps));
 }
 
@@ -52,13 +53,11 @@ Comparison compare_images(const Image& a, const Image& b) {
 
 struct ClipWriter::State {
     State(const std::string& file, const OutputSettings& output, const ClipOptions& options)
-        : width(output.width),
-          height(output.height),
-          writer(file, width, height, output.fps, to_internal(options)) {}
+        : width(output.width), height(output.height), writer(file, width, height, output.fps, to_internal(options)) {}
 
     int width, height;
     std::int64_t frames = 0;
-    tumble::Image last;   // converted once, however often it comes
+    tumble::Image last;  // converted once, however often it comes
     VideoWriter writer;
 };
 
@@ -76,8 +75,8 @@ void ClipWriter::write(const Image& image) {
     guarded([&] {
         State& s = *state_;
         if (image.width != s.width || image.height != s.height)
-            throw InputError(fmt::format("a frame must have the size of the clip, {} x {} pixels (given {} x {})", s.width, s.height,
-                                         image.width, image.height));
+            throw InputError(fmt::format("a frame must have the size of the clip, {} x {} pixels (given {} x {})",
+                                         s.width, s.height, image.width, image.height));
         if (s.frames++ > 0 && image.pixels == s.last.pixels) return s.writer.repeat();
         s.last = v0::to_internal(image);
         s.writer.write(s.last);
@@ -113,8 +112,8 @@ void TrajectoryTable::add(const Snapshot& snapshot) {
         const Scene& scene = state_->scene;
         TableWriter& table = state_->table;
         if (snapshot.bodies.size() != scene.body_count())
-            throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})", scene.body_count(),
-                                         snapshot.bodies.size()));
+            throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})",
+                                         scene.body_count(), snapshot.bodies.size()));
         for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
             if (scene.body_type(i) == BodyType::fixed) continue;
             const BodyState& body = snapshot.bodies[i];

@@ -23,10 +23,10 @@ struct Renderer::State {
     State(const Scene& drawn, const RenderOptions& options)
         : scene(drawn), filter(scene.data().description), renderer(scene.data().description, to_internal(options)) {}
 
-    Scene scene;   // the renderer reads its data
+    Scene scene;  // the renderer reads its data
     PoseFilter filter;
     tumble::Renderer renderer;
-    Image image;   // as last drawn; empty after an error, so that the next one is drawn whole
+    Image image;  // as last drawn; empty after an error, so that the next one is drawn whole
 };
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options) {

@@ -60,7 +60,7 @@ Error option_error(const LoadOptions& options, const std::string& message) {
 
 std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     FileList files;
-    const fs::path file = fs::path(spec.folder) / "scene";   // the folder counts; no such file is opened
+    const fs::path file = fs::path(spec.folder) / "scene";  // the folder counts; no such file is opened
     try {
         SceneDescription description = parse_scene(spec_text(spec), file, {}, &files, imports_of(spec));
         files.erase(files.begin());

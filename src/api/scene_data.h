@@ -11,9 +11,9 @@ namespace tumble::v0 {
 
 struct SceneData {
     SceneDescription description;
-    FileList files;                                       // that were read
+    FileList files;  // that were read
     OutputSettings output;
-    std::unordered_map<std::string, std::size_t> names;   // of bodies; only looked up
+    std::unordered_map<std::string, std::size_t> names;  // of bodies; only looked up
 };
 
 /// The description as a Scene.

@@ -17,7 +17,9 @@ std::string choice(Enum value, const char* type, const std::array<const char*, n
     return names[i];
 }
 
-std::string name_of(ContactSolver solver) { return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"}); }
+std::string name_of(ContactSolver solver) {
+    return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"});
+}
 std::string name_of(RotationForm form) { return choice(form, "RotationForm", std::array{"quaternion", "matrix"}); }
 std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
 std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
@@ -26,9 +28,12 @@ std::string name_of(Interpolation form) { return choice(form, "Interpolation", s
 std::string text_of(const std::string& text) {
     std::string quoted = "\"";
     for (const char c : text) {
-        if (c == '"' || c == '\\') (quoted += '\\') += c;
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else quoted += c;
+        if (c == '"' || c == '\\')
+            (quoted += '\\') += c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            quoted += c;
     }
     return quoted + "\"";
 }
@@ -89,7 +94,9 @@ private:
         line(fmt::format("{} = {}", key, content), prefix_, field);
     }
     template <class T>
-    void set(std::string_view key, const T& content) { value(key, key, text_of(content)); }
+    void set(std::string_view key, const T& content) {
+        value(key, key, text_of(content));
+    }
     template <class T>
     void set(std::string_view key, const std::optional<T>& content) {
         if (content) set(key, *content);
@@ -99,8 +106,10 @@ private:
     void write(const SimulationSettings& s) {
         header("[simulation]", "simulation");
         set("duration", s.duration);
-        if (s.step) set("step", *s.step);
-        else value("steps_per_frame", "steps_per_frame", std::to_string(s.steps_per_frame));
+        if (s.step)
+            set("step", *s.step);
+        else
+            value("steps_per_frame", "steps_per_frame", std::to_string(s.steps_per_frame));
         set("gravity", s.gravity);
         name("integrator", v0::name_of(s.integrator));
         name("impacts", v0::name_of(s.impacts));
@@ -113,7 +122,7 @@ private:
 
     void write(const OutputSettings& o) {
         header("[output]", "output");
-        line("size = [", prefix_, "width");   // a line for each, so that an error names the right one
+        line("size = [", prefix_, "width");  // a line for each, so that an error names the right one
         line(fmt::format("    {},", o.width), prefix_, "width");
         line(fmt::format("    {},", o.height), prefix_, "height");
         line("]", prefix_, "height");
@@ -127,7 +136,8 @@ private:
         set("target", c.target);
         set("up", c.up);
         set("vertical_fov", c.vertical_fov);
-        if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth) name("interpolation", name_of(c.interpolation));
+        if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth)
+            name("interpolation", name_of(c.interpolation));
         set("orbit", c.orbit);
         if (!c.follow.empty()) set("follow", c.follow);
         for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
@@ -148,7 +158,8 @@ private:
 
     // A table of its own, because a body may have the mass in place of its material's density.
     bool write(const Material& m, std::size_t body) {
-        if (!m.color && !m.density && !m.restitution && !m.friction && !m.roughness && !m.metallic && !m.pattern) return false;
+        if (!m.color && !m.density && !m.restitution && !m.friction && !m.roughness && !m.metallic && !m.pattern)
+            return false;
         header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
         set("color", m.color);
         set("density", m.density);
@@ -235,7 +246,7 @@ private:
         set("force", f.force);
         if (f.body_frame) value("frame", "body_frame", "\"body\"");
         set("start", f.start);
-        if (f.end != std::numeric_limits<double>::infinity()) set("end", f.end);   // a file leaves it out
+        if (f.end != std::numeric_limits<double>::infinity()) set("end", f.end);  // a file leaves it out
     }
 
     void write(const Cord& c, std::size_t i) {
@@ -254,7 +265,8 @@ private:
 }  // namespace
 
 std::string name_of(Integrator integrator) {
-    return choice(integrator, "Integrator", std::array{"explicit-euler", "symplectic-euler", "splitting", "rk4", "exact"});
+    return choice(integrator, "Integrator",
+                  std::array{"explicit-euler", "symplectic-euler", "splitting", "rk4", "exact"});
 }
 std::string name_of(ImpactMode mode) { return choice(mode, "ImpactMode", std::array{"stepped", "exact"}); }
 std::string name_of(ImpactLaw law) { return choice(law, "ImpactLaw", std::array{"propagating", "simultaneous"}); }

@@ -11,7 +11,7 @@
 namespace tumble::v0 {
 namespace {
 
-constexpr int most_threads = 1024;   // beyond any machine; an absurd number is an argument that is wrong
+constexpr int most_threads = 1024;  // beyond any machine; an absurd number is an argument that is wrong
 
 }  // namespace
 
@@ -47,7 +47,8 @@ Snapshot World::snapshot() const {
 Energies World::energies() const {
     return guarded([&] {
         const Measurement m = state_->world.measure();
-        return Energies{m.kinetic, m.potential, to_public(m.momentum), to_public(m.angular_momentum), m.contacts, m.max_penetration};
+        return Energies{m.kinetic,  m.potential,      to_public(m.momentum), to_public(m.angular_momentum),
+                        m.contacts, m.max_penetration};
     });
 }
 

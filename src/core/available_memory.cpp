@@ -55,7 +55,8 @@ std::uint64_t machine(const MemoryFiles& files) {
 struct GroupFiles {
     const char *limit, *used, *inactive, *active;
 };
-constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file", "total_active_file"};
+constexpr GroupFiles version_1{"memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file",
+                               "total_active_file"};
 constexpr GroupFiles version_2{"memory.max", "memory.current", "inactive_file", "active_file"};
 
 /// Memory left by a group's limit. Cached pages of files count as used there, but are freed when memory is needed.
@@ -70,7 +71,7 @@ std::uint64_t left_in_group(const fs::path& folder, const GroupFiles& names) {
 std::uint64_t groups(const MemoryFiles& files) {
     std::uint64_t least = unbounded;
     std::ifstream text(files.proc / "self" / "cgroup");
-    for (std::string line; std::getline(text, line);) {   // NUMBER:CONTROLLERS:PATH
+    for (std::string line; std::getline(text, line);) {  // NUMBER:CONTROLLERS:PATH
         const std::size_t first = line.find(':'), second = line.find(':', first + 1);
         if (second == std::string::npos) continue;
         const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
@@ -119,10 +120,11 @@ std::string memory_text(std::uint64_t bytes) {
     return amount < 1000.0 ? fmt::format("{:.3g} MiB", amount) : fmt::format("{:.3g} GiB", amount / 1024.0);
 }
 
-void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what, std::string_view remedy) {
+void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what,
+                    std::string_view remedy) {
     if (bytes > available.bytes)
-        throw RunError(fmt::format("{} takes {} of memory, and {} has {} left; {}", what, memory_text(bytes), available.bound,
-                                   memory_text(available.bytes), remedy));
+        throw RunError(fmt::format("{} takes {} of memory, and {} has {} left; {}", what, memory_text(bytes),
+                                   available.bound, memory_text(available.bytes), remedy));
 }
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy) {

@@ -11,7 +11,7 @@ namespace tumble {
 
 struct AvailableMemory {
     std::uint64_t bytes = 0;
-    std::string_view bound;   // name of the bound: "the machine", ...
+    std::string_view bound;  // name of the bound: "the machine", ...
 };
 
 /// Files with the system's values; tests have folders of their own.
@@ -32,7 +32,8 @@ std::string memory_text(std::uint64_t bytes);
 
 /// Throws RunError if `bytes` exceed the available memory: "WHAT takes 7.9 GiB of memory, and the machine has 3.1 GiB
 /// left; REMEDY".
-void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what, std::string_view remedy);
+void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::string_view what,
+                    std::string_view remedy);
 
 /// The same with the available memory of this process.
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy);

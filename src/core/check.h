@@ -13,14 +13,13 @@ namespace tumble {
 
 }  // namespace tumble
 
-#define TUMBLE_CHECK_OP(a, op, b)                                                               \
-    do {                                                                                        \
-        const auto& check_left = (a);                                                           \
-        const auto& check_right = (b);                                                          \
-        if (!(check_left op check_right))                                                       \
-            ::tumble::contract_broken(__FILE__, __LINE__,                                       \
-                                      fmt::format("{} {} {} (with {} and {})", #a, #op, #b,     \
-                                                  check_left, check_right));                    \
+#define TUMBLE_CHECK_OP(a, op, b)                                                                                      \
+    do {                                                                                                               \
+        const auto& check_left = (a);                                                                                  \
+        const auto& check_right = (b);                                                                                 \
+        if (!(check_left op check_right))                                                                              \
+            ::tumble::contract_broken(__FILE__, __LINE__,                                                              \
+                                      fmt::format("{} {} {} (with {} and {})", #a, #op, #b, check_left, check_right)); \
     } while (false)
 
 #define TUMBLE_CHECK_EQ(a, b) TUMBLE_CHECK_OP(a, ==, b)

@@ -36,7 +36,7 @@ double cos_series(double x, double low) {
     const double odd =
         -1.0 / 720.0 + w * (-1.0 / 3628800.0 + w * (-1.0 / 87178291200.0 + w * (-1.0 / 6402373705728000.0)));
     const double half = 0.5 * z, head = 1.0 - half;
-    return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));   // adds the rounding error of head
+    return head + (((1.0 - head) - half) + (w * (even + z * odd) - x * low));  // adds the rounding error of head
 }
 
 // Taylor series to x^17 on |x| <= 1/8: the remainder is below 1e-17 of x.
@@ -63,11 +63,11 @@ constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 SinCos sincos(double x) {
     if (std::fabs(x) <= 0.25 * pi) return {sin_series(x, 0.0), cos_series(x, 0.0)};
     if (!(std::fabs(x) <= 1.6e9)) {
-        x = std::remainder(x, 2.0 * pi);   // 2 pi has a relative error of 4e-17, less than the rounding of x
+        x = std::remainder(x, 2.0 * pi);  // 2 pi has a relative error of 4e-17, less than the rounding of x
         if (!std::isfinite(x)) return {x, x};
     }
     const double k = nearest_whole(x * (2.0 / pi));
-    const double rest = (x - k * half_pi_1) - k * half_pi_2;   // exact
+    const double rest = (x - k * half_pi_1) - k * half_pi_2;  // exact
     const double third = k * half_pi_3, head = rest - third;
     const double tail = ((rest - head) - third) - k * half_pi_4;
     const double r = head + tail, low = (head - r) + tail;
@@ -93,7 +93,7 @@ double arc_tangent(double x) {
         const TwoParts& at = quarters_angle[k];
         angle = (right_angle.high - at.high) + ((right_angle.low - at.low) - atan_series((1.0 - c * t) / (t + c)));
     } else {
-        angle = t > 0.0 ? right_angle.high : t;   // or NaN
+        angle = t > 0.0 ? right_angle.high : t;  // or NaN
     }
     return x < 0.0 ? -angle : angle;
 }
@@ -107,7 +107,7 @@ double atan2_stable(double y, double x) {
 }
 
 double exponential(double x) {
-    constexpr double ln2_1 = 0x1.62e42feep-1, ln2_2 = 0x1.a39ef35793c76p-33;   // k * ln2_1 is exact for |k| < 2^21
+    constexpr double ln2_1 = 0x1.62e42feep-1, ln2_2 = 0x1.a39ef35793c76p-33;  // k * ln2_1 is exact for |k| < 2^21
     if (!(std::fabs(x) < 800.0)) return x < 0.0 ? 0.0 : x > 0.0 ? HUGE_VAL : x;
     const double k = nearest_whole(x * (1.0 / (ln2_1 + ln2_2)));
     const double high = x - k * ln2_1, low = k * ln2_2, r = high - low;

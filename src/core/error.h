@@ -23,7 +23,7 @@ public:
     InputError(const SourceLocation& where, const std::string& message);
 
     const SourceLocation& where() const { return where_; }
-    const std::string& message() const { return message_; }   // without the place
+    const std::string& message() const { return message_; }  // without the place
 
 private:
     SourceLocation where_;
@@ -36,7 +36,7 @@ class RunError : public std::runtime_error {
 public:
     explicit RunError(const std::string& message);
 
-    const std::string& message() const { return message_; }   // without "error: "
+    const std::string& message() const { return message_; }  // without "error: "
 
 private:
     std::string message_;

@@ -11,12 +11,14 @@ namespace tumble {
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> pixels;   // width * height * 4
+    std::vector<std::uint8_t> pixels;  // width * height * 4
 
     Image() = default;
     Image(int w, int h) : width(w), height(h), pixels(std::size_t(w) * std::size_t(h) * 4) {}
 
-    std::uint8_t* at(int x, int y) { return pixels.data() + 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x)); }
+    std::uint8_t* at(int x, int y) {
+        return pixels.data() + 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
+    }
     const std::uint8_t* at(int x, int y) const {
         return pixels.data() + 4 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
     }

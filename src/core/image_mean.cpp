@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr double white = 65535.0;   // scale of linear light: the darkest two sRGB values are still 20 apart
+constexpr double white = 65535.0;  // scale of linear light: the darkest two sRGB values are still 20 apart
 
 }  // namespace
 

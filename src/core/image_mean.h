@@ -20,9 +20,9 @@ public:
     void take(Image& mean);
 
 private:
-    std::array<std::uint16_t, 256> linear_;   // linear value of each sRGB value; 65535 is white
-    std::vector<std::uint8_t> srgb_;          // nearest sRGB value of each linear value
-    std::vector<std::uint32_t> sums_;         // R, G, B of each pixel
+    std::array<std::uint16_t, 256> linear_;  // linear value of each sRGB value; 65535 is white
+    std::vector<std::uint8_t> srgb_;         // nearest sRGB value of each linear value
+    std::vector<std::uint32_t> sums_;        // R, G, B of each pixel
     int width_ = 0, height_ = 0;
     std::uint32_t count_ = 0;
 };

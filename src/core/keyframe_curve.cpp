@@ -12,7 +12,8 @@ KeyframeCurve::KeyframeCurve(std::vector<double> times, std::vector<Eigen::Vecto
     for (const Eigen::VectorXd& value : values_) slopes_.push_back(Eigen::VectorXd::Zero(value.size()));
     for (std::size_t i = 1; i + 1 < times_.size(); ++i) {
         const double before = times_[i] - times_[i - 1], after = times_[i + 1] - times_[i];
-        slopes_[i] = smooth_slope<Eigen::VectorXd>((values_[i] - values_[i - 1]) / before, (values_[i + 1] - values_[i]) / after, before, after);
+        slopes_[i] = smooth_slope<Eigen::VectorXd>((values_[i] - values_[i - 1]) / before,
+                                                   (values_[i + 1] - values_[i]) / after, before, after);
     }
 }
 

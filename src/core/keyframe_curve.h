@@ -16,9 +16,9 @@ public:
     Eigen::VectorXd at(double time) const;
 
 private:
-    std::vector<double> times_;             // s
+    std::vector<double> times_;  // s
     std::vector<Eigen::VectorXd> values_;
-    std::vector<Eigen::VectorXd> slopes_;   // at the keys, 1/s
+    std::vector<Eigen::VectorXd> slopes_;  // at the keys, 1/s
     bool smooth_;
 };
 

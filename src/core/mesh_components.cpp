@@ -8,7 +8,7 @@ namespace {
 
 struct Neighbour {
     std::uint32_t triangle = MeshComponents::none;
-    bool alike = false;   // true if both use the edge in opposite directions, as consistently wound triangles do
+    bool alike = false;  // true if both use the edge in opposite directions, as consistently wound triangles do
 };
 
 /// Neighbors over each edge of each triangle.
@@ -72,8 +72,10 @@ MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& tria
             }
         }
         for (const std::uint32_t t : members) {
-            if (two_sided) result.sheet[t] = first;
-            else result.turned[t] = 0;
+            if (two_sided)
+                result.sheet[t] = first;
+            else
+                result.turned[t] = 0;
         }
     }
     return result;

@@ -26,7 +26,7 @@ Character first_character(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};   // a smaller code would be an overlong form
+    constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // a smaller code would be an overlong form
     const bool surrogate = code >= 0xd800 && code <= 0xdfff;
     if (code < least[bytes] || code > 0x10ffff || surrogate) return {};
     return {code, bytes};
@@ -39,22 +39,32 @@ bool is_unsafe(char32_t code) {
         char32_t first, last;
     };
     constexpr Span unsafe[] = {
-        {0x00, 0x1f},       {0x7f, 0x9f},        // C0, delete, C1
-        {0xad, 0xad},       {0x180e, 0x180e},    // soft hyphen, Mongolian vowel separator
-        {0x61c, 0x61c},     {0x200e, 0x200f},    // marks of the reading direction
-        {0x200b, 0x200b},   {0xfeff, 0xfeff},    // spaces without a width
-        {0x2028, 0x202e},   {0x2060, 0x206f},    // separators of lines, embeddings, overrides, isolates, invisible operators
-        {0xfff9, 0xfffb},   {0xe0000, 0xe007f},  // annotations, tags
+        {0x00, 0x1f},
+        {0x7f, 0x9f},  // C0, delete, C1
+        {0xad, 0xad},
+        {0x180e, 0x180e},  // soft hyphen, Mongolian vowel separator
+        {0x61c, 0x61c},
+        {0x200e, 0x200f},  // marks of the reading direction
+        {0x200b, 0x200b},
+        {0xfeff, 0xfeff},  // spaces without a width
+        {0x2028, 0x202e},
+        {0x2060, 0x206f},  // separators of lines, embeddings, overrides, isolates, invisible operators
+        {0xfff9, 0xfffb},
+        {0xe0000, 0xe007f},  // annotations, tags
     };
     return std::any_of(std::begin(unsafe), std::end(unsafe), [&](Span s) { return code >= s.first && code <= s.last; });
 }
 
 std::string escaped(char32_t code) {
     switch (code) {
-        case '\n': return "\\n";
-        case '\r': return "\\r";
-        case '\t': return "\\t";
-        default: break;
+        case '\n':
+            return "\\n";
+        case '\r':
+            return "\\r";
+        case '\t':
+            return "\\t";
+        default:
+            break;
     }
     const auto number = static_cast<unsigned>(code);
     if (code < 0x80) return fmt::format("\\x{:02x}", number);
@@ -63,15 +73,19 @@ std::string escaped(char32_t code) {
 
 std::string made_safe(std::string_view text, std::size_t longest, bool lines) {
     std::string safe;
-    std::size_t room_for_end = 0;   // bytes of `safe` that fit together with the note about the cut
+    std::size_t room_for_end = 0;  // bytes of `safe` that fit together with the note about the cut
     const std::string end = fmt::format("... ({} bytes)", text.size());
     for (std::string_view rest = text; !rest.empty();) {
         const Character next = first_character(rest);
         const std::size_t taken = std::max<std::size_t>(next.bytes, 1);
-        if (next.bytes == 0) safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(rest[0]));
-        else if (lines && (next.code == '\n' || next.code == '\t')) safe += rest[0];
-        else if (is_unsafe(next.code)) safe += escaped(next.code);
-        else safe += rest.substr(0, taken);
+        if (next.bytes == 0)
+            safe += fmt::format("\\x{:02x}", static_cast<unsigned char>(rest[0]));
+        else if (lines && (next.code == '\n' || next.code == '\t'))
+            safe += rest[0];
+        else if (is_unsafe(next.code))
+            safe += escaped(next.code);
+        else
+            safe += rest.substr(0, taken);
         if (safe.size() > longest) return safe.substr(0, room_for_end) + end;
         if (safe.size() + end.size() <= longest) room_for_end = safe.size();
         rest.remove_prefix(taken);

@@ -14,8 +14,8 @@ Bounds TriangleMesh::bounds() const {
 Closedness closedness(const TriangleMesh& mesh) {
     Closedness result;
     struct Use {
-        std::uint32_t low, high;   // the edge's vertices
-        bool upward;               // used from low to high
+        std::uint32_t low, high;  // the edge's vertices
+        bool upward;              // used from low to high
         bool operator<(const Use& other) const { return std::tie(low, high) < std::tie(other.low, other.high); }
     };
     std::vector<Use> uses;
@@ -33,8 +33,10 @@ Closedness closedness(const TriangleMesh& mesh) {
     for (auto edge = uses.begin(); edge != uses.end();) {
         const auto end = std::upper_bound(edge, uses.end(), *edge);
         const auto upward = std::count_if(edge, end, [](const Use& use) { return use.upward; });
-        if (end - edge == 1) ++result.open_edges;
-        else if (end - edge != 2 || upward != 1) ++result.crowded_edges;
+        if (end - edge == 1)
+            ++result.open_edges;
+        else if (end - edge != 2 || upward != 1)
+            ++result.crowded_edges;
         edge = end;
     }
     return result;

@@ -20,9 +20,9 @@ struct TriangleMesh {
 
 /// Properties of the edges.
 struct Closedness {
-    std::size_t open_edges = 0;          // used by one triangle only
-    std::size_t crowded_edges = 0;       // used by more than two triangles, or twice in the same direction
-    double signed_volume = 0.0;          // m^3; negative if the faces are oriented inward
+    std::size_t open_edges = 0;     // used by one triangle only
+    std::size_t crowded_edges = 0;  // used by more than two triangles, or twice in the same direction
+    double signed_volume = 0.0;     // m^3; negative if the faces are oriented inward
     bool closed() const { return open_edges == 0 && crowded_edges == 0; }
 };
 

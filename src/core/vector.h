@@ -13,7 +13,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-using Quat = Eigen::Quaterniond;   // w first in its constructor and in the files
+using Quat = Eigen::Quaterniond;  // w first in its constructor and in the files
 
 /// An axis-aligned bounding box (AABB). Empty (min > max) until a point is added.
 struct Bounds {
@@ -23,8 +23,14 @@ struct Bounds {
     bool empty() const { return (min.array() > max.array()).any(); }
     Vec3 center() const { return 0.5 * (min + max); }
     Vec3 extent() const { return max - min; }
-    void add(const Vec3& p) { min = min.cwiseMin(p); max = max.cwiseMax(p); }
-    void add(const Bounds& b) { min = min.cwiseMin(b.min); max = max.cwiseMax(b.max); }
+    void add(const Vec3& p) {
+        min = min.cwiseMin(p);
+        max = max.cwiseMax(p);
+    }
+    void add(const Bounds& b) {
+        min = min.cwiseMin(b.min);
+        max = max.cwiseMax(b.max);
+    }
     bool overlaps(const Bounds& b) const {
         return (min.array() <= b.max.array()).all() && (b.min.array() <= max.array()).all();
     }

@@ -44,7 +44,8 @@ public:
 
     std::uint8_t at(std::uint64_t place) {
         if (place < window_at_ || place >= window_at_ + filled_) {
-            const ssize_t n = place < size_ ? ::pread(file_, window_.data(), window_.size(), static_cast<off_t>(place)) : 0;
+            const ssize_t n =
+                place < size_ ? ::pread(file_, window_.data(), window_.size(), static_cast<off_t>(place)) : 0;
             if (n <= 0) throw Fault{"the file ends too early"};
             window_at_ = place;
             filled_ = static_cast<std::uint64_t>(n);
@@ -93,9 +94,12 @@ private:
             }
             if (place == 0 && type != "ftyp") throw Fault{"it is of another kind"};
             if (size < head || size > end - place) throw Fault{"the file ends too early"};
-            if (type == "ftyp") type_ = true;
-            else if (type == "mdat") data_ = true;
-            else if (type == "stsz") samples_ += static_cast<std::int64_t>(file_.number(place + head + 8, 4));
+            if (type == "ftyp")
+                type_ = true;
+            else if (type == "mdat")
+                data_ = true;
+            else if (type == "stsz")
+                samples_ += static_cast<std::int64_t>(file_.number(place + head + 8, 4));
             else if (type == "moov" || type == "trak" || type == "mdia" || type == "minf" || type == "stbl")
                 walk(place + head, place + size);
             place += size;
@@ -113,15 +117,21 @@ public:
     ElementReader(FileBytes& file, std::string_view kind) : file_(file), kind_(kind) {}
 
     std::int64_t frames() {
-        enum : std::uint64_t { ebml = 0x1a45dfa3, doc_type = 0x4282, segment = 0x18538067, cluster = 0x1f43b675,
-                               block_group = 0xa0, simple_block = 0xa3 };
+        enum : std::uint64_t {
+            ebml = 0x1a45dfa3,
+            doc_type = 0x4282,
+            segment = 0x18538067,
+            cluster = 0x1f43b675,
+            block_group = 0xa0,
+            simple_block = 0xa3
+        };
         if (file_.number(0, 4) != ebml) throw Fault{"it is of another kind"};
         std::int64_t blocks = 0;
         std::string kind;
         while (place_ < file_.size()) {
             const std::uint64_t element = variable_number(true), size = variable_number(false);
             if (element == block_group || element == simple_block) ++blocks;
-            if (element == ebml || element == segment || element == cluster) continue;   // its content comes next
+            if (element == ebml || element == segment || element == cluster) continue;  // its content comes next
             if (size > file_.size() - place_) throw Fault{"the file ends too early"};
             if (element == doc_type) kind = file_.text(place_, std::min<std::uint64_t>(size, 16));
             place_ += size;
@@ -157,11 +167,12 @@ public:
     std::int64_t frames() {
         constexpr int extension = 0x21, image = 0x2c, trailer = 0x3b;
         if (file_.text(0, 6) != "GIF89a") throw Fault{"it is of another kind"};
-        place_ = 6 + 4;   // after the size of the screen
+        place_ = 6 + 4;  // after the size of the screen
         skip_colors(2);
         for (std::int64_t images = 0;;) {
             switch (file_.at(place_++)) {
-                case trailer: return images;
+                case trailer:
+                    return images;
                 case extension:
                     ++place_;
                     break;
@@ -171,7 +182,8 @@ public:
                     skip_colors(0);
                     ++place_;
                     break;
-                default: throw Fault{"it is broken"};
+                default:
+                    throw Fault{"it is broken"};
             }
             while (const std::uint8_t block = file_.at(place_++)) place_ += block;
         }

@@ -15,7 +15,8 @@ Arguments x264(const std::string& preset, const Arguments& rate, bool two_way, c
     // frame with a longer duration.
     if (!two_way) arguments.insert(arguments.end(), {"-bf", "0"});
     // The bytes depend on the number of threads, so it is fixed; two keep up with eight render processes.
-    arguments.insert(arguments.end(), {"-threads", "2", "-pix_fmt", "yuv420p", "-x264-params", parameters + instruction_set()});
+    arguments.insert(arguments.end(),
+                     {"-threads", "2", "-pix_fmt", "yuv420p", "-x264-params", parameters + instruction_set()});
     return arguments;
 }
 
@@ -25,7 +26,8 @@ Arguments h264(const ClipOptions& options) {
         // Only the features that the codec needs, without a search for the distribution of bits: one quantizer for all
         // frames but the first of each group, no lookahead, no weights for fades, no search for cuts.
         case VideoQuality::draft:
-            return x264("veryfast", {"-qp", "22"}, false, "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8");
+            return x264("veryfast", {"-qp", "22"}, false,
+                        "rc-lookahead=0:scenecut=0:weightp=0:ipratio=3.4:partitions=p8x8");
         // A still background costs few bits at any quality, and a lookahead of 40 frames detects it. The first frame of
         // each two seconds gets a much higher quality (ipratio). Small residuals are coded instead of dropped (no-dct-
         // decimate), because they are the specks. Colors get an offset because a level of chroma is two levels of red
@@ -44,13 +46,17 @@ Arguments h264(const ClipOptions& options) {
 Arguments vp9(VideoQuality quality) {
     Arguments arguments = {"-c:v", "libvpx-vp9"};
     switch (quality) {
-        case VideoQuality::draft: arguments.insert(arguments.end(), {"-deadline", "realtime", "-cpu-used", "8", "-crf", "30"}); break;
+        case VideoQuality::draft:
+            arguments.insert(arguments.end(), {"-deadline", "realtime", "-cpu-used", "8", "-crf", "30"});
+            break;
         // A key frame every 60 frames: the real-time mode leaves specks in still areas until the next one (of 720p, 46
         // -> 9 pixels).
         case VideoQuality::normal:
             arguments.insert(arguments.end(), {"-deadline", "realtime", "-cpu-used", "6", "-crf", "16", "-g", "60"});
             break;
-        case VideoQuality::best: arguments.insert(arguments.end(), {"-deadline", "good", "-cpu-used", "5", "-crf", "8"}); break;
+        case VideoQuality::best:
+            arguments.insert(arguments.end(), {"-deadline", "good", "-cpu-used", "5", "-crf", "8"});
+            break;
     }
     arguments.insert(arguments.end(), {"-b:v", "0", "-row-mt", "1", "-threads", "4", "-pix_fmt", "yuv420p"});
     return arguments;
@@ -60,9 +66,12 @@ Arguments vp9(VideoQuality quality) {
 
 Arguments codec_arguments(VideoKind kind, const ClipOptions& options) {
     switch (kind) {
-        case VideoKind::h264: return h264(options);
-        case VideoKind::vp9: return vp9(options.quality);
-        case VideoKind::gif: return {"-c:v", "libx264rgb", "-preset", "ultrafast", "-qp", "0", "-threads", "4"};
+        case VideoKind::h264:
+            return h264(options);
+        case VideoKind::vp9:
+            return vp9(options.quality);
+        case VideoKind::gif:
+            return {"-c:v", "libx264rgb", "-preset", "ultrafast", "-qp", "0", "-threads", "4"};
     }
     return {};
 }

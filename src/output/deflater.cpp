@@ -51,7 +51,8 @@ void Deflater::make_code(std::initializer_list<std::span<const std::byte>> parts
     TUMBLE_CHECK_EQ(result, 0);
 }
 
-std::size_t Deflater::compress(std::initializer_list<std::span<const std::byte>> parts, End end, std::span<std::byte> room) {
+std::size_t Deflater::compress(std::initializer_list<std::span<const std::byte>> parts, End end,
+                               std::span<std::byte> room) {
     isal_zstream& stream = stream_->stream;
     isal_deflate_init(&stream);
     stream.level = compression_level;

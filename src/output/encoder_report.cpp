@@ -28,7 +28,7 @@ std::vector<std::string> EncoderReport::arguments() const {
 
 // Lines "key=value" for each half second, the last of them "progress=end". The last block counts.
 std::optional<std::string> EncoderReport::fault(std::int64_t frames) const {
-    std::array<char, 4096> last;   // bytes: a block has about 300
+    std::array<char, 4096> last;  // bytes: a block has about 300
     const off_t size = ::lseek(file_, 0, SEEK_END), at = std::max<off_t>(size - off_t(last.size()), 0);
     const ssize_t n = size > 0 ? ::pread(file_, last.data(), last.size(), at) : 0;
     const std::string_view text(last.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));

@@ -16,7 +16,8 @@ Lock lock_file(int file) {
 }
 
 bool is_still_at(int file, const std::filesystem::path& path) {
-    struct stat open {}, named {};
+    struct stat open {
+    }, named{};
     return ::fstat(file, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
            open.st_ino == named.st_ino;
 }

@@ -7,8 +7,8 @@ namespace tumble {
 
 enum class Lock {
     taken,
-    held,      // by another process, or by another open description of the file in this one
-    unknown,   // the file system has no locks
+    held,     // by another process, or by another open description of the file in this one
+    unknown,  // the file system has no locks
 };
 
 /// Locks an open file description, without waiting; the lock ends when the last copy of the descriptor is closed. It is

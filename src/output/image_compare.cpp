@@ -15,7 +15,7 @@ namespace {
 constexpr int window = 8;           // pixels: about the smallest visible object
 constexpr int stride = window / 2;  // windows overlap by half, so that no small change is split over four of them
 // Two adjacent outliers occur in noise; a small box moved by one pixel gives more than four.
-constexpr int cluster_limit = 4;    // failing pixels in a window
+constexpr int cluster_limit = 4;  // failing pixels in a window
 
 /// The largest difference over the four channels of a pixel.
 int pixel_difference(const std::uint8_t* a, const std::uint8_t* b) {
@@ -52,16 +52,19 @@ std::array<CompareRule, 3> rules(const Comparison& c, std::size_t pixels, const 
 std::string sentence(const CompareRule& rule, const Comparison& c, const CompareOptions& options) {
     const std::string_view name = rule.name;
     if (name == "pixels")
-        return fmt::format("rule pixels: {:.0f} pixels differ by more than {} levels (at most {:.0f} may, a fraction of {:.4g}; "
-                           "see --tolerance, --fraction); the most by {}, at x {}, y {}",
-                           rule.figure, options.tolerance, rule.limit, options.fraction, c.max_difference, rule.x, rule.y);
+        return fmt::format(
+            "rule pixels: {:.0f} pixels differ by more than {} levels (at most {:.0f} may, a fraction of {:.4g}; "
+            "see --tolerance, --fraction); the most by {}, at x {}, y {}",
+            rule.figure, options.tolerance, rule.limit, options.fraction, c.max_difference, rule.x, rule.y);
     if (name == "cluster")
-        return fmt::format("rule cluster: {:.0f} pixels of the 8 x 8 from x {}, y {} on differ by more than {} levels "
-                           "(at most {:.0f} may; see --cluster)",
-                           rule.figure, rule.x, rule.y, options.tolerance, rule.limit);
-    return fmt::format("rule window: the 8 x 8 pixels from x {}, y {} on differ by {:.4g} levels on average "
-                       "(at most {:.4g} may; see --window)",
-                       rule.x, rule.y, rule.figure, rule.limit);
+        return fmt::format(
+            "rule cluster: {:.0f} pixels of the 8 x 8 from x {}, y {} on differ by more than {} levels "
+            "(at most {:.0f} may; see --cluster)",
+            rule.figure, rule.x, rule.y, options.tolerance, rule.limit);
+    return fmt::format(
+        "rule window: the 8 x 8 pixels from x {}, y {} on differ by {:.4g} levels on average "
+        "(at most {:.4g} may; see --window)",
+        rule.x, rule.y, rule.figure, rule.limit);
 }
 
 }  // namespace
@@ -160,11 +163,12 @@ Comparison compare_images(const Image& a, const Image& b, const CompareOptions& 
     return comparer.result();
 }
 
-void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance, std::span<std::uint8_t> to) {
+void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance,
+                    std::span<std::uint8_t> to) {
     for (std::size_t i = 0; i < to.size(); i += 4) {
         const int d = pixel_difference(&a[i], &b[i]);
         const int grey = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
-        const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);   // the smallest difference is visible
+        const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);  // the smallest difference is visible
         to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : grey);
         to[i + 1] = static_cast<std::uint8_t>(grey);
         to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : grey);

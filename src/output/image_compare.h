@@ -38,24 +38,24 @@ struct CompareOptions {
 /// equal ones the first from the top, then from the left).
 struct CompareRule {
     const char* name = "";
-    double figure = 0.0, limit = 0.0;   // pixels for `pixels` and `cluster`, levels for `window`
+    double figure = 0.0, limit = 0.0;  // pixels for `pixels` and `cluster`, levels for `window`
     int x = 0, y = 0;
     bool holds() const { return figure <= limit; }
 };
 
 struct Comparison {
     bool alike = false;
-    std::array<CompareRule, 3> rules;  // pixels, cluster, window
-    std::string reason;                // a sentence for each failed rule, one per line
-    std::size_t differing_pixels = 0;  // with any difference
-    std::size_t failing_pixels = 0;    // beyond the tolerance
-    double failing_fraction = 0.0;     // of all pixels
-    int max_difference = 0;            // levels, largest over pixels and channels
-    int max_x = 0, max_y = 0;          // its place
-    double worst_window = 0.0;         // levels, largest mean difference in an 8 x 8 window
-    int worst_window_x = 0, worst_window_y = 0;     // its top left pixel
-    int worst_cluster = 0;             // failing pixels, most in an 8 x 8 window
-    int worst_cluster_x = 0, worst_cluster_y = 0;   // its top left pixel
+    std::array<CompareRule, 3> rules;              // pixels, cluster, window
+    std::string reason;                            // a sentence for each failed rule, one per line
+    std::size_t differing_pixels = 0;              // with any difference
+    std::size_t failing_pixels = 0;                // beyond the tolerance
+    double failing_fraction = 0.0;                 // of all pixels
+    int max_difference = 0;                        // levels, largest over pixels and channels
+    int max_x = 0, max_y = 0;                      // its place
+    double worst_window = 0.0;                     // levels, largest mean difference in an 8 x 8 window
+    int worst_window_x = 0, worst_window_y = 0;    // its top left pixel
+    int worst_cluster = 0;                         // failing pixels, most in an 8 x 8 window
+    int worst_cluster_x = 0, worst_cluster_y = 0;  // its top left pixel
 };
 
 /// Compares two pictures of one size from top to bottom, with the differences of the last eight rows in memory.
@@ -75,11 +75,11 @@ private:
 
     int width_, height_;
     CompareOptions options_;
-    int row_ = 0;                             // index of the next row
-    std::vector<int> lefts_;                  // starts of windows
-    std::vector<std::uint8_t> differences_;   // levels, of the last eight rows, as a ring
-    std::vector<int> sums_, failing_;         // over the columns of a row of windows: levels, pixels beyond the tolerance
-    int last_difference_ = -1;                // row
+    int row_ = 0;                            // index of the next row
+    std::vector<int> lefts_;                 // starts of windows
+    std::vector<std::uint8_t> differences_;  // levels, of the last eight rows, as a ring
+    std::vector<int> sums_, failing_;  // over the columns of a row of windows: levels, pixels beyond the tolerance
+    int last_difference_ = -1;         // row
     Comparison found_;
 };
 
@@ -88,7 +88,8 @@ Comparison compare_images(const Image& a, const Image& b, const CompareOptions& 
 
 /// A row of the first picture dimmed to gray, with differences in red (beyond the tolerance) and blue (within it,
 /// magnified).
-void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance, std::span<std::uint8_t> to);
+void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance,
+                    std::span<std::uint8_t> to);
 
 /// The same for pictures in memory.
 Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});

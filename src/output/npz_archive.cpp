@@ -13,10 +13,10 @@
 namespace tumble {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);   // the byte order in the arrays' types
+static_assert(std::endian::native == std::endian::little);  // the byte order in the arrays' types
 
-constexpr std::size_t npy_alignment = 64;        // bytes: the values of an .npy file start at a multiple of it
-constexpr std::size_t most_of_names = 1024;      // bytes of all headers of one array: below 300
+constexpr std::size_t npy_alignment = 64;    // bytes: the values of an .npy file start at a multiple of it
+constexpr std::size_t most_of_names = 1024;  // bytes of all headers of one array: below 300
 constexpr std::uint16_t deflated = 8, version = 20;
 constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, the first date of the zip format
 
@@ -25,7 +25,7 @@ std::string npy_head(const std::string& kind, const ArrayShape& shape) {
     std::string dimensions;
     for (const std::size_t length : shape) dimensions += fmt::format("{}, ", length);
     std::string words = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", kind, dimensions);
-    const std::size_t before = 10;   // magic, version and length
+    const std::size_t before = 10;  // magic, version and length
     while ((before + words.size() + 1) % npy_alignment != 0) words += ' ';
     words += '\n';
     std::string head = "\x93NUMPY";
@@ -101,13 +101,25 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
     member.size = static_cast<std::uint32_t>(head.size() + values.size());
     member.checksum = checksum_of(checksum_of(0, head), values);
     const std::size_t local = 30 + member.name.size();
-    used_ += local;   // written below, when the compressed size is known
+    used_ += local;  // written below, when the compressed size is known
     member.packed = compress(head, values);
     const std::size_t end = used_ + member.packed;
     used_ = member.offset;
-    copy_to(file_, used_, LittleEndianBytes().u32(0x04034b50).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
-                              .u32(member.checksum).u32(member.packed).u32(member.size).u16(member.name.size()).u16(0)
-                              .text(member.name).all());
+    copy_to(file_, used_,
+            LittleEndianBytes()
+                .u32(0x04034b50)
+                .u16(version)
+                .u16(0)
+                .u16(deflated)
+                .u16(0)
+                .u16(first_day)
+                .u32(member.checksum)
+                .u32(member.packed)
+                .u32(member.size)
+                .u16(member.name.size())
+                .u16(0)
+                .text(member.name)
+                .all());
     used_ = end;
     members_.push_back(std::move(member));
 }
@@ -115,12 +127,39 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
 std::span<const std::byte> NpzArchive::finish() {
     const std::size_t directory = used_;
     for (const Member& m : members_)
-        copy_to(file_, used_, LittleEndianBytes().u32(0x02014b50).u16(version).u16(version).u16(0).u16(deflated).u16(0).u16(first_day)
-                                  .u32(m.checksum).u32(m.packed).u32(m.size).u16(m.name.size()).u16(0).u16(0).u16(0).u16(0)
-                                  .u32(0).u32(m.offset).text(m.name).all());
+        copy_to(file_, used_,
+                LittleEndianBytes()
+                    .u32(0x02014b50)
+                    .u16(version)
+                    .u16(version)
+                    .u16(0)
+                    .u16(deflated)
+                    .u16(0)
+                    .u16(first_day)
+                    .u32(m.checksum)
+                    .u32(m.packed)
+                    .u32(m.size)
+                    .u16(m.name.size())
+                    .u16(0)
+                    .u16(0)
+                    .u16(0)
+                    .u16(0)
+                    .u32(0)
+                    .u32(m.offset)
+                    .text(m.name)
+                    .all());
     const std::size_t size = used_ - directory;
-    copy_to(file_, used_, LittleEndianBytes().u32(0x06054b50).u16(0).u16(0).u16(members_.size()).u16(members_.size()).u32(size)
-                              .u32(directory).u16(0).all());
+    copy_to(file_, used_,
+            LittleEndianBytes()
+                .u32(0x06054b50)
+                .u16(0)
+                .u16(0)
+                .u16(members_.size())
+                .u16(members_.size())
+                .u32(size)
+                .u32(directory)
+                .u16(0)
+                .all());
     const std::size_t all = std::exchange(used_, 0);
     members_.clear();
     return std::span<const std::byte>(file_).first(all);

@@ -42,7 +42,7 @@ private:
 
     Deflater deflater_;
     std::vector<std::byte> file_;
-    std::size_t used_ = 0;    // written bytes of file_
+    std::size_t used_ = 0;  // written bytes of file_
     std::vector<Member> members_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;   // Linux's own limit
+constexpr int most_links = 40;  // Linux's own limit
 
 std::optional<int> whole_number(const std::string& text) {
     int number = 0;
@@ -41,7 +41,7 @@ bool lists_our_descriptors(const fs::path& folder) {
 
 /// The descriptor that a name stands for directly.
 std::optional<int> descriptor_named(const fs::path& name) {
-    if (name == "/dev/stdout") return STDOUT_FILENO;   // also without /proc, which the link leads to
+    if (name == "/dev/stdout") return STDOUT_FILENO;  // also without /proc, which the link leads to
     if (name == "/dev/stderr") return STDERR_FILENO;
     const auto number = whole_number(name.filename().string());
     return number && lists_our_descriptors(folder_of(name)) ? number : std::nullopt;
@@ -75,7 +75,7 @@ OutputTarget output_target(const fs::path& name) {
             return target;
         }
         const fs::path next = fs::read_symlink(target.path, error);
-        if (error) return target;   // opening it will give the same error
+        if (error) return target;  // opening it will give the same error
         target.path = next.is_absolute() ? next : target.path.parent_path() / next;
     }
     throw InputError(fmt::format("cannot write '{}': its links form a loop", safe_path(name)));

@@ -7,9 +7,9 @@
 namespace tumble {
 
 struct OutputTarget {
-    std::filesystem::path path;      // the name to replace or to make, after following links
-    std::optional<int> descriptor;   // of this process, if the name stands for one: /dev/stdout, /dev/fd/N
-    bool in_place = false;           // a descriptor, a device or a pipe: written to directly, never replaced
+    std::filesystem::path path;     // the name to replace or to make, after following links
+    std::optional<int> descriptor;  // of this process, if the name stands for one: /dev/stdout, /dev/fd/N
+    bool in_place = false;          // a descriptor, a device or a pipe: written to directly, never replaced
 };
 
 /// Throws InputError if links form a loop.

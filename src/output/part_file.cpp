@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view mark = ".tumble.part-";
-constexpr std::size_t digits = 8;   // of the hexadecimal number behind it
+constexpr std::size_t digits = 8;  // of the hexadecimal number behind it
 
 fs::path folder_beside(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -32,7 +32,7 @@ std::string kept_of(std::string name) {
     const std::size_t room = NAME_MAX - 1 - mark.size() - digits;
     if (name.size() <= room) return name;
     std::size_t end = room;
-    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;   // UTF-8 characters stay complete
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // UTF-8 characters stay complete
     name.resize(end);
     return name;
 }
@@ -52,7 +52,8 @@ void remove_if_left(const fs::path& part) {
     const int file = ::open(part.c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
     if (file < 0) return;
     struct stat status {};
-    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && lock_file(file) == Lock::taken && is_still_at(file, part))
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && lock_file(file) == Lock::taken &&
+        is_still_at(file, part))
         ::unlink(part.c_str());
     ::close(file);
 }
@@ -74,7 +75,7 @@ PartFile::PartFile(const fs::path& final_path) : final_path_(final_path) {
 }
 
 PartFile::~PartFile() {
-    if (!moved_) ::unlink(path_.c_str());   // while it is locked
+    if (!moved_) ::unlink(path_.c_str());  // while it is locked
     if (file_ >= 0) ::close(file_);
 }
 
@@ -88,7 +89,8 @@ void PartFile::move_to_final_path() {
 }
 
 void PartFile::fail(int error) const {
-    throw RunError(fmt::format("cannot write '{}': {}", safe_path(final_path_), std::generic_category().message(error)));
+    throw RunError(
+        fmt::format("cannot write '{}': {}", safe_path(final_path_), std::generic_category().message(error)));
 }
 
 void remove_left_parts(const fs::path& final_path) {
@@ -97,7 +99,7 @@ void remove_left_parts(const fs::path& final_path) {
 }
 
 void remove_left_parts(const fs::path& folder, const std::function<bool(std::string_view)>& ours) {
-    std::error_code error;   // a folder that cannot be listed is ignored
+    std::error_code error;  // a folder that cannot be listed is ignored
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
         if (const auto final_name = final_name_in(name); final_name && ours(*final_name)) remove_if_left(entry->path());

@@ -65,8 +65,8 @@ struct PngRows::File {
     int width = 0, height = 0, passes = 1;
 
     File(OpenFile opened_file, const std::string& its_name) : file(std::move(opened_file)), name(its_name) {
-        png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, keep_error, ignore_warning, &failure, take_memory,
-                                       give_back_memory);
+        png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, keep_error, ignore_warning, &failure,
+                                       take_memory, give_back_memory);
         info = png != nullptr ? png_create_info_struct(png) : nullptr;
         if (info == nullptr) failure.out_of_memory = true;
     }
@@ -100,7 +100,7 @@ struct PngRows::File {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_expand(png);
         png_set_gray_to_rgb(png);
-        png_set_alpha_mode_fixed(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);   // default of the file, and value of the rows
+        png_set_alpha_mode_fixed(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);  // default of the file, and value of the rows
         png_set_scale_16(png);
         png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
         passes = png_set_interlace_handling(png);

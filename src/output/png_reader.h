@@ -14,7 +14,7 @@
 namespace tumble {
 
 struct PictureSize {
-    int width = 0, height = 0;   // pixels
+    int width = 0, height = 0;  // pixels
     friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
@@ -49,13 +49,13 @@ public:
     Image all();
 
 private:
-    struct File;   // state of libpng
+    struct File;  // state of libpng
     void read_interlaced();
 
     std::unique_ptr<File> file_;
-    Image whole_;                     // of an interlaced file
-    std::vector<std::uint8_t> row_;   // of another file
-    int next_ = 0;                    // row
+    Image whole_;                    // of an interlaced file
+    std::vector<std::uint8_t> row_;  // of another file
+    int next_ = 0;                   // row
 };
 
 /// Throws like PngRows.

@@ -26,12 +26,12 @@ namespace tumble {
 namespace {
 
 // Measured in deflater.cpp.
-constexpr std::uint8_t filter_sub = 1;   // first byte of each row: differences to the pixel before
+constexpr std::uint8_t filter_sub = 1;  // first byte of each row: differences to the pixel before
 constexpr int rows_of_band = 32;
 
-constexpr std::uint8_t zlib_head[] = {0x78, 0x01};         // RFC 1950: deflate with a window of 32 KB, a fast level
-constexpr std::uint8_t last_block[] = {0x03, 0x00};        // RFC 1951: an empty block that is the last
-constexpr std::size_t head_and_end = 1024;                 // bytes of all chunks but the pixels': below 200
+constexpr std::uint8_t zlib_head[] = {0x78, 0x01};   // RFC 1950: deflate with a window of 32 KB, a fast level
+constexpr std::uint8_t last_block[] = {0x03, 0x00};  // RFC 1951: an empty block that is the last
+constexpr std::size_t head_and_end = 1024;           // bytes of all chunks but the pixels': below 200
 
 std::size_t row_bytes(int width) { return 3 * std::size_t(width) + 1; }
 
@@ -94,7 +94,8 @@ void append_number(std::vector<std::byte>& to, std::uint32_t number) {
 }
 
 /// Appends a chunk with its checksum, ten times as fast as libpng.
-void append_chunk(std::vector<std::byte>& to, std::string_view name, std::span<const std::span<const std::uint8_t>> parts) {
+void append_chunk(std::vector<std::byte>& to, std::string_view name,
+                  std::span<const std::span<const std::uint8_t>> parts) {
     std::size_t size = 0;
     for (const auto& part : parts) size += part.size();
     append_number(to, static_cast<std::uint32_t>(size));
@@ -123,7 +124,8 @@ __attribute__((target("ssse3"))) int pack_fours(const std::uint8_t* from, int wi
     for (; x + 6 <= width; x += 4) {
         const __m128i here = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + 4 * x));
         const __m128i before = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from + 4 * x - 4));
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 3 * x), _mm_shuffle_epi8(_mm_sub_epi8(here, before), without_alpha));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to + 3 * x),
+                         _mm_shuffle_epi8(_mm_sub_epi8(here, before), without_alpha));
     }
     return x;
 }
@@ -174,7 +176,8 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
         const auto touches = [&](const Rectangle& r) { return r.y < first + rows && r.y + r.height > first; };
         if (all || std::ranges::any_of(changed, touches)) compress(image, first, bands_[i]);
         const std::size_t bytes = row_bytes(width_) * std::size_t(rows);
-        checksum = static_cast<std::uint32_t>(adler32_combine(checksum, bands_[i].checksum, static_cast<z_off_t>(bytes)));
+        checksum =
+            static_cast<std::uint32_t>(adler32_combine(checksum, bands_[i].checksum, static_cast<z_off_t>(bytes)));
         parts.emplace_back(bands_[i].compressed);
     }
     const std::array<std::uint8_t, 4> end = big_end_first(checksum);
@@ -196,7 +199,7 @@ void PngEncoder::make_head() {
     const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
     png_destroy_write_struct(&png, &info);
     if (done) return;
-    const int width = std::exchange(width_, 0);   // the next picture is a first one
+    const int width = std::exchange(width_, 0);  // the next picture is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);
 }
 
@@ -224,13 +227,14 @@ void PngRowWriter::add_row(std::span<const std::uint8_t> row) {
 void PngRowWriter::write_band() {
     const int rows = (rows_ - 1) % rows_of_band + 1;
     const bool first = rows_ == rows;
-    if (rows < band_.height) {   // the last band
+    if (rows < band_.height) {  // the last band
         band_.height = rows;
         band_.pixels.resize(4 * std::size_t(band_.width) * std::size_t(rows));
     }
     encoder_.compress(band_, 0, compressed_);
     const std::size_t bytes = row_bytes(band_.width) * std::size_t(rows);
-    checksum_ = static_cast<std::uint32_t>(adler32_combine(checksum_, compressed_.checksum, static_cast<z_off_t>(bytes)));
+    checksum_ =
+        static_cast<std::uint32_t>(adler32_combine(checksum_, compressed_.checksum, static_cast<z_off_t>(bytes)));
     std::vector<std::span<const std::uint8_t>> parts;
     if (first) parts.emplace_back(zlib_head);
     parts.emplace_back(compressed_.compressed);

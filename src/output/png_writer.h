@@ -29,13 +29,13 @@ private:
     friend class PngRowWriter;
     struct Band {
         std::vector<std::uint8_t> compressed;
-        std::uint32_t checksum = 0;   // Adler-32 of its rows
+        std::uint32_t checksum = 0;  // Adler-32 of its rows
     };
     void compress(const Image& image, int first_row, Band& band);
     void make_head();
 
     Deflater deflater_;
-    int width_ = 0, height_ = 0;      // of the previous picture
+    int width_ = 0, height_ = 0;  // of the previous picture
     std::vector<Band> bands_;
     std::vector<std::uint8_t> rows_;  // of one band, filtered
     std::vector<std::byte> head_, file_;
@@ -61,10 +61,10 @@ private:
 
     TemporaryFile file_;
     PngEncoder encoder_;
-    Image band_;                     // the current rows
+    Image band_;  // the current rows
     int height_;
-    int rows_ = 0;                   // number of rows received
-    std::uint32_t checksum_ = 1;     // Adler-32 of the written rows
+    int rows_ = 0;                // number of rows received
+    std::uint32_t checksum_ = 1;  // Adler-32 of the written rows
     PngEncoder::Band compressed_;
     std::vector<std::byte> chunk_;
 };

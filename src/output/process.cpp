@@ -36,7 +36,7 @@ namespace fs = std::filesystem;
 // A program that stopped reading before its input ended has failed: time limit for its error message and its end.
 constexpr std::chrono::seconds last_words_time{1};
 constexpr std::size_t kept_words = 4096;      // bytes of a program's last output to standard error
-constexpr std::size_t pipe_bytes = 1 << 20;           // the largest pipe that a user may request: fewer waits per frame
+constexpr std::size_t pipe_bytes = 1 << 20;   // the largest pipe that a user may request: fewer waits per frame
 constexpr std::size_t kept_output = 1 << 16;  // bytes of a program's standard output
 // ms between checks for the end of a program whose pipes are silent, because other processes may hold those open.
 constexpr int look_every = 20;
@@ -67,8 +67,10 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     const auto give = [&](int from, int to, int how) {
-        if (from >= 0) posix_spawn_file_actions_adddup2(&files, from, to);
-        else posix_spawn_file_actions_addopen(&files, to, "/dev/null", how, 0);
+        if (from >= 0)
+            posix_spawn_file_actions_adddup2(&files, from, to);
+        else
+            posix_spawn_file_actions_addopen(&files, to, "/dev/null", how, 0);
     };
     give(input, STDIN_FILENO, O_RDONLY);
     give(output, STDOUT_FILENO, O_WRONLY);
@@ -97,7 +99,8 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&how);
     if (failed != 0)
-        throw RunError(fmt::format("cannot start '{}': {}", safe_path(program), std::generic_category().message(failed)));
+        throw RunError(
+            fmt::format("cannot start '{}': {}", safe_path(program), std::generic_category().message(failed)));
     return id;
 }
 
@@ -113,7 +116,8 @@ public:
     ~NoSigpipe() {
         if (sigismember(&before_, SIGPIPE) == 1) return;
         const timespec no_wait{0, 0};
-        while (sigtimedwait(&set_, nullptr, &no_wait) < 0 && errno == EINTR) {}
+        while (sigtimedwait(&set_, nullptr, &no_wait) < 0 && errno == EINTR) {
+        }
         pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     }
     NoSigpipe(const NoSigpipe&) = delete;
@@ -145,7 +149,8 @@ bool read_waiting(int pipe, std::string& text) {
 bool is_ended(pid_t id, int how) {
     siginfo_t info{};
     int result = 0;
-    while ((result = ::waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOWAIT | how)) < 0 && errno == EINTR) {}
+    while ((result = ::waitid(P_PID, static_cast<id_t>(id), &info, WEXITED | WNOWAIT | how)) < 0 && errno == EINTR) {
+    }
     return result < 0 || info.si_pid == id;
 }
 
@@ -160,7 +165,8 @@ bool has_ended(pid_t id) { return is_ended(id, WNOHANG); }
 bool ends_within(pid_t id, std::chrono::milliseconds limit) {
     using std::chrono::microseconds;
     const auto end = std::chrono::steady_clock::now() + limit;
-    for (microseconds nap(100); !has_ended(id); nap = std::min<microseconds>(2 * nap, std::chrono::milliseconds(look_every))) {
+    for (microseconds nap(100); !has_ended(id);
+         nap = std::min<microseconds>(2 * nap, std::chrono::milliseconds(look_every))) {
         if (std::chrono::steady_clock::now() >= end) return false;
         std::this_thread::sleep_for(nap);
     }
@@ -170,7 +176,8 @@ bool ends_within(pid_t id, std::chrono::milliseconds limit) {
 ProcessEnd wait_for_process(pid_t id) {
     int status = 0;
     rusage used{};
-    while (::wait4(id, &status, 0, &used) < 0 && errno == EINTR) {}
+    while (::wait4(id, &status, 0, &used) < 0 && errno == EINTR) {
+    }
     ProcessEnd end;
     if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
@@ -198,8 +205,8 @@ std::string ProcessEnd::describe() const {
 
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments, std::optional<int> output) {
     Pipe input, words;
-    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));   // refused beyond the user's limit; the pipe then stays small
-    ::fcntl(input.write, F_SETFL, O_NONBLOCK);             // this end only, so that waiting for the program also notices its end
+    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));  // refused beyond the user's limit; the pipe then stays small
+    ::fcntl(input.write, F_SETFL, O_NONBLOCK);  // this end only, so that waiting for the program also notices its end
     id_ = start(program, arguments, input.read, output.value_or(-1), words.write);
     input_ = input.take_write();
     words_pipe_ = words.take_read();
@@ -221,10 +228,10 @@ bool Process::wait_for_room() {
     for (;;) {
         // A full pipe of messages would block the program.
         std::array<pollfd, 2> places{{{input_, POLLOUT, 0}, {words_pipe_, POLLIN, 0}}};
-        if (::poll(places.data(), places.size(), look_every) < 0) continue;   // a signal: the result is invalid
+        if (::poll(places.data(), places.size(), look_every) < 0) continue;  // a signal: the result is invalid
         if (places[1].revents != 0) read_words();
         if (places[0].revents != 0) return true;
-        if (has_ended(id_)) return false;   // a process that it started holds its input open
+        if (has_ended(id_)) return false;  // a process that it started holds its input open
     }
 }
 
@@ -259,7 +266,7 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
     }
     // The earlier memory has been read, because more than a pipe's capacity came after it.
     lent_ = std::move(memory);
-    return write(bytes);   // the rest, if it cannot be lent
+    return write(bytes);  // the rest, if it cannot be lent
 }
 
 ProcessEnd Process::finish() {
@@ -267,13 +274,13 @@ ProcessEnd Process::finish() {
     const auto patience = std::chrono::steady_clock::now() + last_words_time;
     // Do not wait for its standard error to close, because a process that it started may hold that open.
     while ((words_pipe_ >= 0 || reads_no_more_) && !has_ended(id_)) {
-        pollfd place{words_pipe_, POLLIN, 0};   // without a pipe the poll only waits
+        pollfd place{words_pipe_, POLLIN, 0};  // without a pipe the poll only waits
         ::poll(&place, 1, look_every);
         read_words();
         if (reads_no_more_ && std::chrono::steady_clock::now() > patience) kill();
     }
     is_ended(id_, 0);
-    read_words();   // its last message is still in the pipe
+    read_words();  // its last message is still in the pipe
     if (words_pipe_ >= 0) ::close(std::exchange(words_pipe_, -1));
     const std::lock_guard lock(id_mutex_);
     ProcessEnd end = wait_for_process(std::exchange(id_, -1));

@@ -22,13 +22,13 @@ std::optional<std::filesystem::path> find_program(const std::string& name);
 
 /// End of a program.
 struct ProcessEnd {
-    int exit_code = -1;          // 0 to 255; -1: ended by a signal
+    int exit_code = -1;  // 0 to 255; -1: ended by a signal
     int signal = 0;
-    double cpu_seconds = 0.0;    // user and system
-    std::int64_t peak_memory = 0;   // bytes
-    std::string words;           // last part of its standard error, without trailing newlines
+    double cpu_seconds = 0.0;      // user and system
+    std::int64_t peak_memory = 0;  // bytes
+    std::string words;             // last part of its standard error, without trailing newlines
     bool ok() const { return exit_code == 0; }
-    std::string describe() const;   // "exit code 1", "ended by signal 9 (Killed)"
+    std::string describe() const;  // "exit code 1", "ended by signal 9 (Killed)"
 };
 
 /// Waits for the end of a child.
@@ -68,22 +68,23 @@ public:
 
 private:
     void read_words();
-    bool wait_for_room();        // in its input; false: it has ended
+    bool wait_for_room();  // in its input; false: it has ended
 
     pid_t id_ = -1;
-    std::mutex id_mutex_;        // guards kill() against the end of finish(), after which another process may have that number
+    std::mutex
+        id_mutex_;  // guards kill() against the end of finish(), after which another process may have that number
     int input_ = -1;
-    std::shared_ptr<const std::byte> lent_;   // may be in the pipe
-    bool reads_no_more_ = false;   // it stopped before its input ended
-    int words_pipe_ = -1;        // -1: closed, after all data was read
+    std::shared_ptr<const std::byte> lent_;  // may be in the pipe
+    bool reads_no_more_ = false;             // it stopped before its input ended
+    int words_pipe_ = -1;                    // -1: closed, after all data was read
     std::string words_;
 };
 
 /// Output and end of a child.
 struct ProgramOutput {
-    std::string text;       // first part of its output
+    std::string text;  // first part of its output
     ProcessEnd end;
-    bool stopped = false;   // it was killed, because `stop` returned true
+    bool stopped = false;  // it was killed, because `stop` returned true
 };
 
 /// Reads a child's output from a pipe until the child ends. `stop` is called every few milliseconds; if it returns

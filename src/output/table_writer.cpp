@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t flush_at = 1 << 16;   // bytes: large enough that system calls cost little
+constexpr std::size_t flush_at = 1 << 16;  // bytes: large enough that system calls cost little
 
 }  // namespace
 

@@ -33,7 +33,7 @@ void stop_if_interrupted() {
     if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
 }
 
-constexpr int interrupt_look_every = 20;   // ms between checks for an interrupt while waiting for a reader
+constexpr int interrupt_look_every = 20;  // ms between checks for an interrupt while waiting for a reader
 
 /// Waits for a reader, like open(). The descriptor does not block.
 int open_pipe(const fs::path& path) {
@@ -99,14 +99,16 @@ void TemporaryFile::write(std::span<const std::byte> bytes) {
 }
 
 void TemporaryFile::begin_sync() {
-    if (part_) ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);   // errors are reported by sync()
+    if (part_) ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);  // errors are reported by sync()
 }
 
 void TemporaryFile::sync() {
     // Some file systems cannot sync single files.
     while (part_ && ::fsync(file_) != 0)
-        if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP) break;
-        else if (errno != EINTR) fail(errno);
+        if (errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP)
+            break;
+        else if (errno != EINTR)
+            fail(errno);
 }
 
 void TemporaryFile::publish() {
@@ -124,12 +126,13 @@ void TemporaryFile::commit() {
 }
 
 void TemporaryFile::fail(int error) const {
-    throw RunError(fmt::format("cannot write '{}': {}", safe_path(target_.path), std::generic_category().message(error)));
+    throw RunError(
+        fmt::format("cannot write '{}': {}", safe_path(target_.path), std::generic_category().message(error)));
 }
 
 void bring_to_disk(const fs::path& folder) {
     const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) return;   // a folder that is writable but not readable
+    if (file < 0) return;  // a folder that is writable but not readable
     ::fsync(file);
     ::close(file);
 }

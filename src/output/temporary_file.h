@@ -15,7 +15,7 @@ namespace tumble {
 /// Treatment of part files that killed runs left of the same output.
 enum class LeftParts {
     removed,
-    kept,   // for one of many files in a folder whose left-overs are removed once
+    kept,  // for one of many files in a folder whose left-overs are removed once
 };
 
 /// An unfinished file. Unless it is published it is removed, and the existing file of the final name stays. A target
@@ -43,16 +43,16 @@ public:
 
     // The steps of commit(), for many files at a time; the folder of all of them is synced to the disk once
     // (bring_to_disk()). All throw RunError.
-    void begin_sync();   // starts writing to the disk, without waiting
+    void begin_sync();  // starts writing to the disk, without waiting
     void sync();
-    void publish();      // renames to the final name
+    void publish();  // renames to the final name
 
 private:
     [[noreturn]] void fail(int error) const;
 
     OutputTarget target_;
-    std::optional<PartFile> part_;   // empty if it is written in place
-    int file_ = -1;                  // of the part file, or a descriptor of its own
+    std::optional<PartFile> part_;  // empty if it is written in place
+    int file_ = -1;                 // of the part file, or a descriptor of its own
 };
 
 /// Syncs the names in a folder, as far as the file system can.

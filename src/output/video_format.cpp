@@ -18,11 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr std::int64_t largest_part = 1'000'000;   // ffmpeg reads rates with parts up to 1,001,000
-constexpr double slowest = 0.001;                  // frames/s: players do not support longer frames, GIF at most 655 s
-constexpr double fastest = 1e6;                    // frames/s: the scene format's own limit
-constexpr double fastest_matroska = 1000.0;        // its time stamps are whole milliseconds
-constexpr double fastest_gif = 50.0;               // its delays are whole 1/100 s, and players treat 1 as 10
+constexpr std::int64_t largest_part = 1'000'000;  // ffmpeg reads rates with parts up to 1,001,000
+constexpr double slowest = 0.001;                 // frames/s: players do not support longer frames, GIF at most 655 s
+constexpr double fastest = 1e6;                   // frames/s: the scene format's own limit
+constexpr double fastest_matroska = 1000.0;       // its time stamps are whole milliseconds
+constexpr double fastest_gif = 50.0;              // its delays are whole 1/100 s, and players treat 1 as 10
 
 void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -44,8 +44,10 @@ FrameRate best_fraction(double x, std::int64_t limit) {
         const auto a = static_cast<std::int64_t>(whole);
         const std::int64_t n2 = a * n1 + n0, d2 = a * d1 + d0;
         if (n2 > limit || d2 > limit) break;
-        n0 = n1; d0 = d1;
-        n1 = n2; d1 = d2;
+        n0 = n1;
+        d0 = d1;
+        n1 = n2;
+        d1 = d2;
         // Digits beyond the rounding of double are meaningless: 29.97 is 2997/100, not a fraction 1e-15 beside it.
         if (std::fabs(double(n1) / double(d1) - x) <= 1e-12 * x) break;
         rest = 1.0 / (rest - whole);
@@ -78,20 +80,31 @@ VideoFormat video_format(const fs::path& clip, double fps) {
 
     VideoFormat format;
     double limit = fastest;
-    if (ending == ".mp4" || ending == ".mov") format.container = ending.substr(1);
-    else if (ending == ".mkv") limit = fastest_matroska;
-    else if (ending == ".webm") { format.kind = VideoKind::vp9; format.container = "webm"; limit = fastest_matroska; }
-    else if (ending == ".gif") { format.kind = VideoKind::gif; format.pixels = PixelForm::rgba; }
-    else throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
-                                          "(the ending was '{}')", safe_text(ending)));
+    if (ending == ".mp4" || ending == ".mov")
+        format.container = ending.substr(1);
+    else if (ending == ".mkv")
+        limit = fastest_matroska;
+    else if (ending == ".webm") {
+        format.kind = VideoKind::vp9;
+        format.container = "webm";
+        limit = fastest_matroska;
+    } else if (ending == ".gif") {
+        format.kind = VideoKind::gif;
+        format.pixels = PixelForm::rgba;
+    } else
+        throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
+                                         "(the ending was '{}')",
+                                         safe_text(ending)));
     if (!(fps >= slowest && fps <= limit))
-        throw InputError(at, fmt::format("a {} clip holds {} to {} frames a second ({} were asked for{})", ending,
-                                         slowest, limit, fps,
-                                         limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
+        throw InputError(
+            at, fmt::format("a {} clip holds {} to {} frames a second ({} were asked for{})", ending, slowest, limit,
+                            fps, limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
 
     if (has_its_head_last(format) && is_written_in_place(clip))
-        throw InputError(at, fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
-                                         ".mkv, .webm and .gif can", ending));
+        throw InputError(at,
+                         fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
+                                     ".mkv, .webm and .gif can",
+                                     ending));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));
     format.rate = to_frame_rate(fps / format.frame_step);
     return format;
@@ -107,7 +120,7 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
     append(arguments, codec_arguments(format.kind, options));
     // No dates and versions in the file: the same frames give the same bytes.
     append(arguments, {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});   // playable during download
+    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});  // playable during download
     append(arguments, {"-f", format.container, file_argument(output)});
     return arguments;
 }
@@ -118,8 +131,7 @@ Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
                        // An ordered pattern does not move between frames, and still regions compress well. Coarser
                        // patterns (a smaller scale) hide the ground's lines.
                        "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
-                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif",
-                       file_argument(output)});
+                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif", file_argument(output)});
     return arguments;
 }
 

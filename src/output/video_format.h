@@ -15,9 +15,9 @@ namespace tumble {
 
 /// A frame rate in the form of containers.
 struct FrameRate {
-    std::int64_t numerator = 60;     // frames
-    std::int64_t denominator = 1;    // s
-    std::string text() const;        // "30000/1001"
+    std::int64_t numerator = 60;   // frames
+    std::int64_t denominator = 1;  // s
+    std::string text() const;      // "30000/1001"
     friend bool operator==(const FrameRate&, const FrameRate&) = default;
 };
 
@@ -28,8 +28,8 @@ enum class VideoKind { h264, vp9, gif };
 
 /// Form in which ffmpeg receives the frames.
 enum class PixelForm {
-    yuv420,   // planes, see yuv420.h; an odd last column or row is duplicated
-    rgba,     // R, G, B and a byte of 255, row by row from the top
+    yuv420,  // planes, see yuv420.h; an odd last column or row is duplicated
+    rgba,    // R, G, B and a byte of 255, row by row from the top
 };
 
 /// Size of one frame of a picture of this size.
@@ -37,15 +37,15 @@ std::size_t frame_bytes(PixelForm form, int width, int height);
 
 /// Storage of a picture that stays unchanged.
 enum class FrameTimes {
-    longer_frames,   // once, shown longer (for a second at most): costs little
-    constant_rate,   // repeated for every frame
+    longer_frames,  // once, shown longer (for a second at most): costs little
+    constant_rate,  // repeated for every frame
 };
 
 /// Quality of a clip, with its cost in time and size: docs/explanation/output.md. Without effect on a GIF.
 enum class VideoQuality {
-    draft,    // fast to encode; leaves specks behind moving bodies
-    normal,   // for viewing: a still background is correct a second after it came to rest
-    best,     // the clip looks like its frames, also when enlarged
+    draft,   // fast to encode; leaves specks behind moving bodies
+    normal,  // for viewing: a still background is correct a second after it came to rest
+    best,    // the clip looks like its frames, also when enlarged
 };
 
 struct ClipOptions {
@@ -55,9 +55,10 @@ struct ClipOptions {
 
 struct VideoFormat {
     VideoKind kind = VideoKind::h264;
-    std::string container = "matroska";   // in ffmpeg's terms, because a link may lead to a name with another ending or none
-    FrameRate rate;          // of the clip
-    int frame_step = 1;      // 1, or more to drop frames if the format cannot hold all of them
+    std::string container =
+        "matroska";      // in ffmpeg's terms, because a link may lead to a name with another ending or none
+    FrameRate rate;      // of the clip
+    int frame_step = 1;  // 1, or more to drop frames if the format cannot hold all of them
     PixelForm pixels = PixelForm::yuv420;
 };
 

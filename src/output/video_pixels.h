@@ -28,7 +28,7 @@ private:
 
     PixelForm form_;
     int width_, height_;
-    Image padded_;                       // empty if the size is even
+    Image padded_;  // empty if the size is even
     std::vector<std::uint8_t> bytes_;
 };
 

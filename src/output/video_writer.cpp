@@ -17,14 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_frame = 1.0;   // s: players seek to stored frames, and streams start with one
+constexpr double longest_frame = 1.0;  // s: players seek to stored frames, and streams start with one
 
 }  // namespace
 
 fs::path find_ffmpeg() {
     if (auto program = find_program("ffmpeg")) return *program;
-    throw RunError("the ffmpeg program is needed to write video and is not on the PATH; "
-                   "get it by: apt-get install ffmpeg");
+    throw RunError(
+        "the ffmpeg program is needed to write video and is not on the PATH; "
+        "get it by: apt-get install ffmpeg");
 }
 
 VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const ClipOptions& options)
@@ -41,8 +42,11 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
         lossless_.emplace(clip);
     }
     if (file_.in_place()) report_.emplace();
-    if (lossless_) encoder_.emplace(program_, encoding_arguments(format_, options, lossless_->path()));
-    else encoder_.emplace(program_, with_report(encoding_arguments(format_, options, argument_of_clip())), file_.descriptor());
+    if (lossless_)
+        encoder_.emplace(program_, encoding_arguments(format_, options, lossless_->path()));
+    else
+        encoder_.emplace(program_, with_report(encoding_arguments(format_, options, argument_of_clip())),
+                         file_.descriptor());
     const bool even = format_.pixels == PixelForm::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
@@ -87,7 +91,8 @@ void VideoWriter::send(std::span<const std::byte> bytes) {
 }
 
 void VideoWriter::finish() {
-    if (frames_in_clip_ > 0 && last_sent_ + 1 < frames_in_clip_) send(frames_in_clip_ - 1);   // otherwise the clip would end early
+    if (frames_in_clip_ > 0 && last_sent_ + 1 < frames_in_clip_)
+        send(frames_in_clip_ - 1);  // otherwise the clip would end early
     const ProcessEnd end = encoder_->finish();
     encoder_seconds_ += end.cpu_seconds;
     if (!end.ok()) fail(end);
@@ -104,7 +109,8 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was abandoned", safe_path(clip_)));
-        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())), file_.descriptor());
+        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())),
+                           file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
     encoder_seconds_ += end.cpu_seconds;

@@ -65,22 +65,22 @@ private:
     void send(std::int64_t frame);
     void send(std::span<const std::byte> bytes);
     void convert_to_gif();
-    std::filesystem::path argument_of_clip() const;   // argument for ffmpeg
+    std::filesystem::path argument_of_clip() const;  // argument for ffmpeg
 
     std::filesystem::path clip_;
     VideoFormat format_;
-    VideoPixels pixels_;                          // of frames that arrive as pictures
+    VideoPixels pixels_;  // of frames that arrive as pictures
     std::filesystem::path program_;
     TemporaryFile file_;
-    std::optional<PartFile> lossless_;            // a GIF's first stage
-    std::optional<EncoderReport> report_;         // of a clip that is written in place
-    std::shared_ptr<const std::byte> latest_;     // the frame written last,
-    std::shared_ptr<const std::byte> shown_;      // and the one sent last (of a GIF, fewer are sent); null before the first
-    std::int64_t longest_;                        // largest number of frames for which one picture is shown
+    std::optional<PartFile> lossless_;         // a GIF's first stage
+    std::optional<EncoderReport> report_;      // of a clip that is written in place
+    std::shared_ptr<const std::byte> latest_;  // the frame written last,
+    std::shared_ptr<const std::byte> shown_;  // and the one sent last (of a GIF, fewer are sent); null before the first
+    std::int64_t longest_;                    // largest number of frames for which one picture is shown
     std::int64_t frames_ = 0, frames_in_clip_ = 0, sent_ = 0;
-    std::int64_t last_sent_ = -1;                 // its number in the clip
+    std::int64_t last_sent_ = -1;  // its number in the clip
     double encoder_seconds_ = 0.0;
-    std::mutex abandon_mutex_;                    // guards abandon() against the change from encoder to GIF maker
+    std::mutex abandon_mutex_;  // guards abandon() against the change from encoder to GIF maker
     bool abandoned_ = false;
     std::optional<Process> encoder_, gif_maker_;  // last: they end before their files are removed
 };

@@ -22,7 +22,8 @@ constexpr Weights to_y{5983, 20127, 2032}, to_cb{-3298, -11094, 14392}, to_cr{14
 static_assert(to_cb.r + to_cb.g + to_cb.b == 0 && to_cr.r + to_cr.g + to_cr.b == 0);
 
 constexpr int y_offset = 16, chroma_offset = 128;
-constexpr int y_shift = fraction_bits, chroma_shift = fraction_bits + 2;   // color is computed from the sum of four pixels
+constexpr int y_shift = fraction_bits,
+              chroma_shift = fraction_bits + 2;  // color is computed from the sum of four pixels
 
 /// The offset, and a half for rounding.
 constexpr int bias(int offset, int shift) { return (offset << shift) + (1 << (shift - 1)); }
@@ -33,7 +34,7 @@ std::uint8_t weigh(const Weights& w, int r, int g, int b, int offset, int shift)
 
 /// Two rows of pixels and the destination of their values.
 struct RowPair {
-    const std::uint8_t* top;      // R, G, B and an unused byte
+    const std::uint8_t* top;  // R, G, B and an unused byte
     const std::uint8_t* bottom;
     std::uint8_t* y_top;
     std::uint8_t* y_bottom;
@@ -54,11 +55,11 @@ void convert_square(const RowPair& rows, int x) {
     rows.cr[x / 2] = weigh(to_cr, sum[0], sum[1], sum[2], chroma_offset, chroma_shift);
 }
 
-#ifdef __SSE2__   // part of every x86-64
+#ifdef __SSE2__  // part of every x86-64
 
 /// Four pixels of 16 bits a channel (two in each half) to four values of one plane, 32 bits each.
 __m128i weigh(__m128i first, __m128i second, __m128i weights, __m128i added, int shift) {
-    const __m128 a = _mm_castsi128_ps(_mm_madd_epi16(first, weights));    // (r + g, b) of two pixels
+    const __m128 a = _mm_castsi128_ps(_mm_madd_epi16(first, weights));  // (r + g, b) of two pixels
     const __m128 b = _mm_castsi128_ps(_mm_madd_epi16(second, weights));
     const __m128i red_green = _mm_castps_si128(_mm_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
     const __m128i blue = _mm_castps_si128(_mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));

@@ -1,30 +1,30 @@
 // The sequence of a frame; each step has a file of its own.
-#include "render/render_scene_builder.h"
 #include "render/renderer.h"
+#include "render/render_scene_builder.h"
 
 #include "core/check.h"
 #include "core/error.h"
-#include "render/camera/camera_animation.h"
-#include "render/camera/camera.h"
-#include "render/damage/damage_tracker.h"
-#include "render/gl/shader_compile_schedule.h"
-#include "render/gl/shader_locator.h"
-#include "render/passes/draw_list.h"
-#include "render/scene/compound_expansion.h"
+#include "render/ambient_occlusion/occlusion_texture.h"
 #include "render/antialiasing/analytic_aa.h"
-#include "render/passes/frame_uniforms.h"
+#include "render/antialiasing/thin_geometry_aa.h"
+#include "render/camera/camera.h"
+#include "render/camera/camera_animation.h"
+#include "render/damage/damage_tracker.h"
 #include "render/gl/framebuffer.h"
 #include "render/gl/gl_context.h"
+#include "render/gl/shader_compile_schedule.h"
+#include "render/gl/shader_locator.h"
 #include "render/mesh/gpu_mesh_cache.h"
-#include "render/ambient_occlusion/occlusion_texture.h"
-#include "render/passes/plane_pass.h"
-#include "render/passes/pass_timer.h"
-#include "render/antialiasing/thin_geometry_aa.h"
-#include "render/shadow/caster_culling.h"
-#include "render/shadow/shadow_map.h"
 #include "render/passes/body_pass.h"
+#include "render/passes/draw_list.h"
+#include "render/passes/frame_uniforms.h"
+#include "render/passes/pass_timer.h"
+#include "render/passes/plane_pass.h"
+#include "render/scene/compound_expansion.h"
 #include "render/scene/fog_distance.h"
 #include "render/scene/near_plane.h"
+#include "render/shadow/caster_culling.h"
+#include "render/shadow/shadow_map.h"
 
 #include <fmt/format.h>
 
@@ -85,8 +85,7 @@ struct Renderer::State {
         drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
         gl.Enable(GL_DEPTH_TEST);
-        gl.Enable(
-            GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
+        gl.Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
         gl.DepthFunc(GL_LEQUAL);
     }
 
@@ -151,7 +150,7 @@ struct Renderer::State {
     RenderScene looks;
     bool sun_up;
     CameraAnimation path;
-    CameraDescription camera;   // of the previous frame
+    CameraDescription camera;  // of the previous frame
     Camera view;
     CascadeFitter stage;
     AmbientOcclusion occlusion;
@@ -172,10 +171,11 @@ struct Renderer::State {
     BodyPass programs;
     PlanePass planes;
     bool background_kept = false;
-    std::vector<Rectangle> changed, closing;   // redrawn regions; regions drawn in the previous frame and not in this one
+    std::vector<Rectangle> changed,
+        closing;  // redrawn regions; regions drawn in the previous frame and not in this one
     bool full_redraw, draw_hidden;
     PassTimes* times;
-    ShaderCompileSchedule* turns;   // until its shaders are compiled
+    ShaderCompileSchedule* turns;  // until its shaders are compiled
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
@@ -196,9 +196,12 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
         s.changed.clear();
         return;
     }
-    FrameState state{snapshot, make_drawn_items(s.scene, s.looks, snapshot, s.view),
+    FrameState state{snapshot,
+                     make_drawn_items(s.scene, s.looks, snapshot, s.view),
                      near_distance_for(s.looks, snapshot, s.view),
-                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)), {}, s.framebuffer.samples() <= 1};
+                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)),
+                     {},
+                     s.framebuffer.samples() <= 1};
     state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
     const std::vector<DrawableBounds>& items = state.items;
@@ -223,21 +226,24 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     for (const DrawableBounds& item : items) {
         wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
         casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) &&
-                          s.view.sees_swept(item.center, item.radius, light) ? 1 : 0);
+                                  s.view.sees_swept(item.center, item.radius, light)
+                              ? 1
+                              : 0);
     }
     if (s.scene.light.shadows && !s.draw_hidden) drop_hidden_casters(s.looks, items, shadows, casting);
     const OcclusionAtlas& atlas = s.occlusion.atlas();
-    const DrawList list = make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
+    const DrawList list =
+        make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
     std::vector<std::vector<Rectangle>> touched;
     for (const PlanePatch& plane : planes)
-        touched.push_back(
-            find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, atlas, snapshot, marks));
+        touched.push_back(find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, atlas,
+                                             snapshot, marks));
     clock.ends(Pass::preparation);
 
     s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
     s.meshes.upload(list, s.details);
-    const FrameUniforms uniforms =
-        make_frame_uniforms(s.scene.light, s.sun_up, s.view, near_distance, shadows, s.occlusion_texture.height(), s.smooth_edges);
+    const FrameUniforms uniforms = make_frame_uniforms(s.scene.light, s.sun_up, s.view, near_distance, shadows,
+                                                       s.occlusion_texture.height(), s.smooth_edges);
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     s.gl.BindBufferBase(GL_UNIFORM_BUFFER, frame_block, s.uniforms.name());
@@ -256,7 +262,8 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     clock.ends(Pass::bodies);
     s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(Pass::planes);
-    if (camera_moved) s.planes.draw_open(planes, s.looks);   // last, so that pixels of bodies and their shadows are skipped
+    if (camera_moved)
+        s.planes.draw_open(planes, s.looks);  // last, so that pixels of bodies and their shadows are skipped
     clock.ends(Pass::background);
 
     s.framebuffer.resolve(s.changed);

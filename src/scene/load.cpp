@@ -1,14 +1,14 @@
 #include "scene/load.h"
 
-#include "scene/keys/forces_and_cords.h"
-#include "scene/keys/bodies.h"
 #include "scene/camera/camera.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/bodies.h"
+#include "scene/keys/forces_and_cords.h"
 #include "scene/keys/materials.h"
-#include "scene/mesh/mesh_loader.h"
 #include "scene/keys/run_settings.h"
-#include "scene/toml/toml_reader.h"
 #include "scene/keys/view_settings.h"
+#include "scene/mesh/mesh_loader.h"
+#include "scene/toml/limits.h"
+#include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
 
@@ -69,7 +69,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
         read->push_back(file);
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());
     }
-    if (overrides.integrator)   // the option applies to every body
+    if (overrides.integrator)  // the option applies to every body
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
     read_cords(root, scene);

@@ -2,27 +2,27 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "sim/dynamics/body_builder.h"
-#include "sim/detection/broad_phase.h"
-#include "sim/contact/contact_solver.h"
-#include "sim/impact/impacts.h"
-#include "sim/contact/model/sleep.h"
-#include "sim/event_driven/event_driven_motion.h"
-#include "sim/event_driven/free_flights.h"
 #include "sim/ccd/ccd_clamp.h"
+#include "sim/contact/contact_solver.h"
+#include "sim/contact/model/sleep.h"
+#include "sim/detection/broad_phase.h"
+#include "sim/detection/narrow_phase.h"
+#include "sim/detection/spatial_sort.h"
+#include "sim/dynamics/body_builder.h"
 #include "sim/dynamics/forces.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/advance.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/dynamics/kinematic_body.h"
+#include "sim/event_driven/event_driven_motion.h"
+#include "sim/event_driven/free_flights.h"
 #include "sim/event_driven/local_frame.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/impact/impacts.h"
 #include "sim/impact/settings.h"
 #include "sim/snapshot/measurement.h"
-#include "sim/detection/spatial_sort.h"
-#include "sim/detection/narrow_phase.h"
-#include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/threads/settings.h"
 #include "sim/threads/thread_pool.h"
-#include "sim/geometry/contact_tolerance.h"
 
 #include <fmt/format.h>
 
@@ -40,54 +40,69 @@ bool exact_impacts(const SceneDescription& scene) { return scene.simulation.impa
 struct World::State {
     SimulationSettings settings;
     double fps;
-    double h;                         // s
-    std::int64_t steps = 0;           // number of steps done; time is computed from it, never accumulated
-    Vec3 origin;                      // m, world: origin of the bodies' coordinates
+    double h;                // s
+    std::int64_t steps = 0;  // number of steps done; time is computed from it, never accumulated
+    Vec3 origin;             // m, world: origin of the bodies' coordinates
     std::vector<Body> bodies;
-    std::vector<std::uint32_t> order;   // by body: index in the scene
+    std::vector<std::uint32_t> order;  // by body: index in the scene
     ForceField forces;
     BroadPhase broad_phase;
     NarrowPhase narrow_phase;
-    std::vector<Manifold>* manifolds = nullptr;   // of this step; owned by the narrow phase
-    std::vector<Contact> contacts;    // points of the manifolds, where impulses are resolved one by one
-    ContactIslands islands;           // of the awake bodies
-    std::pair<std::uint64_t, std::uint64_t> seen_by_islands{UINT64_MAX, UINT64_MAX};   // change counters of manifolds and of sleep
-    std::vector<Island> colliding;    // islands with impacts in this step
-    std::vector<std::uint32_t> struck;   // indices of the manifolds of these islands
-    std::vector<double> struck_impulses;   // N s, impulses of these manifolds before the step
+    std::vector<Manifold>* manifolds = nullptr;  // of this step; owned by the narrow phase
+    std::vector<Contact> contacts;               // points of the manifolds, where impulses are resolved one by one
+    ContactIslands islands;                      // of the awake bodies
+    std::pair<std::uint64_t, std::uint64_t> seen_by_islands{UINT64_MAX,
+                                                            UINT64_MAX};  // change counters of manifolds and of sleep
+    std::vector<Island> colliding;                                        // islands with impacts in this step
+    std::vector<std::uint32_t> struck;                                    // indices of the manifolds of these islands
+    std::vector<double> struck_impulses;  // N s, impulses of these manifolds before the step
     ContactSolver contact_solver;
     SleepMonitor sleep;
     std::uint64_t seen_sleep_changes = UINT64_MAX;
-    std::vector<std::uint32_t> awake_bodies, moving_bodies, kinematic_bodies;   // ascending; moving: the other two together
-    std::unique_ptr<EventDrivenMotion> flights;   // with exact impacts
-    FreeFlights free_flights;           // for exact motion between stepped impacts
+    std::vector<std::uint32_t> awake_bodies, moving_bodies,
+        kinematic_bodies;                        // ascending; moving: the other two together
+    std::unique_ptr<EventDrivenMotion> flights;  // with exact impacts
+    FreeFlights free_flights;                    // for exact motion between stepped impacts
     CcdClamp motion_limit;
     std::vector<BodyVelocity> motions;
-    std::atomic<bool> any_fast{false};   // of the motions; set by each body's own thread
-    std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};   // index of a body
+    std::atomic<bool> any_fast{false};                        // of the motions; set by each body's own thread
+    std::atomic<std::uint32_t> first_not_finite{UINT32_MAX};  // index of a body
     std::vector<BroadPhase::Pair> pairs;
     ThreadPool pool;
-    std::vector<BodyVelocity> old_velocities;   // at the start of the step, before its forces: explicit Euler moves bodies by them
+    std::vector<BodyVelocity>
+        old_velocities;  // at the start of the step, before its forces: explicit Euler moves bodies by them
     // Momenta before and after this step's forces: start of the higher-order integrators; they show any impulse of contact.
     struct Momenta {
         Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
         bool operator==(const Momenta&) const = default;
     };
-    struct alignas(64) ForceStep { Momenta before, after; };
+    struct alignas(64) ForceStep {
+        Momenta before, after;
+    };
     std::vector<ForceStep> force_steps;
-    std::vector<Impulse> pulses;   // of this step's ending forces; by body, empty without forces at points
+    std::vector<Impulse> pulses;  // of this step's ending forces; by body, empty without forces at points
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
-        : settings(scene.simulation), fps(timing.fps), h(timing.step()),
-          origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())), bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
-          order(exact_impacts(scene) ? put_in_exact_order(bodies, settings.gravity) : put_in_memory_order(bodies, settings.gravity)), forces(scene, order),
+        : settings(scene.simulation),
+          fps(timing.fps),
+          h(timing.step()),
+          origin(exact_impacts(scene) ? local_origin(scene) : Vec3(Vec3::Zero())),
+          bodies(build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin))),
+          order(exact_impacts(scene) ? put_in_exact_order(bodies, settings.gravity)
+                                     : put_in_memory_order(bodies, settings.gravity)),
+          forces(scene, order),
           // Exact energies need exact manifolds: points a thousandth off make nanometers of height.
           narrow_phase(threads, NarrowPhase::Mode::step,
                        exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
-          islands(scene.bodies.size()), contact_solver(scene.bodies.size(), scene.simulation.contact_solver,
-                                                exact_impacts(scene) ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced), sleep(scene.bodies.size()),
-          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, timing.steps_per_frame}), motion_limit(bodies), pool(threads),
-          old_velocities(scene.bodies.size()), force_steps(scene.bodies.size()),
+          islands(scene.bodies.size()),
+          contact_solver(scene.bodies.size(), scene.simulation.contact_solver,
+                         exact_impacts(scene) ? ContactSolver::Effort::precisely : ContactSolver::Effort::balanced),
+          sleep(scene.bodies.size()),
+          free_flights(scene.bodies.size(), scene.simulation.gravity, {fps, timing.steps_per_frame}),
+          motion_limit(bodies),
+          pool(threads),
+          old_velocities(scene.bodies.size()),
+          force_steps(scene.bodies.size()),
           pulses(forces.ever_changes() ? scene.bodies.size() : 0) {
         settings.steps_per_frame = timing.steps_per_frame;
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
@@ -98,7 +113,7 @@ struct World::State {
     }
 
     double time(std::int64_t step) const { return double(step) / (fps * settings.steps_per_frame); }
-    double gravity_step() const { return settings.gravity.norm() * h; }   // m/s, change of speed by gravity in a step
+    double gravity_step() const { return settings.gravity.norm() * h; }  // m/s, change of speed by gravity in a step
 
     void advance(std::int64_t to);
     void step();
@@ -116,8 +131,8 @@ struct World::State {
     // Whether contact has added anything to the effect of the step's forces.
     bool touched(std::uint32_t i) const {
         const Body& body = bodies[i];
-        return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
-               !body.push_angular_velocity.isZero(0.0);
+        return force_steps[i].after != Momenta{body.momentum, body.angular_momentum} ||
+               !body.push_velocity.isZero(0.0) || !body.push_angular_velocity.isZero(0.0);
     }
     // Whether the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
     // rotation is that of free rotation, which keeps the energy all along.
@@ -139,12 +154,12 @@ struct World::State {
 };
 
 void World::State::step() {
-    find_contacts();            // pairs: broad phase, exact manifolds, islands
-    resolve_collisions();       // v_rel < 0: impulses with restitution (notes eq. 20)
-    apply_forces();             // F and tau at t_n change P and L
-    solve_resting_contacts();   // non-penetration and friction
-    move();                     // x and q to t_n+1; ballistic bodies from impact to impact
-    fall_asleep();              // islands at rest are excluded from the simulation
+    find_contacts();           // pairs: broad phase, exact manifolds, islands
+    resolve_collisions();      // v_rel < 0: impulses with restitution (notes eq. 20)
+    apply_forces();            // F and tau at t_n change P and L
+    solve_resting_contacts();  // non-penetration and friction
+    move();                    // x and q to t_n+1; ballistic bodies from impact to impact
+    fall_asleep();             // islands at rest are excluded from the simulation
 }
 
 // Steps only while a body needs stepping: bodies in free flight do not.
@@ -164,7 +179,8 @@ void World::step() { state_->advance(state_->steps + 1); }
 void World::advance_frame() { state_->advance(state_->steps + state_->settings.steps_per_frame); }
 
 void World::State::place_kinematic_bodies() {
-    for (const std::uint32_t i : kinematic_bodies) old_velocities[i] = place_on_track(bodies[i], time(steps), time(steps + 1), h);
+    for (const std::uint32_t i : kinematic_bodies)
+        old_velocities[i] = place_on_track(bodies[i], time(steps), time(steps + 1), h);
 }
 
 // Lists of awake bodies. All loops of a step run over these, so its cost scales with the awake bodies.
@@ -176,8 +192,10 @@ void World::State::list_awake() {
     moving_bodies.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].dynamic() && !bodies[i].asleep) awake_bodies.push_back(i);
-        if (bodies[i].moves() && !bodies[i].asleep) moving_bodies.push_back(i);
-        else motions[i] = {};
+        if (bodies[i].moves() && !bodies[i].asleep)
+            moving_bodies.push_back(i);
+        else
+            motions[i] = {};
     }
 }
 
@@ -265,8 +283,10 @@ void World::State::apply_forces() {
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         if (body.flying) return;
-        if (flights) body.derive();   // possibly moved here from a flight
-        else if (!struck.empty()) body.derive_velocities();   // impacts have changed momenta
+        if (flights)
+            body.derive();  // possibly moved here from a flight
+        else if (!struck.empty())
+            body.derive_velocities();  // impacts have changed momenta
         old_velocities[i] = {body.velocity, body.angular_velocity};
         const Wrench wrench = forces.throughout(i, body, now, next);
         force_steps[i].before = {body.momentum, body.angular_momentum};
@@ -337,11 +357,12 @@ void World::State::step_motions() {
         const bool before = !flights && body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
         motions[i].velocity = (before ? old_velocities[i].velocity : body.velocity) + body.push_velocity;
         motions[i].angular_velocity = before ? old_velocities[i].angular_velocity : body.angular_velocity;
-        if (flights && body.dynamic()) motions[i].angular_velocity += gyration(body, h);
+        if (flights && body.dynamic())
+            motions[i].angular_velocity += gyration(body, h);
         else if (!before && body.dynamic()) {
             const Vec3 mean = touched(i) ? mean_angular_velocity_in_contact(body, h, settings.rotation)
                                          : mean_angular_velocity(body, h, settings.rotation);
-            motions[i].angular_velocity = mean;   // through a named variable: see find_gyration()
+            motions[i].angular_velocity = mean;  // through a named variable: see find_gyration()
         }
         motions[i].angular_velocity += body.push_angular_velocity;
         if (motion_limit.fast(i, motions[i], h) && !any_fast) any_fast = true;
@@ -354,7 +375,8 @@ void World::State::step_motions() {
 const std::vector<CcdFraction>& World::State::held_limits() {
     const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
         pairs = broad_phase.update(bodies, h, &pool);
-        std::erase_if(pairs, [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
+        std::erase_if(pairs,
+                      [&](const BroadPhase::Pair& pair) { return bodies[pair.a].flying || bodies[pair.b].flying; });
         return pairs;
     };
     step_motions();
@@ -388,10 +410,13 @@ void World::State::move() {
         check_finite();
         return;
     }
-    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return broad_phase.update(bodies, h, &pool); };
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
+        return broad_phase.update(bodies, h, &pool);
+    };
     const auto in_free_rotation = [&](std::uint32_t i) { return turns_freely(i); };
     step_motions();
-    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast, in_free_rotation);
+    const auto& limits = motion_limit.limits(find_pairs, touch_depth(*manifolds, bodies), bodies, motions, h, any_fast,
+                                             in_free_rotation);
     pool.for_bodies(awake_bodies, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = bodies[i];
         const double share = limits[i].share;
@@ -399,12 +424,15 @@ void World::State::move() {
         // Euler.
         const bool in_contact = touched(i);
         const bool flies = by_whole_state(body) && !in_contact;
-        if (body.flew != flies) body.flew = flies;   // all threads read the neighboring data: written only where it changes
+        if (body.flew != flies)
+            body.flew = flies;  // all threads read the neighboring data: written only where it changes
         if (body.flew) {
             body.momentum = force_steps[i].before.momentum;
             body.angular_momentum = force_steps[i].before.angular_momentum;
-            if (body.integrator == IntegratorKind::exact) free_flights.advance(i, body, forces, steps, share);
-            else advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
+            if (body.integrator == IntegratorKind::exact)
+                free_flights.advance(i, body, forces, steps, share);
+            else
+                advance_one_step(body, body.integrator, forces, i, time(steps), time(steps) + share * h);
             if (share < 1.0) advance_momenta(body, forces.ending(i, body, time(steps) + share * h, time(steps + 1)));
         } else {
             const double spin_before = spin(body);
@@ -415,8 +443,10 @@ void World::State::move() {
             body.push_angular_velocity.setZero();
             if (!in_contact && share < 1.0) lose_time(i, share, false);
             body.derive();
-            if (freely) turn_freely(body, orientation, share * h);
-            else if (in_contact && spin_grew(body, spin_before)) limit_spin(body, spin_before);
+            if (freely)
+                turn_freely(body, orientation, share * h);
+            else if (in_contact && spin_grew(body, spin_before))
+                limit_spin(body, spin_before);
             if (in_contact && share < 1.0) lose_time(i, share, true);
         }
         if (limits[i].carrier != CcdFraction::none) carry_along(body, bodies[limits[i].carrier], share, h);
@@ -438,10 +468,11 @@ void World::State::fall_asleep() {
 void World::State::look_at_numbers(std::uint32_t i) {
     const Body& body = bodies[i];
     // One value that is not finite makes the sum not finite.
-    if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() + body.angular_momentum.sum() +
-                      body.push_velocity.sum() + body.push_angular_velocity.sum()))
+    if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() +
+                      body.angular_momentum.sum() + body.push_velocity.sum() + body.push_angular_velocity.sum()))
         return;
-    for (std::uint32_t known = first_not_finite; i < known && !first_not_finite.compare_exchange_weak(known, i);) {}
+    for (std::uint32_t known = first_not_finite; i < known && !first_not_finite.compare_exchange_weak(known, i);) {
+    }
 }
 
 void World::State::check_finite() {
@@ -452,9 +483,10 @@ void World::State::check_finite() {
 void World::State::stop_if_not_finite() const {
     const std::uint32_t first = first_not_finite;
     if (first == UINT32_MAX) return;
-    throw RunError(fmt::format("step {} (t = {:.6g} s): the state of body '{}' is not finite; "
-                               "try a smaller step: more than {} steps_per_frame",
-                               steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
+    throw RunError(
+        fmt::format("step {} (t = {:.6g} s): the state of body '{}' is not finite; "
+                    "try a smaller step: more than {} steps_per_frame",
+                    steps, time(steps), safe_text(bodies[first].name), settings.steps_per_frame));
 }
 
 World::World(const SceneDescription& scene, int threads) : World(scene, scene.timing(), threads) {}
@@ -471,8 +503,9 @@ Snapshot World::snapshot() const {
     snapshot.bodies.resize(s.bodies.size());
     for (std::size_t i = 0; i < s.bodies.size(); ++i) {
         const Body& body = s.bodies[i];
-        BodyState state{s.origin + body.origin(), s.origin + body.position, body.orientation, body.velocity, body.angular_velocity};
-        if (body.track) {   // the path's own velocity at this time, not the mean over the coming step
+        BodyState state{s.origin + body.origin(), s.origin + body.position, body.orientation, body.velocity,
+                        body.angular_velocity};
+        if (body.track) {  // the path's own velocity at this time, not the mean over the coming step
             const BodyVelocity now = velocity_on_track(body, snapshot.time);
             state.velocity = now.velocity;
             state.angular_velocity = now.angular_velocity;

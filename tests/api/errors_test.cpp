@@ -58,7 +58,10 @@ TEST(Errors, OfASpecNameTheElement) {
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].position.x = NAN; }), "bodies[1].position");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].mass = 0.0; }), "bodies[1].mass");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].rotation = Quat{1.0, 1.0, 0.0, 0.0}; }), "bodies[1].rotation");
-    EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].rotation = AxisAngle{{0.0, 0.0, 0.0}, 10.0}; }), "bodies[1].rotation");
+    EXPECT_EQ(blamed([](SceneSpec& s) {
+                  s.bodies[1].rotation = AxisAngle{{0.0, 0.0, 0.0}, 10.0};
+              }),
+              "bodies[1].rotation");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[2].material.friction = -0.5; }), "bodies[2].material.friction");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[2].name = s.bodies[1].name; }), "bodies[2].name");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[0].velocity = {1.0, 0.0, 0.0}; }), "bodies[0].velocity");
@@ -134,13 +137,23 @@ TEST(Errors, OfArgumentsAreInput) {
         [&] { aovs.render(world.snapshot()); },
         [&] { table.add(few); },
         [&] { write_png(folder / "a.png", {}); },
-        [&] { write_png(folder / "a.png", {2, 2, {1, 2, 3}}); },
+        [&] {
+            write_png(folder / "a.png", {2, 2, {1, 2, 3}});
+        },
         [&] { read_png(folder / "none.png"); },
-        [&] { compare_images({1, 1, {0, 0, 0, 0}}, {1, 2, {0, 0, 0, 0, 0, 0, 0, 0}}); },
+        [&] {
+            compare_images({1, 1, {0, 0, 0, 0}}, {1, 2, {0, 0, 0, 0, 0, 0, 0, 0}});
+        },
         [&] { ClipWriter other(folder / "c.avi", scene.output()); },
-        [&] { ClipWriter other(folder / "d.mp4", {0, 1, 1.0, 1}); },
-        [&] { ClipWriter other(folder / "d.mp4", {1, 1, NAN, 1}); },
-        [&] { clip.write({1, 1, {0, 0, 0, 0}}); },
+        [&] {
+            ClipWriter other(folder / "d.mp4", {0, 1, 1.0, 1});
+        },
+        [&] {
+            ClipWriter other(folder / "d.mp4", {1, 1, NAN, 1});
+        },
+        [&] {
+            clip.write({1, 1, {0, 0, 0, 0}});
+        },
         [&] { clip.finish(); },
     };
     for (std::size_t i = 0; i < mistakes.size(); ++i) {

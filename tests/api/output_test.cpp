@@ -55,7 +55,7 @@ TEST(Output, FilesAppearWhenFinishedOrNever) {
     }
     EXPECT_EQ(folder.files(), 3u);
     const std::string table = read_text(folder / "t.csv");
-    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);   // the head, the crate and the ball
+    EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);  // the head, the crate and the ball
     EXPECT_EQ(table.rfind("frame,time,body,x,y,z,", 0), 0u);
     EXPECT_EQ(read_text(folder / "e.csv").rfind("frame,time,kinetic,", 0), 0u);
 }

@@ -45,7 +45,7 @@ TEST(Process, KeepsSignalHandlersAndEnvironmentAndHasNoChildren) {
     }
     EXPECT_EQ(signal_handlers(), handlers);
     EXPECT_EQ(environment(), before);
-    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);   // no child: ECHILD
+    EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);  // no child: ECHILD
     EXPECT_EQ(errno, ECHILD);
 }
 

@@ -91,8 +91,8 @@ TEST(AovRenderer, GivesTheSelectedValues) {
     EXPECT_TRUE(frame.motion.empty());
     EXPECT_TRUE(frame.albedo.empty());
     const std::size_t middle = 16 * 33 + 16;
-    EXPECT_NEAR(frame.depth[middle], 9.5f, 1e-5f);    // the front face of the crate
-    EXPECT_EQ(frame.segmentation[middle], 2);         // 1 + the index of the crate
+    EXPECT_NEAR(frame.depth[middle], 9.5f, 1e-5f);  // the front face of the crate
+    EXPECT_EQ(frame.segmentation[middle], 2);       // 1 + the index of the crate
     EXPECT_NEAR(frame.normal[3 * middle + 2], 1.0f, 1e-6f);
     EXPECT_TRUE(std::isinf(frame.depth[0]));
 }

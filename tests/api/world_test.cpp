@@ -56,7 +56,7 @@ TEST(World, KnowsMassAndInertia) {
     spec.bodies[1].mass = 6.0;
     const World world{Scene(spec)};
     EXPECT_DOUBLE_EQ(world.properties(1).mass, 6.0);
-    EXPECT_NEAR(world.properties(1).inertia.x, 1.0, 1e-12);   // m (b^2 + c^2) / 12
+    EXPECT_NEAR(world.properties(1).inertia.x, 1.0, 1e-12);  // m (b^2 + c^2) / 12
     EXPECT_EQ(world.properties(0).mass, std::numeric_limits<double>::infinity());
 }
 

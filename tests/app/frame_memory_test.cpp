@@ -45,12 +45,13 @@ TEST(FrameMemory, GrowsWithTheRequestedOutputs) {
 }
 
 TEST(FrameMemory, FewerProcessesDrawIfNotAllFit) {
-    const SceneDescription scene = scene_of(8192, 8192);   // 2.34 GiB per worker, 1.56 GiB for ffmpeg
+    const SceneDescription scene = scene_of(8192, 8192);  // 2.34 GiB per worker, 1.56 GiB for ffmpeg
     const AvailableMemory all{64 * gibi, "the machine"};
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, all, all), 6);
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, all, {10 * gibi, "the machine"}), 3);
     EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, all, {4 * gibi, "the machine"}), 1);
-    EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, {3 * gibi, "ulimit"}, all), 6) << "a process's limit holds for each";
+    EXPECT_EQ(workers_that_fit(scene, clip_of(100), 6, {3 * gibi, "ulimit"}, all), 6)
+        << "a process's limit holds for each";
 }
 
 TEST(FrameMemory, ARunThatDoesNotFitIsRefused) {

@@ -29,7 +29,7 @@ TEST(Interrupt, ASignalThatComesAtTheEndIsDropped) {
     {
         Interrupt interrupt;
         raise(SIGTERM);
-    }   // would end this program if it were not dropped
+    }  // would end this program if it were not dropped
     sigset_t waiting;
     sigpending(&waiting);
     EXPECT_EQ(sigismember(&waiting, SIGTERM), 0);

@@ -20,7 +20,7 @@
 namespace {
 
 std::atomic<int> syncs{0}, at_once{0}, most_at_once{0};
-std::atomic<int> failing_sync{-1};   // by number
+std::atomic<int> failing_sync{-1};  // by number
 
 }  // namespace
 
@@ -70,7 +70,7 @@ bool publish(const TestFolder& folder, PublishQueue& queue, int files, const Loo
 /// Number of files; all of them without a gap, or -1.
 int in_order(const TestFolder& folder, int files) {
     int there = 0;
-    for (int n = files; n-- > 0;) {   // from the end, so that a file made meanwhile is no gap
+    for (int n = files; n-- > 0;) {  // from the end, so that a file made meanwhile is no gap
         const bool exists = std::filesystem::exists(name_of(folder, n));
         if (exists) ++there;
         if (!exists && there > 0) return -1;
@@ -97,7 +97,7 @@ TEST(PublishQueue, NoneAfterOneThatFailed) {
     failing_sync = -1;
     const int there = in_order(folder, 60);
     EXPECT_GE(there, 20);
-    EXPECT_LE(there, 33);   // those that were waited for at the same time may be published
+    EXPECT_LE(there, 33);  // those that were waited for at the same time may be published
     EXPECT_EQ(std::size_t(there), folder.files()) << "nothing hidden is left";
 }
 

@@ -1,6 +1,6 @@
 // Render processes: the same bytes for any number of them, an error for each that dies, and none left behind.
-#include "app/files/aov_file.h"
 #include "app/workers/render_pool.h"
+#include "app/files/aov_file.h"
 #include "core/error.h"
 #include "core/image_mean.h"
 #include "output/png_writer.h"
@@ -31,8 +31,10 @@ SceneDescription two_boxes() {
     scene.camera.target = {0.0, 1.5, 0.0};
     for (int i = 0; i < 3; ++i) {
         BodyDescription body;
-        if (i == 0) body.shape = PlaneShape{};
-        else body.shape = BoxShape{{1.0, 1.0, 1.0}};
+        if (i == 0)
+            body.shape = PlaneShape{};
+        else
+            body.shape = BoxShape{{1.0, 1.0, 1.0}};
         scene.bodies.push_back(body);
     }
     return scene;
@@ -77,9 +79,10 @@ struct Seen {
 };
 
 /// Draws this many frames; `meanwhile` is called with the number of each finished frame.
-std::vector<Seen> draw(RenderPool& drawer, const SceneDescription& scene, std::int64_t frames,
-                       const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
-                       const std::function<MotionBlurFrame(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
+std::vector<Seen> draw(
+    RenderPool& drawer, const SceneDescription& scene, std::int64_t frames,
+    const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
+    const std::function<MotionBlurFrame(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
     BoundedQueue<MotionBlurFrame> poses(4);
     std::thread simulation([&] {
         for (std::int64_t n = 0; n < frames; ++n)
@@ -93,7 +96,10 @@ std::vector<Seen> draw(RenderPool& drawer, const SceneDescription& scene, std::i
         drawer.run(
             poses,
             [&](const Frame& frame) {
-                seen.push_back({frame.number, frame.repeated, {}, {frame.png.begin(), frame.png.end()},
+                seen.push_back({frame.number,
+                                frame.repeated,
+                                {},
+                                {frame.png.begin(), frame.png.end()},
                                 {frame.aovs.begin(), frame.aovs.end()}});
                 if (frame.video) seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
                 meanwhile(frame.number);
@@ -134,7 +140,8 @@ TEST(RenderPool, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
         std::vector<Seen> first;
         for (const int workers : {1, 2}) {
             RenderPool drawer(scene, {}, both, workers, 4);
-            const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
+            const std::vector<Seen> seen = draw(
+                drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
             if (first.empty()) first = seen;
             EXPECT_TRUE(seen == first) << workers;
             EXPECT_EQ(drawer.drawn(), 24);
@@ -151,15 +158,18 @@ TEST(RenderPool, AFrameDoesNotDependOnTheFirstFrame) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
         MotionBlurFrame exposure = sharp(n);
-        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);   // 0.02 pixels are 0.9e-3 m
+        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);  // 0.02 pixels are 0.9e-3 m
         return exposure;
     };
-    for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping), std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
+    for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping),
+                                 std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
         RenderPool whole(scene, {}, both, 2, 4);
-        const std::vector<Seen> all = draw(whole, scene, 36, [](std::int64_t) {}, exposure);
+        const std::vector<Seen> all = draw(
+            whole, scene, 36, [](std::int64_t) {}, exposure);
         for (const std::int64_t first : {1, 7, 10, 20, 35}) {
             RenderPool drawer(scene, {}, both, 2, 4);
-            const std::vector<Seen> seen = draw(drawer, scene, 36, [](std::int64_t) {}, exposure, first);
+            const std::vector<Seen> seen = draw(
+                drawer, scene, 36, [](std::int64_t) {}, exposure, first);
             ASSERT_EQ(seen.size(), std::size_t(36 - first));
             EXPECT_FALSE(seen.front().repeated);
             for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -196,18 +206,21 @@ TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
     std::vector<Seen> pictures, first;
     {
         RenderPool drawer(scene, {}, both, 2);
-        pictures = draw(drawer, scene, 24, [](std::int64_t) {}, without_aovs);
+        pictures = draw(
+            drawer, scene, 24, [](std::int64_t) {}, without_aovs);
     }
     for (const int workers : {1, 2, 3}) {
         RenderPool drawer(scene, {}, with, workers);
-        const std::vector<Seen> seen = draw(drawer, scene, 24, [](std::int64_t) {}, with_aovs);
+        const std::vector<Seen> seen = draw(
+            drawer, scene, 24, [](std::int64_t) {}, with_aovs);
         ASSERT_EQ(seen.size(), 24u);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
         EXPECT_EQ(drawer.drawn(), 11);
 
         RenderPool no_pictures(scene, {}, alone, workers);
-        const std::vector<Seen> aovs = draw(no_pictures, scene, 24, [](std::int64_t) {}, with_aovs);
+        const std::vector<Seen> aovs = draw(
+            no_pictures, scene, 24, [](std::int64_t) {}, with_aovs);
         ASSERT_EQ(aovs.size(), 24u);
         for (std::size_t n = 0; n < aovs.size(); ++n) EXPECT_TRUE(aovs[n].aovs == first[n].aovs) << n;
         EXPECT_EQ(no_pictures.drawn(), 0);
@@ -261,13 +274,13 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
     std::vector<Seen> first;
     for (const int workers : {1, 3}) {
         RenderPool drawer(scene, {}, both, workers, 4);
-        const std::vector<Seen> seen = draw(drawer, scene, 20, [](std::int64_t) {}, blurred);
+        const std::vector<Seen> seen = draw(
+            drawer, scene, 20, [](std::int64_t) {}, blurred);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
     }
     // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
-    for (std::size_t n = 0; n < first.size(); ++n)
-        EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
+    for (std::size_t n = 0; n < first.size(); ++n) EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
     const auto expect = [&] {
         Renderer renderer(scene, {});
         PngEncoder png;
@@ -308,12 +321,14 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
                 if (n == 3) kill(process, SIGKILL);
                 last = n;
             };
-            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) { return MotionBlurFrame{n, {at_frame(n % 8)}, {}}; });
+            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
+                return MotionBlurFrame{n, {at_frame(n % 8)}, {}};
+            });
         });
         constexpr std::string_view words = "error: cannot draw frame ";
         ASSERT_EQ(error.find(words), 0u) << error;
         EXPECT_NE(error.find("its process ended by signal 9"), std::string::npos) << error;
-        EXPECT_LT(last, std::stoll(error.substr(words.size())));   // frames after the lost one are not delivered
+        EXPECT_LT(last, std::stoll(error.substr(words.size())));  // frames after the lost one are not delivered
     }
 }
 

@@ -18,7 +18,8 @@ TEST(ThreadBudget, LeaveTheCoresToDrawing) {
 TEST(ThreadBudget, MoreBodiesNeverGetFewer) {
     for (const int cores : {1, 2, 3, 16, 256})
         for (std::size_t bodies = 1; bodies < 200'000; bodies += 97)
-            EXPECT_LE(simulation_threads_beside_drawing(bodies - 1, cores), simulation_threads_beside_drawing(bodies, cores));
+            EXPECT_LE(simulation_threads_beside_drawing(bodies - 1, cores),
+                      simulation_threads_beside_drawing(bodies, cores));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // Slow motion and speed-up compared with a run at normal speed.
-#include "app/timing/motion_blur.h"
 #include "app/timing/time_scaling.h"
+#include "app/timing/motion_blur.h"
 #include "core/error.h"
 #include "sim/world.h"
 
@@ -73,7 +73,7 @@ TEST(Shutter, OpensForTheNearestPartOfAFrame) {
     EXPECT_EQ(of(180.0, 8), (std::pair{16, 8}));
     EXPECT_EQ(of(360.0, 8), (std::pair{8, 8}));
     EXPECT_EQ(of(90.0, 4), (std::pair{16, 4}));
-    EXPECT_EQ(of(270.0, 8), (std::pair{11, 8}));   // 262 degrees
+    EXPECT_EQ(of(270.0, 8), (std::pair{11, 8}));  // 262 degrees
 }
 
 TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
@@ -83,7 +83,8 @@ TEST(Shutter, PartsKeepTheStepWhereTheyCan) {
     EXPECT_EQ(timing.fps, 240.0);
     const std::vector<Snapshot> normal = frames_of(scene, scene.timing()), parts = frames_of(scene, timing);
     ASSERT_EQ(parts.size(), 4 * (normal.size() - 1) + 1);
-    for (std::size_t n = 0; n < normal.size(); ++n) EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
+    for (std::size_t n = 0; n < normal.size(); ++n)
+        EXPECT_EQ(parts[4 * n].bodies[1].origin, normal[n].bodies[1].origin);
 }
 
 TEST(TimeScaling, TooManyFramesAreRefused) {

@@ -25,7 +25,8 @@ protected:
         write_text(folder / path, text);
     }
     void SetUp() override {
-        write("proc/meminfo", "MemTotal: 16777216 kB\nMemFree: 1024 kB\nMemAvailable: 8388608 kB\nSwapFree: 1048576 kB\n");
+        write("proc/meminfo",
+              "MemTotal: 16777216 kB\nMemFree: 1024 kB\nMemAvailable: 8388608 kB\nSwapFree: 1048576 kB\n");
     }
     AvailableMemory available() const { return available_memory({folder / "proc", folder / "groups"}); }
 
@@ -41,7 +42,7 @@ TEST_F(AvailableMemoryTest, AControlGroupOfVersion2) {
     write("proc/self/cgroup", "0::/outer/inner\n");
     write("groups/outer/inner/memory.max", "max\n");
     write("groups/outer/inner/memory.current", "1000\n");
-    write("groups/outer/memory.max", "1073741824\n");   // the parent's limit counts as well
+    write("groups/outer/memory.max", "1073741824\n");  // the parent's limit counts as well
     write("groups/outer/memory.current", "734003200\n");
     write("groups/outer/memory.stat", "anon 5\ninactive_file 104857600\nactive_file 209715200\n");
     EXPECT_EQ(available().bytes, (1024 - 700 + 100 + 200) * mebi);
@@ -56,7 +57,7 @@ TEST_F(AvailableMemoryTest, AControlGroupOfVersion1) {
     write("groups/memory/job/memory.usage_in_bytes", "104857600\n");
     EXPECT_EQ(available().bytes, 412 * mebi);
     EXPECT_EQ(shared_memory({folder / "proc", folder / "groups"}).bytes, 412 * mebi);
-    write("groups/memory/job/memory.limit_in_bytes", "9223372036854771712\n");   // none
+    write("groups/memory/job/memory.limit_in_bytes", "9223372036854771712\n");  // none
     EXPECT_EQ(available().bytes, 9 * gibi);
 }
 
@@ -79,11 +80,14 @@ void look_at_address_space() {
     limit.rlim_cur = limit.rlim_max = pages * std::uint64_t(getpagesize()) + 64 * mebi;
     setrlimit(RLIMIT_AS, &limit);
     const AvailableMemory left = available_memory();
-    const bool seen = shared_memory().bytes > left.bytes && left.bytes <= 64 * mebi && left.bound.find("ulimit -v") != std::string_view::npos;
+    const bool seen = shared_memory().bytes > left.bytes && left.bytes <= 64 * mebi &&
+                      left.bound.find("ulimit -v") != std::string_view::npos;
     std::exit(seen ? 7 : 8);
 }
 
-TEST(AvailableMemoryDeathTest, TheAddressSpace) { EXPECT_EXIT(look_at_address_space(), testing::ExitedWithCode(7), ""); }
+TEST(AvailableMemoryDeathTest, TheAddressSpace) {
+    EXPECT_EXIT(look_at_address_space(), testing::ExitedWithCode(7), "");
+}
 
 TEST(AvailableMemory, SmallRequestsPassAndLargeOnesAreRefusedWithNumbers) {
     require_memory(1, "nothing", "none");
@@ -92,7 +96,8 @@ TEST(AvailableMemory, SmallRequestsPassAndLargeOnesAreRefusedWithNumbers) {
         FAIL();
     } catch (const RunError& error) {
         const std::string words = error.what();
-        EXPECT_NE(words.find("a picture of 9 x 9 pixels takes 1.07e+09 GiB of memory, and "), std::string::npos) << words;
+        EXPECT_NE(words.find("a picture of 9 x 9 pixels takes 1.07e+09 GiB of memory, and "), std::string::npos)
+            << words;
         EXPECT_NE(words.find(" left; a smaller one takes less"), std::string::npos) << words;
     }
     EXPECT_EQ(memory_text(300 * mebi), "300 MiB");

@@ -17,12 +17,12 @@ TEST(Color, EveryLevelSurvivesTheWayToLinearLightAndBack) {
     }
 }
 
-TEST(Color, KnownValues) {   // IEC 61966-2-1
+TEST(Color, KnownValues) {  // IEC 61966-2-1
     EXPECT_DOUBLE_EQ(srgb_to_linear(0.0), 0.0);
     EXPECT_DOUBLE_EQ(srgb_to_linear(1.0), 1.0);
     EXPECT_NEAR(srgb_to_linear(0.5), 0.21404114048223255, 1e-15);
     EXPECT_NEAR(srgb_to_linear(0.04045), 0.0031308049535603713, 1e-15);
-    EXPECT_NEAR(linear_to_srgb(0.18), 0.46135612950044164, 1e-15);   // middle gray
+    EXPECT_NEAR(linear_to_srgb(0.18), 0.46135612950044164, 1e-15);  // middle gray
     const auto linear = to_linear(Color{255, 128, 0});
     EXPECT_DOUBLE_EQ(linear[0], 1.0);
     EXPECT_NEAR(linear[1], 0.21586050011389926, 1e-15);

@@ -113,7 +113,7 @@ TEST(DeterministicMath, ArcTangent) {
         expect(1.0 / (2.0 * unit(random) - 1.0));
         expect(std::ldexp(1.0 + unit(random), static_cast<int>(random() % 400) - 200));
     }
-    for (int i = -64; i <= 64; ++i) expect(i / 8.0);   // where the pieces meet
+    for (int i = -64; i <= 64; ++i) expect(i / 8.0);  // where the pieces meet
     EXPECT_EQ(arc_tangent(HUGE_VAL), 0.5 * pi);
     EXPECT_EQ(arc_tangent(0.0), 0.0);
     EXPECT_TRUE(std::isnan(arc_tangent(NAN)));
@@ -132,7 +132,7 @@ TEST(DeterministicMath, Exponential) {
     EXPECT_EQ(exponential(-HUGE_VAL), 0.0);
     EXPECT_EQ(exponential(1e4), HUGE_VAL);
     EXPECT_TRUE(std::isnan(exponential(NAN)));
-    EXPECT_NEAR(exponential(-745.0) / 5e-324, 1.0, 0.5);   // near the smallest number
+    EXPECT_NEAR(exponential(-745.0) / 5e-324, 1.0, 0.5);  // near the smallest number
 }
 
 TEST(DeterministicMath, HyperbolicTangentAndSecant) {

@@ -1,5 +1,5 @@
-#include "core/check.h"
 #include "core/error.h"
+#include "core/check.h"
 
 #include <gtest/gtest.h>
 

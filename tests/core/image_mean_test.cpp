@@ -1,6 +1,6 @@
 // Means of images, compared with the same in double precision.
-#include "core/color.h"
 #include "core/image_mean.h"
+#include "core/color.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST(ImageMean, AddsLightNotNumbers) {
     mean.add(of_values({0, 255, 10}));
     mean.add(of_values({255, 255, 200}));
     mean.take(result);
-    EXPECT_EQ(result.pixels[0], 188);   // half the light of white
+    EXPECT_EQ(result.pixels[0], 188);  // half the light of white
     EXPECT_EQ(result.pixels[4], 255);
     const double half = 0.5 * (srgb_to_linear(10 / 255.0) + srgb_to_linear(200 / 255.0));
     EXPECT_EQ(result.pixels[8], std::lround(255.0 * linear_to_srgb(half)));

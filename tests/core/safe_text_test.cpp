@@ -1,6 +1,6 @@
 // No foreign text controls or fills a terminal.
-#include "core/error.h"
 #include "core/safe_text.h"
+#include "core/error.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,8 @@ TEST(SafeText, EveryErrorIsSafe) {
     EXPECT_STREQ(InputError("no \x1b[2J").what(), "error: no \\x1b[2J");
     EXPECT_STREQ(InputError({"a\x1b\n.toml", 3, 7}, "bad\nline").what(), "a\\x1b\\n.toml:3:7: error: bad\\nline");
     EXPECT_STREQ(RunError("ffmpeg failed:\nUnknown \x1b[31mencoder").what(),
-                 "error: ffmpeg failed:\nUnknown \\x1b[31mencoder") << "another program's lines stay lines";
+                 "error: ffmpeg failed:\nUnknown \\x1b[31mencoder")
+        << "another program's lines stay lines";
     EXPECT_LT(std::string(InputError(std::string(10'000'000, 'k')).what()).size(), message_text_bytes + 10);
     EXPECT_LT(std::string(RunError(std::string(10'000'000, 'k')).what()).size(), message_text_bytes + 10);
 }

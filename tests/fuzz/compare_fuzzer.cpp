@@ -17,7 +17,8 @@ std::size_t first_length(std::span<const std::uint8_t> bytes) {
     return std::min(std::size_t(bytes[4]) | std::size_t(bytes[5]) << 8, bytes.size() - head);
 }
 
-void compare(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second, const tumble::CompareOptions& options) {
+void compare(std::span<const std::uint8_t> first, std::span<const std::uint8_t> second,
+             const tumble::CompareOptions& options) {
     tumble::PngRows a(tumble::as_file(first), "a.png"), b(tumble::as_file(second), "b.png");
     const auto [width, height] = a.size();
     tumble::check_sizes(width, height, b.size().width, b.size().height);

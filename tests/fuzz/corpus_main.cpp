@@ -16,11 +16,11 @@ int main(int count, char** arguments) {
     }
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
-        std::printf("%s\n", file.c_str());   // the last one named is the one that crashed
+        std::printf("%s\n", file.c_str());  // the last one named is the one that crashed
         std::fflush(stdout);
         std::ifstream stream(file, std::ios::binary);
         const std::vector<char> bytes(std::istreambuf_iterator<char>(stream), {});
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
-    return files.empty() ? 1 : 0;   // a test without files must fail
+    return files.empty() ? 1 : 0;  // a test without files must fail
 }

@@ -36,7 +36,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         tumble::PngRows rows(tumble::as_file(bytes), "fuzzed.png");
         const auto [width, height] = rows.size();
         if (std::int64_t(width) * height > tumble::fuzzed_pixels) return 0;
-        comparable = !rows.interlaced() || bytes[24] < 16;   // libpng 1.6.39's simplified reader shuffles the pixels of others
+        comparable =
+            !rows.interlaced() || bytes[24] < 16;  // libpng 1.6.39's simplified reader shuffles the pixels of others
         for (int y = 0; y < height; ++y) {
             const auto row = rows.next();
             pixels.insert(pixels.end(), row.begin(), row.end());

@@ -57,7 +57,7 @@ TEST(Deflater, TheBytesAreTheSameAtEveryAddress) {
     const Bytes bytes = block_of_noise();
     Deflater first;
     const Bytes expected = packed(first, bytes);
-    std::vector<std::unique_ptr<Deflater>> kept;   // so that each has a different address
+    std::vector<std::unique_ptr<Deflater>> kept;  // so that each has a different address
     for (int i = 0; i < 2000; ++i) {
         kept.push_back(std::make_unique<Deflater>());
         ASSERT_TRUE(packed(*kept.back(), bytes) == expected) << i;
@@ -77,7 +77,8 @@ TEST(Deflater, BytesUnlikeTheSampleStayWithinTheBound) {
 TEST(Deflater, PiecesThatEndAtAWholeByteCanBeJoined) {
     Deflater deflater;
     const Bytes bytes = slopes(100000);
-    const std::span<const std::byte> all = bytes, head = all.first(777), middle = all.subspan(777, 60000), tail = all.subspan(60777);
+    const std::span<const std::byte> all = bytes, head = all.first(777), middle = all.subspan(777, 60000),
+                                     tail = all.subspan(60777);
     Bytes room(3 * Deflater::bound(bytes.size()));
     std::size_t used = deflater.compress({head}, Deflater::End::whole_byte, room);
     used += deflater.compress({middle}, Deflater::End::whole_byte, std::span(room).subspan(used));

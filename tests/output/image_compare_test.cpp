@@ -1,6 +1,6 @@
 // Comparison of pictures: noise between processors passes, and a visible change fails.
-#include "core/error.h"
 #include "output/image_compare.h"
+#include "core/error.h"
 
 #include "pictures.h"
 
@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-constexpr int width = 640, height = 480;   // 307,200 pixels, as in the measurement of the noise
+constexpr int width = 640, height = 480;  // 307,200 pixels, as in the measurement of the noise
 
 void shift(Image& image, int x, int y, int levels) {
     for (int c = 0; c < 3; ++c) image.at(x, y)[c] = std::uint8_t(std::clamp(image.at(x, y)[c] + levels, 0, 255));
@@ -29,13 +29,14 @@ TEST(Compare, TheSameIsAlike) {
 
 TEST(Compare, NoiseBetweenInstructionSetsPasses) {
     const Image a = landscape(width, height);
-    Image few = a;   // 2 pixels by up to 35 levels, even adjacent
+    Image few = a;  // 2 pixels by up to 35 levels, even adjacent
     shift(few, 200, 300, 35);
     shift(few, 201, 300, -30);
     EXPECT_TRUE(compare_images(a, few).alike) << compare_images(a, few).reason;
-    Image many = a;   // 372 by 1
+    Image many = a;  // 372 by 1
     std::mt19937 random(3);
-    for (int i = 0; i < 372; ++i) shift(many, int(random() % width), int(random() % height), random() % 2 == 0 ? 1 : -1);
+    for (int i = 0; i < 372; ++i)
+        shift(many, int(random() % width), int(random() % height), random() % 2 == 0 ? 1 : -1);
     const Comparison result = compare_images(a, many);
     EXPECT_TRUE(result.alike) << result.reason;
     EXPECT_EQ(result.max_difference, 1);
@@ -52,7 +53,8 @@ TEST(Compare, ABoxMovedByOnePixelFails) {
                     const Pixel color{120 + contrast, 120, 120 - contrast};
                     fill(a, x, y, side, side, color);
                     fill(b, x + dx, y + dy, side, side, color);
-                    EXPECT_FALSE(compare_images(a, b).alike) << w << " wide, box of " << side << ", contrast " << contrast;
+                    EXPECT_FALSE(compare_images(a, b).alike)
+                        << w << " wide, box of " << side << ", contrast " << contrast;
                 }
 }
 
@@ -92,7 +94,7 @@ TEST(Compare, AShiftOfOneLevelPasses) {
 TEST(Compare, ManyScatteredPixelsFail) {
     const Image a = landscape(width, height);
     Image b = a;
-    for (int i = 0; i < 60; ++i) shift(b, 10 * i + 5, 8 * i, 20);   // far apart: no cluster, but twice too many
+    for (int i = 0; i < 60; ++i) shift(b, 10 * i + 5, 8 * i, 20);  // far apart: no cluster, but twice too many
     const Comparison result = compare_images(a, b);
     EXPECT_FALSE(result.alike);
     EXPECT_EQ(result.failing_pixels, 60u);
@@ -123,18 +125,20 @@ TEST(Compare, LooserOptionsAllowMore) {
     EXPECT_FALSE(compare_images(a, c, {.tolerance = 0, .fraction = 0.0}).alike) << "no tolerance: exact";
     const Image d = plain(100, 100, {5, 5, 5});
     EXPECT_FALSE(compare_images(a, d).alike);
-    EXPECT_FALSE(compare_images(a, d, {.tolerance = 5, .fraction = 0.0}).alike) << "within the tolerance, but everywhere";
+    EXPECT_FALSE(compare_images(a, d, {.tolerance = 5, .fraction = 0.0}).alike)
+        << "within the tolerance, but everywhere";
     EXPECT_TRUE(compare_images(a, d, {.tolerance = 10, .fraction = 0.0}).alike);
     EXPECT_TRUE(compare_images(a, a, {.tolerance = 0, .fraction = 0.0}).alike);
 }
 
 TEST(Compare, EveryFailedRuleIsNamedWithItsValueAndPlace) {
     const Image a = plain(width, height, {120, 120, 120});
-    Image dot = a;   // 31 of 307,200 pixels may differ by any amount, but a window's mean is bounded
+    Image dot = a;  // 31 of 307,200 pixels may differ by any amount, but a window's mean is bounded
     shift(dot, 100, 60, 134);
     const Comparison one = compare_images(a, dot);
-    EXPECT_EQ(one.reason, "rule window: the 8 x 8 pixels from x 96, y 56 on differ by 2.094 levels on average "
-                          "(at most 1.526 may; see --window)");
+    EXPECT_EQ(one.reason,
+              "rule window: the 8 x 8 pixels from x 96, y 56 on differ by 2.094 levels on average "
+              "(at most 1.526 may; see --window)");
     EXPECT_EQ(one.max_x, 100);
     EXPECT_EQ(one.max_y, 60);
     EXPECT_TRUE(one.rules[0].holds() && one.rules[1].holds() && !one.rules[2].holds());
@@ -142,11 +146,14 @@ TEST(Compare, EveryFailedRuleIsNamedWithItsValueAndPlace) {
     Image box = a;
     fill(box, 20, 40, 9, 9, {220, 120, 120});
     const Comparison all = compare_images(a, box);
-    EXPECT_EQ(all.reason,
-              "rule pixels: 81 pixels differ by more than 3 levels (at most 31 may, a fraction of 0.0001; see --tolerance, "
-              "--fraction); the most by 100, at x 20, y 40\n"
-              "rule cluster: 64 pixels of the 8 x 8 from x 20, y 40 on differ by more than 3 levels (at most 4 may; see --cluster)\n"
-              "rule window: the 8 x 8 pixels from x 20, y 40 on differ by 100 levels on average (at most 1.526 may; see --window)");
+    EXPECT_EQ(
+        all.reason,
+        "rule pixels: 81 pixels differ by more than 3 levels (at most 31 may, a fraction of 0.0001; see --tolerance, "
+        "--fraction); the most by 100, at x 20, y 40\n"
+        "rule cluster: 64 pixels of the 8 x 8 from x 20, y 40 on differ by more than 3 levels (at most 4 may; see "
+        "--cluster)\n"
+        "rule window: the 8 x 8 pixels from x 20, y 40 on differ by 100 levels on average (at most 1.526 may; see "
+        "--window)");
 }
 
 TEST(Compare, EachRuleCanBeSet) {
@@ -159,7 +166,7 @@ TEST(Compare, EachRuleCanBeSet) {
     options.window = 2.1;
     EXPECT_TRUE(compare_images(a, dot, options).alike);
 
-    Image row = a;   // five adjacent pixels
+    Image row = a;  // five adjacent pixels
     for (int x = 40; x < 45; ++x) shift(row, x, 60, 10);
     EXPECT_FALSE(compare_images(a, row).alike);
     options = {};

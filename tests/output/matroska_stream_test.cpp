@@ -15,11 +15,12 @@ std::uint64_t number_at(const std::vector<std::byte>& bytes, std::size_t at) {
     return number;
 }
 
-constexpr std::size_t cluster_size_at = 4, timestamp_at = 4 + 8 + 1 + 8;   // after the elements' numbers and sizes
+constexpr std::size_t cluster_size_at = 4, timestamp_at = 4 + 8 + 1 + 8;  // after the elements' numbers and sizes
 constexpr std::uint64_t size_mark = std::uint64_t(1) << 56;
 
 TEST(MatroskaStream, TimesNeitherDriftNorOverflow) {
-    for (const FrameRate rate : {FrameRate{60, 1}, {2997, 100}, {30000, 1001}, {1000000, 1}, {999983, 1}, {1, 1000}, {7, 3}}) {
+    for (const FrameRate rate :
+         {FrameRate{60, 1}, {2997, 100}, {30000, 1001}, {1000000, 1}, {999983, 1}, {1, 1000}, {7, 3}}) {
         for (std::int64_t n = 0; n <= 10'000'000; n = 3 * n + 1) {
             const long double exact = 1e9L * static_cast<long double>(n * rate.denominator) / rate.numerator;
             const std::uint64_t stamp = number_at(matroska_frame_head(n, rate, 100), timestamp_at);

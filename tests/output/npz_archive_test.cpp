@@ -72,7 +72,7 @@ std::vector<Value> values_of(const std::string& bytes) {
 
 TEST(NpzArchive, HoldsArraysOfAllKinds) {
     std::vector<float> floats;
-    for (int i = 0; i < 1000 * 7; ++i) floats.push_back(std::sin(float(i)) / float(i));   // the first is NaN
+    for (int i = 0; i < 1000 * 7; ++i) floats.push_back(std::sin(float(i)) / float(i));  // the first is NaN
     const std::vector<double> doubles = {0.1, -1e300};
     const std::vector<std::int32_t> numbers(50000, 70000);
     const std::vector<std::uint8_t> bytes = {1, 2, 3, 4, 5, 6};

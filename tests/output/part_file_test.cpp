@@ -1,7 +1,7 @@
 // Part files: those of a killed process are removed, those of a living one stay, and a final name appears only when the
 // bytes are on the disk. fsync() and rename() are replaced below.
-#include "core/error.h"
 #include "output/part_file.h"
+#include "core/error.h"
 #include "output/temporary_file.h"
 
 #include "../support/folder.h"
@@ -23,8 +23,8 @@
 
 namespace {
 
-std::vector<std::string> calls;   // in order, with the last part of the path
-int sync_error = 0;               // error of the next fsync()
+std::vector<std::string> calls;  // in order, with the last part of the path
+int sync_error = 0;              // error of the next fsync()
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -83,7 +83,8 @@ TEST(PartFile, TheBytesAreOnTheDiskBeforeTheName) {
     const std::string part = file.path().filename().string();
     calls.clear();
     file.commit();
-    EXPECT_EQ(calls, (std::vector<std::string>{"sync " + part, "rename " + part, "sync " + folder.path().filename().string()}));
+    EXPECT_EQ(calls, (std::vector<std::string>{"sync " + part, "rename " + part,
+                                               "sync " + folder.path().filename().string()}));
 }
 
 TEST(PartFile, AFileThatCannotBeSyncedGetsNoName) {
@@ -100,7 +101,7 @@ TEST(PartFile, AFileThatCannotBeSyncedGetsNoName) {
     EXPECT_EQ(folder.files(), 1u);
     TemporaryFile file(folder / "a.txt");
     put(file, "new");
-    sync_error = EINVAL;   // a file system without sync
+    sync_error = EINVAL;  // a file system without sync
     file.commit();
     sync_error = 0;
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
@@ -132,9 +133,9 @@ TEST(PartFile, PartsOfALivingProcessStay) {
 
 TEST(PartFile, OnlyNamesOfPartsAreRemoved) {
     const TestFolder folder;
-    const std::vector<std::string> others = {".a.txt.part-0123abcd",        "a.txt.tumble.part-0123abcd",
-                                             ".a.txt.tumble.part-0123abc",  ".a.txt.tumble.part-0123ABCD",
-                                             ".a.txt.tumble.part-0123abcde", ".a.txt.tumble.part-0123abcd.txt",
+    const std::vector<std::string> others = {".a.txt.part-0123abcd",          "a.txt.tumble.part-0123abcd",
+                                             ".a.txt.tumble.part-0123abc",    ".a.txt.tumble.part-0123ABCD",
+                                             ".a.txt.tumble.part-0123abcde",  ".a.txt.tumble.part-0123abcd.txt",
                                              ".x.a.txt.tumble.part-0123abcd", ".tumble.part-0123abcd"};
     for (const std::string& name : others) write_text(folder / name, "kept");
     fs::create_directory(folder / ".a.txt.tumble.part-00000000");
@@ -156,7 +157,7 @@ TEST(PartFile, NamesAsLongAsThereAreAny) {
         EXPECT_EQ(folder.files(), 1u);
         fs::remove(folder / name);
     }
-    std::string umlauts;   // 255 bytes: a cut at the available 233 would be in the middle of a letter
+    std::string umlauts;  // 255 bytes: a cut at the available 233 would be in the middle of a letter
     for (int i = 0; i < 127; ++i) umlauts += "\xc3\xb6";
     const PartFile part(folder / (umlauts + "x"));
     EXPECT_EQ(part.path().filename().string().substr(0, 233), "." + umlauts.substr(0, 232));

@@ -39,7 +39,8 @@ inline Image landscape(int width, int height) {
     Image image(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            set(image, x, y, y < height / 3 ? Pixel{150 + y / 4, 180 + y / 5, 215} : Pixel{120 + x / 8, 118 + x / 8, 110});
+            set(image, x, y,
+                y < height / 3 ? Pixel{150 + y / 4, 180 + y / 5, 215} : Pixel{120 + x / 8, 118 + x / 8, 110});
     return image;
 }
 

@@ -57,8 +57,8 @@ TEST(Png, SaysItIsSrgbRgb8) {
     const std::vector<std::byte> bytes = encoded(colorful(9, 5));
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     EXPECT_EQ(text.substr(1, 3), "PNG");
-    EXPECT_EQ(text[24], 8);   // bits
-    EXPECT_EQ(text[25], 2);   // RGB
+    EXPECT_EQ(text[24], 8);  // bits
+    EXPECT_EQ(text[25], 2);  // RGB
     EXPECT_NE(text.find("sRGB"), std::string::npos);
 }
 
@@ -72,7 +72,7 @@ TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
     PngEncoder encoder;
     for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
         Image image = colorful(width, height);
-        encoder.encode(image, {});   // of another size than the previous one: a full conversion, for any changed regions
+        encoder.encode(image, {});  // of another size than the previous one: a full conversion, for any changed regions
         const std::vector<Rectangle> changes[] = {
             {{3, 0, 1, 1}}, {{0, height - 1, width, 1}}, {}, {{1, 5, 4, 20}, {5, 25, 2, 6}}, {{0, 0, width, height}}};
         int value = 0;
@@ -89,7 +89,8 @@ TEST(Png, IncompressibleDataFits) {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 1000}, {500, 333}}) {
         Image image(width, height);
         std::uint32_t random = 1;
-        for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+        for (std::uint8_t& byte : image.pixels)
+            byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) image.at(x, y)[3] = 255;
         write_png(folder / "a.png", image);
@@ -109,7 +110,7 @@ TEST(Png, ReadsEveryKind) {
     const TestFolder folder;
     struct Kind {
         png_uint_32 format;
-        std::vector<std::uint8_t> pixels;   // 2 x 1
+        std::vector<std::uint8_t> pixels;  // 2 x 1
         std::vector<std::uint8_t> expected;
     };
     const Kind kinds[] = {
@@ -152,14 +153,15 @@ std::vector<std::uint8_t> read_simply(const std::filesystem::path& path) {
 }
 
 /// A PNG of noise in any form; `gamma` 0: no gamma in the file.
-void write_noise(const std::filesystem::path& path, int width, int height, int depth, int kind, bool interlaced, bool transparent,
-                 double gamma) {
+void write_noise(const std::filesystem::path& path, int width, int height, int depth, int kind, bool interlaced,
+                 bool transparent, double gamma) {
     std::FILE* const file = std::fopen(path.c_str(), "wb");
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     png_init_io(png, file);
     png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), depth, kind,
-                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     std::uint32_t random = std::uint32_t(depth * 100 + kind);
     const auto next = [&] { return png_byte((random = 1664525 * random + 1013904223) >> 24); };
     std::vector<png_color> palette(std::size_t(1) << std::min(depth, 8));
@@ -167,8 +169,10 @@ void write_noise(const std::filesystem::path& path, int width, int height, int d
     const png_byte alphas[] = {0, 100};
     png_color_16 clear{};
     if (kind == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette.data(), int(palette.size()));
-    if (transparent && kind == PNG_COLOR_TYPE_PALETTE) png_set_tRNS(png, info, alphas, 2, nullptr);
-    else if (transparent) png_set_tRNS(png, info, nullptr, 0, &clear);
+    if (transparent && kind == PNG_COLOR_TYPE_PALETTE)
+        png_set_tRNS(png, info, alphas, 2, nullptr);
+    else if (transparent)
+        png_set_tRNS(png, info, nullptr, 0, &clear);
     if (gamma > 0.0) png_set_gAMA(png, info, gamma);
     png_write_info(png, info);
     std::vector<png_byte> pixels(std::size_t(height) * png_get_rowbytes(png, info));
@@ -188,8 +192,11 @@ TEST(Png, EveryFormIsReadLikeLibpngsSimplifiedReader) {
         int kind;
         std::vector<int> depths;
     };
-    const Form forms[] = {{PNG_COLOR_TYPE_GRAY, {1, 2, 4, 8, 16}}, {PNG_COLOR_TYPE_PALETTE, {1, 2, 4, 8}},
-                          {PNG_COLOR_TYPE_RGB, {8, 16}}, {PNG_COLOR_TYPE_GRAY_ALPHA, {8, 16}}, {PNG_COLOR_TYPE_RGB_ALPHA, {8, 16}}};
+    const Form forms[] = {{PNG_COLOR_TYPE_GRAY, {1, 2, 4, 8, 16}},
+                          {PNG_COLOR_TYPE_PALETTE, {1, 2, 4, 8}},
+                          {PNG_COLOR_TYPE_RGB, {8, 16}},
+                          {PNG_COLOR_TYPE_GRAY_ALPHA, {8, 16}},
+                          {PNG_COLOR_TYPE_RGB_ALPHA, {8, 16}}};
     for (const Form& form : forms)
         for (const int depth : form.depths)
             for (const bool interlaced : {false, true})
@@ -200,7 +207,8 @@ TEST(Png, EveryFormIsReadLikeLibpngsSimplifiedReader) {
                         // without interlacing.
                         write_noise(folder / "plain.png", 21, 13, depth, form.kind, false, transparent, gamma);
                         write_noise(path, 21, 13, depth, form.kind, interlaced, transparent, gamma);
-                        const std::string which = testing::PrintToString(std::tuple(form.kind, depth, interlaced, transparent, gamma));
+                        const std::string which =
+                            testing::PrintToString(std::tuple(form.kind, depth, interlaced, transparent, gamma));
                         const std::vector<std::uint8_t> expected = read_simply(folder / "plain.png");
                         EXPECT_EQ(read_png(path).pixels, expected) << which;
                         PngRows rows(path);
@@ -243,7 +251,7 @@ TEST(Png, EveryCutIsRefused) {
     const TestFolder folder;
     const std::vector<std::byte> bytes = encoded(colorful(20, 10));
     const std::string whole(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    for (std::size_t n = 0; n < whole.size() - 12; n += 7) {   // the last 12 bytes are the end mark: no loss
+    for (std::size_t n = 0; n < whole.size() - 12; n += 7) {  // the last 12 bytes are the end mark: no loss
         write_text(folder / "cut.png", whole.substr(0, n));
         EXPECT_NE(message_of(folder / "cut.png").find("not a whole PNG file"), std::string::npos) << n << " bytes";
     }
@@ -257,7 +265,7 @@ TEST(Png, NoChangedByteCrashes) {
         std::string broken = whole;
         broken[n] = char(~broken[n]);
         write_text(folder / "broken.png", broken);
-        message_of(folder / "broken.png");   // an error or a picture; the sanitizers check
+        message_of(folder / "broken.png");  // an error or a picture; the sanitizers check
     }
 }
 
@@ -265,11 +273,11 @@ TEST(Png, AHostileSizeIsRefusedBeforeMemoryIsTaken) {
     const TestFolder folder;
     const std::vector<std::byte> bytes = encoded(colorful(1, 1));
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const char huge[] = {0x00, 0x0f, 0x42, 0x40};   // 1,000,000, big-endian
+    const char huge[] = {0x00, 0x0f, 0x42, 0x40};  // 1,000,000, big-endian
     std::memcpy(&text[16], huge, 4);
     std::memcpy(&text[20], huge, 4);
     const auto checksum = [&] {
-        std::uint32_t crc = 0xffffffffu;   // of the header chunk (PNG specification, annex D)
+        std::uint32_t crc = 0xffffffffu;  // of the header chunk (PNG specification, annex D)
         for (std::size_t i = 12; i < 29; ++i) {
             crc ^= static_cast<std::uint8_t>(text[i]);
             for (int bit = 0; bit < 8; ++bit) crc = (crc & 1u) != 0 ? 0xedb88320u ^ (crc >> 1) : crc >> 1;

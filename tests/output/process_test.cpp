@@ -1,6 +1,6 @@
 // Other programs: found, fed, read from, and their failures handled.
-#include "core/error.h"
 #include "output/process.h"
+#include "core/error.h"
 
 #include "../support/folder.h"
 
@@ -25,7 +25,7 @@ std::span<const std::byte> bytes_of(const std::string& text) { return std::as_by
 TEST(Process, ReadsItsInputAndEnds) {
     const TestFolder folder;
     Process process(shell, {"-c", "cat > \"$0\"", (folder / "out").string()});
-    const std::string text(3'000'000, 'x');   // more than a pipe holds
+    const std::string text(3'000'000, 'x');  // more than a pipe holds
     EXPECT_TRUE(process.write(bytes_of(text)));
     EXPECT_TRUE(process.finish().ok());
     EXPECT_EQ(read_text(folder / "out"), text);
@@ -34,7 +34,7 @@ TEST(Process, ReadsItsInputAndEnds) {
 // Memory is overwritten as soon as it is released: a slow program must have read it by then.
 TEST(Process, LentMemoryIsHeldUntilItIsRead) {
     const TestFolder folder;
-    const std::size_t size = (1 << 20) + 12345;   // slightly more than the pipe's capacity
+    const std::size_t size = (1 << 20) + 12345;  // slightly more than the pipe's capacity
     int kept = 0;
     const auto let_go = [&kept](std::byte* memory) {
         std::fill_n(memory, size, std::byte('!'));
@@ -92,7 +92,7 @@ TEST(Process, CanBeKilledWhileItIsFed) {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
         process.kill();
     });
-    const std::string text(8'000'000, 'x');   // sleep reads nothing: the write waits until the kill
+    const std::string text(8'000'000, 'x');  // sleep reads nothing: the write waits until the kill
     EXPECT_FALSE(process.write(bytes_of(text)));
     killer.join();
     const ProcessEnd end = process.finish();
@@ -104,7 +104,8 @@ TEST(Process, CanBeKilledWhileItIsFed) {
 pid_t number_in(const std::filesystem::path& file) {
     for (int i = 0; i < 10'000; ++i) {
         std::error_code missing;
-        if (std::filesystem::exists(file, missing) && std::filesystem::file_size(file) > 0) return std::stoi(read_text(file));
+        if (std::filesystem::exists(file, missing) && std::filesystem::file_size(file) > 0)
+            return std::stoi(read_text(file));
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return -1;
@@ -191,8 +192,9 @@ TEST(Process, ItsMessagesAreReadWhileItIsFed) {
 TEST(Process, AProgramThatHangsIsStopped) {
     const TestFolder folder;
     int asked = 0;
-    const ProgramOutput output = run_program(shell, {"-c", "sleep 1000 & echo $! | tee \"$0\"; sleep 1000", (folder / "child").string()},
-                                             [&] { return number_in(folder / "child") > 0 && ++asked > 2; });
+    const ProgramOutput output =
+        run_program(shell, {"-c", "sleep 1000 & echo $! | tee \"$0\"; sleep 1000", (folder / "child").string()},
+                    [&] { return number_in(folder / "child") > 0 && ++asked > 2; });
     EXPECT_TRUE(output.stopped);
     EXPECT_EQ(output.end.signal, SIGKILL);
     EXPECT_EQ(output.text, read_text(folder / "child"));

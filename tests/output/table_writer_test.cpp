@@ -1,6 +1,6 @@
 // Every double is restored to the bit, in any locale; text is quoted if CSV requires it.
-#include "core/error.h"
 #include "output/table_writer.h"
+#include "core/error.h"
 
 #include "../support/folder.h"
 
@@ -24,14 +24,18 @@ TEST(TableWriter, WritesRows) {
     table.integer(-1).text("a, \"b\"\nc").number(2.0).end_row();
     EXPECT_FALSE(std::filesystem::exists(folder / "t.csv"));
     table.finish();
-    EXPECT_EQ(read_text(folder / "t.csv"),
-              "frame,name,x\n0,plain,0.10000000000000001\n-1,\"a, \"\"b\"\"\nc\",2\n");
+    EXPECT_EQ(read_text(folder / "t.csv"), "frame,name,x\n0,plain,0.10000000000000001\n-1,\"a, \"\"b\"\"\nc\",2\n");
 }
 
 TEST(TableWriter, EveryDoubleComesBack) {
     const TestFolder folder;
     std::mt19937_64 random(1);
-    std::vector<double> values{0.0, -0.0, 1.0 / 3.0, 1e300, -1e-300, std::numeric_limits<double>::denorm_min(),
+    std::vector<double> values{0.0,
+                               -0.0,
+                               1.0 / 3.0,
+                               1e300,
+                               -1e-300,
+                               std::numeric_limits<double>::denorm_min(),
                                std::numeric_limits<double>::max()};
     while (values.size() < 20000) {
         const double value = std::bit_cast<double>(random());

@@ -1,7 +1,7 @@
 // A file appears completely or not at all, and an earlier file stays until then.
+#include "output/temporary_file.h"
 #include "core/error.h"
 #include "output/png_writer.h"
-#include "output/temporary_file.h"
 
 #include "../support/folder.h"
 #include "pictures.h"
@@ -132,7 +132,7 @@ TEST(TemporaryFile, AFullDiskLeavesNothing) {
     getrlimit(RLIMIT_FSIZE, &before);
     const auto previous = std::signal(SIGXFSZ, SIG_IGN);
     rlimit small = before;
-    small.rlim_cur = 1000;   // bytes in a file: for the writer, the same error as a full disk
+    small.rlim_cur = 1000;  // bytes in a file: for the writer, the same error as a full disk
     setrlimit(RLIMIT_FSIZE, &small);
     EXPECT_THROW(write_png(folder / "a.png", colorful(320, 180)), RunError);
     setrlimit(RLIMIT_FSIZE, &before);

@@ -47,8 +47,10 @@ TEST(VideoFormat, DependsOnTheKindOfThePath) {
         std::filesystem::create_symlink(folder / name, folder / ("link" + std::string(name)));
         const bool head_last = name == std::string("a.mp4") || name == std::string("a.MOV");
         for (const std::string before : {"", "link"}) {
-            if (head_last) EXPECT_THROW(video_format(folder / (before + name), 25.0), InputError) << before << name;
-            else EXPECT_NO_THROW(video_format(folder / (before + name), 25.0)) << before << name;
+            if (head_last)
+                EXPECT_THROW(video_format(folder / (before + name), 25.0), InputError) << before << name;
+            else
+                EXPECT_NO_THROW(video_format(folder / (before + name), 25.0)) << before << name;
         }
     }
 }
@@ -60,12 +62,14 @@ TEST(VideoFormat, ByEnding) {
     EXPECT_EQ(video_format("b/a.mkv", 60.0).kind, VideoKind::h264);
     EXPECT_EQ(video_format("a.webm", 60.0).kind, VideoKind::vp9);
     EXPECT_EQ(video_format("a.gif", 25.0).kind, VideoKind::gif);
-    for (const char* name : {"a", "a.avi", "mp4", "a.mp4.png", "a.", ""}) EXPECT_THROW(video_format(name, 60.0), InputError);
+    for (const char* name : {"a", "a.avi", "mp4", "a.mp4.png", "a.", ""})
+        EXPECT_THROW(video_format(name, 60.0), InputError);
 }
 
 TEST(VideoFormat, ImpossibleRatesAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-    for (const double fps : {0.0, -1.0, 1e-5, 1.1e6, nan, infinity}) EXPECT_THROW(video_format("a.mp4", fps), InputError);
+    for (const double fps : {0.0, -1.0, 1e-5, 1.1e6, nan, infinity})
+        EXPECT_THROW(video_format("a.mp4", fps), InputError);
     EXPECT_NO_THROW(video_format("a.mp4", 1e6));
     EXPECT_NO_THROW(video_format("a.mkv", 1000.0));
     EXPECT_THROW(video_format("a.mkv", 1001.0), InputError);

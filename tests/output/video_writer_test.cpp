@@ -1,7 +1,7 @@
 // Clips encoded by the real ffmpeg, measured with ffprobe and decoded again.
+#include "output/video_writer.h"
 #include "core/error.h"
 #include "output/process.h"
-#include "output/video_writer.h"
 
 #include "../support/folder.h"
 #include "pictures.h"
@@ -35,8 +35,8 @@ std::string probe(const std::filesystem::path& clip, const std::string& what) {
 /// All frames as RGB bytes, by the matrix that the clip names.
 std::string decoded(const std::filesystem::path& clip) {
     const std::filesystem::path raw = clip.string() + ".rgb";
-    if (!output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-f", "rawvideo", "-pix_fmt", "rgb24", "-y",
-                                       raw.string()}))
+    if (!output_of("/usr/bin/ffmpeg",
+                   {"-v", "error", "-i", clip.string(), "-f", "rawvideo", "-pix_fmt", "rgb24", "-y", raw.string()}))
         return "";
     std::string bytes = read_text(raw);
     std::filesystem::remove(raw);
@@ -59,8 +59,8 @@ void write_clip(const std::filesystem::path& clip, int width, int height, double
 }
 
 Pixel pixel_at(const std::string& rgb, int width, int height, int frame, int x, int y) {
-    const std::size_t at = 3 * ((std::size_t(frame) * std::size_t(height) + std::size_t(y)) * std::size_t(width) +
-                                std::size_t(x));
+    const std::size_t at =
+        3 * ((std::size_t(frame) * std::size_t(height) + std::size_t(y)) * std::size_t(width) + std::size_t(x));
     if (at + 3 > rgb.size()) return {-1, -1, -1};
     const auto byte = [&](std::size_t i) { return int(static_cast<std::uint8_t>(rgb[at + i])); };
     return {byte(0), byte(1), byte(2)};
@@ -73,8 +73,9 @@ void expect_near(Pixel a, Pixel b, int levels) {
 TEST(VideoWriter, H264HasTheFeaturesThatPlayersNeed) {
     const TestFolder folder;
     write_clip(folder / "a.mp4", 64, 48, 60.0, 12);
-    EXPECT_EQ(probe(folder / "a.mp4", "codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
-                                      "color_primaries,avg_frame_rate,nb_read_frames"),
+    EXPECT_EQ(probe(folder / "a.mp4",
+                    "codec_name,width,height,pix_fmt,color_range,color_space,color_transfer,"
+                    "color_primaries,avg_frame_rate,nb_read_frames"),
               "h264 64 48 yuv420p tv bt709 bt709 bt709 60/1 12");
     const std::string bytes = read_text(folder / "a.mp4");
     EXPECT_LT(bytes.find("moov"), bytes.find("mdat")) << "it cannot play while it loads";
@@ -97,7 +98,8 @@ TEST(VideoWriter, ColorsAndPlacesArePreserved) {
 
 TEST(VideoWriter, AnyRate) {
     const TestFolder folder;
-    for (const auto& [fps, text] : {std::pair{29.97, "2997/100"}, {0.5, "1/2"}, {1e6, "1000000/1"}, {23.976, "2997/125"}}) {
+    for (const auto& [fps, text] :
+         {std::pair{29.97, "2997/100"}, {0.5, "1/2"}, {1e6, "1000000/1"}, {23.976, "2997/125"}}) {
         write_clip(folder / "a.mp4", 32, 32, fps, 5);
         EXPECT_EQ(probe(folder / "a.mp4", "avg_frame_rate,nb_read_frames"), std::string(text) + " 5") << fps;
     }
@@ -134,7 +136,7 @@ TEST(VideoWriter, AFastGifTakesEveryNthFrame) {
     writer.finish();
     EXPECT_EQ(writer.frames_in_clip(), 5);
     const std::string rgb = decoded(folder / "a.gif");
-    expect_near(pixel_at(rgb, 64, 48, 2, 4 * 4 + 4, 24), crate, 12);   // the third shows frame 4
+    expect_near(pixel_at(rgb, 64, 48, 2, 4 * 4 + 4, 24), crate, 12);  // the third shows frame 4
 }
 
 TEST(VideoWriter, TheSameFramesAreTheSameBytes) {
@@ -153,8 +155,9 @@ std::vector<int> shown(const std::filesystem::path& clip, double fps, int frames
     output_of("/usr/bin/ffmpeg", {"-v", "error", "-i", clip.string(), "-fps_mode", "passthrough", "-f", "rawvideo",
                                   "-pix_fmt", "gray", "-y", raw.string()});
     const std::string bytes = read_text(raw);
-    std::istringstream times(*output_of("/usr/bin/ffprobe", {"-v", "error", "-select_streams", "v", "-show_entries",
-                                                             "frame=pts_time", "-of", "default=nw=1:nk=1", clip.string()}));
+    std::istringstream times(
+        *output_of("/usr/bin/ffprobe", {"-v", "error", "-select_streams", "v", "-show_entries", "frame=pts_time", "-of",
+                                        "default=nw=1:nk=1", clip.string()}));
     std::vector<int> greys;
     double time = 0.0;
     for (std::size_t at = 0; times >> time && at < bytes.size(); at += 64 * 48) {
@@ -212,12 +215,12 @@ TEST(VideoWriter, AFastGifKeepsItsShownFrames) {
     const TestFolder folder;
     VideoWriter writer(folder / "a.gif", 64, 48, 100.0);
     const Image dark = plain(64, 48, {40, 40, 40}), bright = plain(64, 48, {200, 200, 200});
-    for (int n = 0; n < 6; ++n) {   // clip frames 0 to 5: dark, dark, bright, bright, dark, dark
+    for (int n = 0; n < 6; ++n) {  // clip frames 0 to 5: dark, dark, bright, bright, dark, dark
         writer.write(n / 2 == 1 ? bright : dark);
         writer.repeat();
     }
     writer.write(dark);
-    writer.write(bright);   // frame 13: not in the clip
+    writer.write(bright);  // frame 13: not in the clip
     writer.finish();
     EXPECT_EQ(writer.frames_in_clip(), 7);
     const std::vector<int> greys = shown(folder / "a.gif", 50.0, 7);
@@ -252,7 +255,8 @@ TEST(VideoWriter, AbandonedItLeavesNothing) {
 Image falling_squares(int width, int height, int frame) {
     Image image = plain(width, height, {0, 0, 0});
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) fill(image, x, y, 1, 1, {110 + 60 * y / height, 150 + 50 * y / height, 205 + 25 * y / height});
+        for (int x = 0; x < width; ++x)
+            fill(image, x, y, 1, 1, {110 + 60 * y / height, 150 + 50 * y / height, 205 + 25 * y / height});
     const Pixel colors[] = {crate, {47, 127, 134}, {181, 82, 59}, {232, 220, 196}, {77, 106, 143}};
     for (int i = 0; i < 40; ++i) {
         const double side = 9.0 + i * 7 % 11, turn = 0.7 * i + 0.05 * (i % 3 - 1) * frame;
@@ -292,7 +296,8 @@ int still_off(const std::filesystem::path& clip, VideoQuality quality, int level
 
 TEST(VideoWriter, AStillBackgroundHealsWithinASecond) {
     const TestFolder folder;
-    for (const char* name : {"a.mp4", "a.webm"}) EXPECT_EQ(still_off(folder / name, VideoQuality::normal, 8), 0) << name;
+    for (const char* name : {"a.mp4", "a.webm"})
+        EXPECT_EQ(still_off(folder / name, VideoQuality::normal, 8), 0) << name;
     EXPECT_EQ(still_off(folder / "a.mp4", VideoQuality::best, 4), 0);
     EXPECT_GT(still_off(folder / "a.mp4", VideoQuality::draft, 8), 0) << "the test shows nothing";
 }
@@ -367,7 +372,8 @@ TEST(VideoWriter, AClipThatIsNotWholeIsAnError) {
             const OtherFfmpeg broken(script);
             const std::string error = error_of_writing(folder / name, 64, 48);
             EXPECT_NE(error.find("cannot write '"), std::string::npos) << error;
-            EXPECT_NE(error.find("/ffmpeg ended with exit code 0, but the clip is not whole: "), std::string::npos) << error;
+            EXPECT_NE(error.find("/ffmpeg ended with exit code 0, but the clip is not whole: "), std::string::npos)
+                << error;
             EXPECT_NE(error.find(reason), std::string::npos) << error;
             EXPECT_EQ(error.ends_with(":\nall is well"), script.find("all is well") != std::string::npos) << error;
             EXPECT_EQ(folder.files(), 0u);
@@ -383,13 +389,15 @@ TEST(VideoWriter, AClipIntoAPipeThatIsNotWholeIsAnError) {
         for (const bool whole : {true, false}) {
             std::string got;
             std::thread reader([&] { got = read_text(folder / name); });
-            const OtherFfmpeg ffmpeg(whole ? "exec /usr/bin/ffmpeg \"$@\""
-                                           : "case \"$*\" in *libx264rgb*) exec /usr/bin/ffmpeg \"$@\" ;; esac; /bin/cat > /dev/null");
+            const OtherFfmpeg ffmpeg(
+                whole ? "exec /usr/bin/ffmpeg \"$@\""
+                      : "case \"$*\" in *libx264rgb*) exec /usr/bin/ffmpeg \"$@\" ;; esac; /bin/cat > /dev/null");
             const std::string error = error_of_writing(folder / name, 64, 48);
             reader.join();
             EXPECT_EQ(error.empty(), whole) << error;
             EXPECT_EQ(got.empty(), !whole);
-            EXPECT_EQ(error.find("/ffmpeg ended with exit code 0, but it reports no end") != std::string::npos, !whole) << error;
+            EXPECT_EQ(error.find("/ffmpeg ended with exit code 0, but it reports no end") != std::string::npos, !whole)
+                << error;
         }
     }
     EXPECT_EQ(folder.files(), 3u);
@@ -406,7 +414,8 @@ TEST(VideoWriter, AGifThatIsNotWholeIsAnError) {
 TEST(VideoWriter, ChildrenOfFfmpegAreNotWaitedFor) {
     const TestFolder folder, other;
     for (const char* name : {"a.mp4", "a.gif"}) {
-        const OtherFfmpeg daemon("/bin/sleep 1000 & echo $! >> '" + (other / "left").string() + "'; exec /usr/bin/ffmpeg \"$@\"");
+        const OtherFfmpeg daemon("/bin/sleep 1000 & echo $! >> '" + (other / "left").string() +
+                                 "'; exec /usr/bin/ffmpeg \"$@\"");
         EXPECT_EQ(error_of_writing(folder / name), "");
     }
     EXPECT_EQ(folder.files(), 2u);

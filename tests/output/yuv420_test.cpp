@@ -1,6 +1,6 @@
 // Conversion to video planes: compared with the formula in doubles, by regions, at every alignment.
-#include "output/video_pixels.h"
 #include "output/yuv420.h"
+#include "output/video_pixels.h"
 
 #include "pictures.h"
 
@@ -26,7 +26,7 @@ Ycc bt709(double r, double g, double b) {
 Image noise(int width, int height, unsigned seed) {
     Image image(width, height);
     std::mt19937 random(seed);
-    for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>(random());   // the fourth byte as well
+    for (std::uint8_t& byte : image.pixels) byte = static_cast<std::uint8_t>(random());  // the fourth byte as well
     return image;
 }
 
@@ -108,7 +108,8 @@ TEST(Yuv420, PartsMakeTheWhole) {
                                        1 + int(random() % unsigned(image.height - y))});
                     const Rectangle& r = changed.back();
                     for (int row = r.y; row < r.y + r.height; ++row)
-                        for (int c = 0; c < 4 * r.width; ++c) image.at(r.x, row)[c] = static_cast<std::uint8_t>(random());
+                        for (int c = 0; c < 4 * r.width; ++c)
+                            image.at(r.x, row)[c] = static_cast<std::uint8_t>(random());
                 }
                 parts.update(image, changed);
                 VideoPixels anew(form, image.width, image.height);

@@ -13,8 +13,8 @@ using namespace tumble::testing;
 
 namespace {
 
-constexpr double light_size = 0.1, heavy_size = 0.5;   // m, radii or half edges
-constexpr double to_wall = 1.0, between = 0.2;         // m, gaps
+constexpr double light_size = 0.1, heavy_size = 0.5;  // m, radii or half edges
+constexpr double to_wall = 1.0, between = 0.2;        // m, gaps
 
 BodyDescription& add(SceneDescription& scene, bool boxes, double size, double place, double mass) {
     const Vec3 at(place, 0.0, 0.0);
@@ -61,7 +61,7 @@ Velocities in_the_end(double ratio) {
 // Rounding makes faces meet at negligible angles: these must neither grow from impact to impact nor decide the next
 // one.
 TEST(Galperin, EndsAsInTheUnfoldedWedge) {
-    for (const double ratio : {1.0, 16.0, 100.0, 1e4, 1e6}) {   // 3, 12, 31, 314, 3141 impacts
+    for (const double ratio : {1.0, 16.0, 100.0, 1e4, 1e6}) {  // 3, 12, 31, 314, 3141 impacts
         const Velocities right = in_the_end(ratio);
         for (const bool boxes : {false, true}) {
             for (const ImpactMode impacts : {ImpactMode::exact, ImpactMode::stepped}) {
@@ -69,7 +69,8 @@ TEST(Galperin, EndsAsInTheUnfoldedWedge) {
                 World world(scene);
                 run(world, scene, 20.0);
                 const auto bodies = world.snapshot().bodies;
-                const auto label = fmt::format("{} {} {}", ratio, boxes ? "boxes" : "balls", impacts == ImpactMode::exact ? "exact" : "stepped");
+                const auto label = fmt::format("{} {} {}", ratio, boxes ? "boxes" : "balls",
+                                               impacts == ImpactMode::exact ? "exact" : "stepped");
                 EXPECT_NEAR(bodies[1].velocity.x(), right.light, 1e-9) << label;
                 EXPECT_NEAR(bodies[2].velocity.x(), right.heavy, 1e-12) << label;
             }
@@ -79,7 +80,7 @@ TEST(Galperin, EndsAsInTheUnfoldedWedge) {
 
 // Faces that meet at an angle far below visibility meet all at once.
 TEST(Galperin, ANearlyFlatBoxReboundsFlat) {
-    for (const double tilt : {1e-10, 1e-8, 3e-7}) {   // rad
+    for (const double tilt : {1e-10, 1e-8, 3e-7}) {  // rad
         SceneDescription scene = walled_scene();
         make_exact(scene);
         BodyDescription& box = add(scene, true, light_size, 1.0, 1.0);

@@ -10,7 +10,8 @@ using namespace tumble::testing;
 
 namespace {
 
-BodyDescription& add_platform(SceneDescription& scene, const Vec3& size, const std::vector<Keyframe>& keys, double restitution) {
+BodyDescription& add_platform(SceneDescription& scene, const Vec3& size, const std::vector<Keyframe>& keys,
+                              double restitution) {
     BodyDescription& platform = add_fixed_box(scene, size, keys[0].position, restitution);
     platform.type = BodyType::kinematic;
     platform.keyframes = keys;
@@ -36,7 +37,8 @@ TEST(BothRegimes, BallBouncesOnAStandingStack) {
         before = now;
     }
     const Snapshot s = world.snapshot();
-    for (int i = 1; i <= 3; ++i) EXPECT_LE((s.bodies[std::size_t(i)].center_of_mass - Vec3(0.0, i - 0.5, 0.0)).norm(), 1e-4) << i;
+    for (int i = 1; i <= 3; ++i)
+        EXPECT_LE((s.bodies[std::size_t(i)].center_of_mass - Vec3(0.0, i - 0.5, 0.0)).norm(), 1e-4) << i;
     EXPECT_LE((s.bodies[4].center_of_mass - Vec3(0.0, 3.1, 0.0)).norm(), 1e-3);
     EXPECT_LE(world.measure().max_penetration, 1e-4);
 }
@@ -52,7 +54,9 @@ TEST(BothRegimes, SlidingBoxBesideABouncingBall) {
     World world(scene);
     for (int frame = 1; frame <= 180; ++frame) {
         world.advance_frame();
-        ASSERT_NEAR(world.snapshot().bodies[2].center_of_mass.y() - 0.2, bouncing_clearance(2.0, 1.0, frame / 60.0), 1e-9) << frame;
+        ASSERT_NEAR(world.snapshot().bodies[2].center_of_mass.y() - 0.2, bouncing_clearance(2.0, 1.0, frame / 60.0),
+                    1e-9)
+            << frame;
     }
     EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.x(), 9.0 / (2.0 * 0.4 * gravity), 3.0 * scene.step());
     EXPECT_LE(world.snapshot().bodies[1].velocity.norm(), 1e-9);
@@ -63,7 +67,8 @@ TEST(BothRegimes, SlidingBoxBesideABouncingBall) {
 TEST(BothRegimes, RisingPlatformCarriesABall) {
     for (const int steps : {1, 4, 16}) {
         SceneDescription scene = ground_scene(0.0, 0.0, steps);
-        add_platform(scene, {4.0, 0.2, 4.0}, {{0.0, {0.0, 1.0, 0.0}, Quat::Identity()}, {20.0, {0.0, 21.0, 0.0}, Quat::Identity()}}, 0.5);
+        add_platform(scene, {4.0, 0.2, 4.0},
+                     {{0.0, {0.0, 1.0, 0.0}, Quat::Identity()}, {20.0, {0.0, 21.0, 0.0}, Quat::Identity()}}, 0.5);
         BodyDescription& ball = add_sphere(scene, 0.1, {0.0, 2.2, 0.0});
         ball.restitution = 0.5;
         ball.velocity = Vec3(0.0, 1.0, 0.0);
@@ -83,13 +88,16 @@ TEST(BothRegimes, PlatformHitsABall) {
     for (const double u : {0.5, 5.0, 200.0})
         for (const double e : {0.0, 0.5, 1.0}) {
             SceneDescription scene = empty_scene(1);
-            add_platform(scene, {0.2, 2.0, 2.0}, {{0.0, {-1.0, 0.0, 0.0}, Quat::Identity()}, {10.0, {-1.0 + 10.0 * u, 0.0, 0.0}, Quat::Identity()}}, e);
+            add_platform(
+                scene, {0.2, 2.0, 2.0},
+                {{0.0, {-1.0, 0.0, 0.0}, Quat::Identity()}, {10.0, {-1.0 + 10.0 * u, 0.0, 0.0}, Quat::Identity()}}, e);
             add_sphere(scene, 0.3, {0.0, 0.0, 0.0}).restitution = e;
             make_exact(scene);
             World world(scene);
             run(world, scene, 2.0);
             const double hit = 0.6 / u, x = world.snapshot().bodies[1].center_of_mass.x();
-            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), hit < 2.0 ? (1.0 + e) * u : 0.0, 1e-9 * u) << u << " " << e;
+            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), hit < 2.0 ? (1.0 + e) * u : 0.0, 1e-9 * u)
+                << u << " " << e;
             EXPECT_NEAR(x, std::max(0.0, (2.0 - hit) * (1.0 + e) * u), 1e-6 * u) << u << " " << e;
         }
 }
@@ -99,7 +107,8 @@ TEST(BothRegimes, BodiesInTheWindBounceAndLoseEnergy) {
         SceneDescription scene = ground_scene(1.0, 0.0, steps);
         scene.wind = WindDescription{};
         for (int i = 0; i < 6; ++i) {
-            BodyDescription& body = i % 2 ? add_sphere(scene, 0.2, {2.0 * i, 1.5, 0.0}, 0.1) : add_box(scene, {0.4, 0.3, 0.5}, {2.0 * i, 1.5, 0.0}, 0.1);
+            BodyDescription& body = i % 2 ? add_sphere(scene, 0.2, {2.0 * i, 1.5, 0.0}, 0.1)
+                                          : add_box(scene, {0.4, 0.3, 0.5}, {2.0 * i, 1.5, 0.0}, 0.1);
             body.restitution = 1.0;
             body.rotation = turn({1.0, double(i), 0.5}, 0.4 * i);
         }
@@ -167,7 +176,7 @@ TEST(BothRegimes, ImpactWakesSleepers) {
     EXPECT_EQ(world.snapshot().bodies[1].center_of_mass, asleep);
     for (int frame = 0; frame < 42; ++frame) {
         world.advance_frame();
-        ASSERT_LE(world.measure().max_penetration, 1e-4) << frame;   // met, not found inside
+        ASSERT_LE(world.measure().max_penetration, 1e-4) << frame;  // met, not found inside
     }
     const Snapshot s = world.snapshot();
     EXPECT_NEAR(s.bodies[1].velocity.x() + s.bodies[3].velocity.x(), 10.0, 1e-9);
@@ -193,11 +202,12 @@ TEST(BothRegimes, FallingBodiesLandOnSleepers) {
                 world.advance_frame();
                 // In contact, and stepped, at one step per frame the small box may tumble a fifth of its thickness
                 // deep.
-                ASSERT_LE(world.measure().max_penetration, steps == 1 ? 2.5e-2 : 1e-4) << steps << " " << e << " " << frame;
+                ASSERT_LE(world.measure().max_penetration, steps == 1 ? 2.5e-2 : 1e-4)
+                    << steps << " " << e << " " << frame;
             }
             const Snapshot s = world.snapshot();
             EXPECT_NEAR(s.bodies[2].center_of_mass.y(), 0.6, 1e-4) << steps << " " << e;
-            const double high = s.bodies[5].center_of_mass.y() - 0.5;   // flat, or on a side, because it tumbled
+            const double high = s.bodies[5].center_of_mass.y() - 0.5;  // flat, or on a side, because it tumbled
             EXPECT_NEAR(high, high < 0.075 ? 0.05 : 0.1, 1e-4) << steps << " " << e;
         }
 }

@@ -12,7 +12,8 @@ using namespace tumble::testing;
 
 namespace {
 
-BodyDescription& add_compound(SceneDescription& scene, const CompoundShape& shape, const Vec3& position, double friction = 0.5) {
+BodyDescription& add_compound(SceneDescription& scene, const CompoundShape& shape, const Vec3& position,
+                              double friction = 0.5) {
     BodyDescription& body = add_body(scene, shape, position);
     body.restitution = 0.0;
     body.friction = friction;
@@ -27,7 +28,8 @@ double difference(const SceneDescription& a, const SceneDescription& b, std::siz
         first.advance_frame();
         second.advance_frame();
         const auto x = first.snapshot().bodies[i], y = second.snapshot().bodies[i];
-        most = std::max({most, (x.center_of_mass - y.center_of_mass).norm(), (x.orientation.coeffs() - y.orientation.coeffs()).norm()});
+        most = std::max({most, (x.center_of_mass - y.center_of_mass).norm(),
+                         (x.orientation.coeffs() - y.orientation.coeffs()).norm()});
     }
     return most;
 }
@@ -40,7 +42,8 @@ TEST(Compound, ABoxOfEightBoxesFliesLikeTheBox) {
         SceneDescription whole = empty_scene(), parts = empty_scene();
         for (auto* scene : {&whole, &parts}) {
             scene->simulation.integrator = integrator;
-            BodyDescription& body = add_body(*scene, scene == &whole ? Shape{BoxShape{size}} : Shape{box_of_eight(size)}, {1.0, 2.0, 3.0});
+            BodyDescription& body =
+                add_body(*scene, scene == &whole ? Shape{BoxShape{size}} : Shape{box_of_eight(size)}, {1.0, 2.0, 3.0});
             body.velocity = {1.0, 2.0, -0.5};
             body.angular_velocity = {3.0, 0.2, 1.0};
         }
@@ -55,7 +58,8 @@ TEST(Compound, ABoxOfEightBoxesBouncesAndRestsLikeTheBox) {
         for (auto* scene : {&whole, &parts}) {
             scene->simulation.impacts = impacts;
             if (impacts == ImpactMode::exact) scene->simulation.integrator = IntegratorKind::exact;
-            BodyDescription& body = add_body(*scene, scene == &whole ? Shape{BoxShape{size}} : Shape{box_of_eight(size)}, {0.0, 1.0, 0.0});
+            BodyDescription& body =
+                add_body(*scene, scene == &whole ? Shape{BoxShape{size}} : Shape{box_of_eight(size)}, {0.0, 1.0, 0.0});
             body.restitution = 0.5;
             body.friction = 0.5;
         }
@@ -71,7 +75,7 @@ TEST(Compound, ATableStandsOnFourLegsAndCarriesABox) {
     SceneDescription scene = ground_scene(0.0, 0.6);
     add_compound(scene, table(), {0.0, 0.05, 0.0});
     add_box(scene, {0.4, 0.4, 0.4}, {0.5, 1.2, 0.2}, 20.0).friction = 0.6;
-    add_box(scene, {0.3, 0.3, 0.3}, {0.0, 0.15, 0.0}, 5.0);   // between the legs, inside of a hull
+    add_box(scene, {0.3, 0.3, 0.3}, {0.0, 0.15, 0.0}, 5.0);  // between the legs, inside of a hull
     World world(scene);
     run(world, scene, 3.0);
     const Snapshot s = world.snapshot();
@@ -87,20 +91,25 @@ TEST(Compound, ATableStandsOnFourLegsAndCarriesABox) {
 // Two wheels on an axle, rolling without slip: nothing drives them, nothing brakes them. On a slope of one in a hundred
 // they gain g sin / (1 + I/(m r^2)) per second.
 TEST(Compound, WheelsRollUniformly) {
-    const double r = 0.1, angle = std::atan(0.01), axle = 0.02, wheel = 4.0 / 3.0 * M_PI * r * r * r, rod = axle * axle * 0.6;
+    const double r = 0.1, angle = std::atan(0.01), axle = 0.02, wheel = 4.0 / 3.0 * M_PI * r * r * r,
+                 rod = axle * axle * 0.6;
     const double inertia = (2.0 * 0.4 * wheel * r * r + rod * axle * axle / 6.0) / ((2.0 * wheel + rod) * r * r);
     for (const double slope : {0.0, angle}) {
         SceneDescription scene = ground_scene(0.0, 0.5);
         scene.simulation.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope), 0.0};
-        BodyDescription& wheels = add_compound(scene, compound_of({part(SphereShape{r}, {0.0, 0.0, 0.3}), part(SphereShape{r}, {0.0, 0.0, -0.3}),
-                                                                   part(BoxShape{Vec3(axle, axle, 0.6)}, Vec3::Zero())}), {0.0, r, 0.0});
+        BodyDescription& wheels =
+            add_compound(scene,
+                         compound_of({part(SphereShape{r}, {0.0, 0.0, 0.3}), part(SphereShape{r}, {0.0, 0.0, -0.3}),
+                                      part(BoxShape{Vec3(axle, axle, 0.6)}, Vec3::Zero())}),
+                         {0.0, r, 0.0});
         wheels.velocity = {0.003, 0.0, 0.0};
         wheels.angular_velocity = {0.0, 0.0, -0.03};
         World world(scene);
         for (int second = 1; second <= 4; ++second) {
             run(world, scene, 1.0);
             const double expected = 0.003 + 9.81 * std::sin(slope) / (1.0 + inertia) * second;
-            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), expected, 1e-7) << "after " << second << " s on a slope of " << slope;
+            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), expected, 1e-7)
+                << "after " << second << " s on a slope of " << slope;
         }
     }
 }
@@ -120,7 +129,8 @@ TEST(Compound, AHoopHangsOnAPeg) {
         velocity = [0.3, 0.0, 0.0]
         friction = 0.5
         restitution = 0.0
-    )", TUMBLE_SOURCE_DIR "/assets/scenes/test.toml");
+    )",
+                                               TUMBLE_SOURCE_DIR "/assets/scenes/test.toml");
     World world(scene);
     run(world, scene, 4.0);
     const BodyState hoop = world.snapshot().bodies[1];
@@ -148,10 +158,12 @@ TEST(Compound, HookedLinksDoNotFallApart) {
 TEST(Compound, HookedLBlocksHoldEachOther) {
     SceneDescription scene;
     // A fixed hook that points up, and one that hangs over its tip.
-    const CompoundShape hook = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()), part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {0.3, 0.3, 0.0}),
+    const CompoundShape hook = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()),
+                                            part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {0.3, 0.3, 0.0}),
                                             part(BoxShape{Vec3(0.2, 1.0, 0.3)}, {-0.3, -0.4, 0.0})});
     add_compound(scene, hook, Vec3::Zero(), 0.8).type = BodyType::fixed;
-    const CompoundShape hanger = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()), part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {-0.3, -0.3, 0.0}),
+    const CompoundShape hanger = compound_of({part(BoxShape{Vec3(0.8, 0.2, 0.3)}, Vec3::Zero()),
+                                              part(BoxShape{Vec3(0.2, 0.4, 0.3)}, {-0.3, -0.3, 0.0}),
                                               part(BoxShape{Vec3(0.2, 1.0, 0.3)}, {0.3, -0.6, 0.0})});
     add_compound(scene, hanger, {0.3, 0.61, 0.0}, 0.8);
     World world(scene);
@@ -179,8 +191,11 @@ TEST(Compound, InternalEdgesBetweenPartsAreSmooth) {
 // rebound.
 TEST(Compound, NothingTunnelsThroughAThinPart) {
     Random random(7);
-    const CompoundShape wall = compound_of({part(BoxShape{Vec3(0.005, 40.0, 40.0)}, Vec3::Zero()), part(BoxShape{Vec3(0.1, 0.1, 40.0)}, {0.0, 20.0, 0.0})});
-    const CompoundShape dumbbell = compound_of({part(SphereShape{0.05}, {-0.15, 0.0, 0.0}), part(SphereShape{0.05}, {0.15, 0.0, 0.0}), part(BoxShape{Vec3(0.3, 0.02, 0.02)}, Vec3::Zero())});
+    const CompoundShape wall = compound_of({part(BoxShape{Vec3(0.005, 40.0, 40.0)}, Vec3::Zero()),
+                                            part(BoxShape{Vec3(0.1, 0.1, 40.0)}, {0.0, 20.0, 0.0})});
+    const CompoundShape dumbbell =
+        compound_of({part(SphereShape{0.05}, {-0.15, 0.0, 0.0}), part(SphereShape{0.05}, {0.15, 0.0, 0.0}),
+                     part(BoxShape{Vec3(0.3, 0.02, 0.02)}, Vec3::Zero())});
     for (const bool exact : {false, true}) {
         for (int i = 0; i < 60; ++i) {
             SceneDescription scene = empty_scene(1);
@@ -189,7 +204,8 @@ TEST(Compound, NothingTunnelsThroughAThinPart) {
             BodyDescription& plate = add_compound(scene, wall, Vec3::Zero(), 0.0);
             plate.type = BodyType::fixed;
             plate.restitution = 1.0;
-            BodyDescription& thrown = add_compound(scene, i % 3 ? dumbbell : square_link(0.4, 0.05), {-random(0.4, 10.0), 0.1, -0.2}, 0.0);
+            BodyDescription& thrown =
+                add_compound(scene, i % 3 ? dumbbell : square_link(0.4, 0.05), {-random(0.4, 10.0), 0.1, -0.2}, 0.0);
             thrown.restitution = 1.0;
             thrown.mass = 1.0;
             thrown.velocity = {random(20.0, 500.0), 0.0, 0.0};
@@ -198,7 +214,8 @@ TEST(Compound, NothingTunnelsThroughAThinPart) {
             World world(scene);
             for (int n = 0; n < 140 && world.snapshot().bodies[1].center_of_mass.x() > -12.0; ++n) {
                 world.advance_frame();
-                ASSERT_LT(world.snapshot().bodies[1].center_of_mass.x(), 0.0) << "throw " << i << ", frame " << n << ", exact " << exact;
+                ASSERT_LT(world.snapshot().bodies[1].center_of_mass.x(), 0.0)
+                    << "throw " << i << ", frame " << n << ", exact " << exact;
             }
             EXPECT_LT(world.measure().momentum.x(), 0.0) << "throw " << i << ", exact " << exact;
         }
@@ -209,10 +226,13 @@ TEST(Compound, NothingTunnelsThroughAThinPart) {
 TEST(Compound, AThinTopStopsFastFallingBodies) {
     for (const bool fixed : {true, false}) {
         SceneDescription scene = empty_scene(1);
-        const CompoundShape gate = compound_of({part(BoxShape{Vec3(2.0, 0.02, 2.0)}, Vec3::Zero()), part(BoxShape{Vec3(0.02, 1.0, 0.02)}, {0.9, -0.5, 0.9})});
+        const CompoundShape gate = compound_of({part(BoxShape{Vec3(2.0, 0.02, 2.0)}, Vec3::Zero()),
+                                                part(BoxShape{Vec3(0.02, 1.0, 0.02)}, {0.9, -0.5, 0.9})});
         BodyDescription& top = add_compound(scene, gate, Vec3::Zero());
-        if (fixed) top.type = BodyType::fixed;
-        else top.mass = 1e6;
+        if (fixed)
+            top.type = BodyType::fixed;
+        else
+            top.mass = 1e6;
         add_sphere(scene, 0.05, {0.1, 5.0, 0.1}).velocity = {0.0, -200.0, 0.0};
         BodyDescription& thrown = add_compound(scene, square_link(0.4, 0.05), {-0.4, 4.0, -0.4});
         thrown.velocity = {0.0, -150.0, 0.0};
@@ -239,7 +259,8 @@ TEST(Compound, ExactImpactsKeepTheEnergy) {
         body.angular_velocity = spin;
     };
     add(table(), {0.0, 1.5, 0.0}, {1.0, 0.5, 2.0});
-    add(compound_of({part(SphereShape{0.2}, {-0.4, 0.0, 0.0}), part(SphereShape{0.2}, {0.4, 0.0, 0.0}), part(BoxShape{Vec3(0.8, 0.1, 0.1)}, Vec3::Zero())}),
+    add(compound_of({part(SphereShape{0.2}, {-0.4, 0.0, 0.0}), part(SphereShape{0.2}, {0.4, 0.0, 0.0}),
+                     part(BoxShape{Vec3(0.8, 0.1, 0.1)}, Vec3::Zero())}),
         {0.2, 3.3, 0.1}, {3.0, 2.0, 1.0});
     World world(scene);
     const double before = energy(world);

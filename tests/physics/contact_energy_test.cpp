@@ -27,9 +27,11 @@ SceneDescription heap(Kind kind, int count, double friction, double restitution,
     Random random(seed);
     const auto gem = icosahedron(0.4);
     for (int i = 0; i < count; ++i) {
-        const Vec3 at((i % 3 - 1) * 1.7 + random(-0.1, 0.1), 0.8 + 1.7 * (i / 9), (i / 3 % 3 - 1) * 1.7 + random(-0.1, 0.1));
+        const Vec3 at((i % 3 - 1) * 1.7 + random(-0.1, 0.1), 0.8 + 1.7 * (i / 9),
+                      (i / 3 % 3 - 1) * 1.7 + random(-0.1, 0.1));
         const int shape = kind == Kind::mixed ? i % 3 : int(kind);
-        BodyDescription& body = shape == 0   ? add_box(scene, Vec3(random(0.4, 0.9), random(0.4, 0.9), random(0.4, 0.9)), at)
+        BodyDescription& body = shape == 0
+                                    ? add_box(scene, Vec3(random(0.4, 0.9), random(0.4, 0.9), random(0.4, 0.9)), at)
                                 : shape == 1 ? add_sphere(scene, random(0.2, 0.5), at)
                                              : add_body(scene, MeshShape{gem}, at);
         body.mass = random(0.5, 3.0);
@@ -42,7 +44,9 @@ SceneDescription heap(Kind kind, int count, double friction, double restitution,
     return scene;
 }
 
-const char* name(Kind k) { return k == Kind::boxes ? "boxes" : k == Kind::spheres ? "spheres" : k == Kind::hulls ? "hulls" : "mixed"; }
+const char* name(Kind k) {
+    return k == Kind::boxes ? "boxes" : k == Kind::spheres ? "spheres" : k == Kind::hulls ? "hulls" : "mixed";
+}
 
 struct Look {
     double energy, overlap, speed;
@@ -90,7 +94,8 @@ TEST(ContactEnergy, NeverGrowsInSmallInelasticHeaps) {
     for (const Kind kind : {Kind::boxes, Kind::spheres, Kind::hulls, Kind::mixed})
         for (const double friction : {0.0, 0.5})
             for (const int steps : {1, 8})
-                EXPECT_LE(watch(heap(kind, 9, friction, 0.0, steps, 7), 1.5).height, 1e-6) << name(kind) << " " << friction << " " << steps;
+                EXPECT_LE(watch(heap(kind, 9, friction, 0.0, steps, 7), 1.5).height, 1e-6)
+                    << name(kind) << " " << friction << " " << steps;
 }
 
 // Soft contact and bounces may gain in a step the lift of a remaining overlap, or the energy that gravity would have
@@ -115,7 +120,8 @@ TEST(ContactEnergy, HeapsAtOneStepPerFrameGainNothing) {
                 for (int k = 0; k < 150; ++k) {
                     world.step();
                     const double now = energy(world);
-                    EXPECT_LE(now, before + 2e-4 * start) << name(kind) << " " << friction << " " << restitution << " " << k;
+                    EXPECT_LE(now, before + 2e-4 * start)
+                        << name(kind) << " " << friction << " " << restitution << " " << k;
                     before = now;
                 }
             }
@@ -186,8 +192,9 @@ TEST(ContactEnergy, NoHeapRocksWithoutEnd) {
         int steps;
         std::uint64_t seed;
     };
-    for (const Case& c : {Case{0.0, 1, 1}, Case{0.0, 1, 27}, Case{0.5, 1, 10}, Case{0.0, 2, 5}, Case{0.0, 2, 8}, Case{0.0, 2, 46}, Case{0.5, 2, 1},
-                          Case{0.5, 2, 18}, Case{0.0, 4, 3}, Case{0.0, 4, 27}, Case{0.5, 4, 11}, Case{0.5, 4, 47}}) {
+    for (const Case& c :
+         {Case{0.0, 1, 1}, Case{0.0, 1, 27}, Case{0.5, 1, 10}, Case{0.0, 2, 5}, Case{0.0, 2, 8}, Case{0.0, 2, 46},
+          Case{0.5, 2, 1}, Case{0.5, 2, 18}, Case{0.0, 4, 3}, Case{0.0, 4, 27}, Case{0.5, 4, 11}, Case{0.5, 4, 47}}) {
         const SceneDescription scene = heap(Kind::boxes, 27, 0.5, c.restitution, c.steps, c.seed);
         World world(scene);
         run(world, scene, 8.0);
@@ -215,7 +222,7 @@ TEST(ContactEnergy, DominoesAtOneStepPerFrameGainNothing) {
         ASSERT_LE(now, least + 0.01 * start) << frame;
         least = std::min(least, now);
     }
-    EXPECT_LE(least, 0.5 * start);   // all have fallen
+    EXPECT_LE(least, 0.5 * start);  // all have fallen
 }
 
 // Smooth planks that tumble far in a step: rotation along one tangent would add spin, and impacts would turn it into
@@ -263,7 +270,8 @@ TEST(ContactEnergy, RoughBouncesGainNothing) {
     for (int trial = 0; trial < 60; ++trial) {
         SceneDescription scene = ground_scene(random(0.3, 0.9), random(0.3, 1.0), 4);
         scene.simulation.integrator = IntegratorKind::exact;
-        BodyDescription& box = add_box(scene, Vec3(random(0.3, 0.9), random(0.3, 0.9), random(0.3, 0.9)), {0.0, 1.2, 0.0});
+        BodyDescription& box =
+            add_box(scene, Vec3(random(0.3, 0.9), random(0.3, 0.9), random(0.3, 0.9)), {0.0, 1.2, 0.0});
         box.rotation = random.turn();
         box.velocity = Vec3(random(-5.0, 5.0), random(-6.0, -2.0), random(-5.0, 5.0));
         box.angular_velocity = random.vector(6.0);
@@ -275,7 +283,8 @@ TEST(ContactEnergy, RoughBouncesGainNothing) {
         for (int step = 0; step < 240; ++step) {
             world.step();
             const double now = energy(world);
-            EXPECT_LE(now, before + 1e-3 * start) << trial << " " << step;   // lift by removing an overlap of one millimeter
+            EXPECT_LE(now, before + 1e-3 * start)
+                << trial << " " << step;  // lift by removing an overlap of one millimeter
             before = now;
         }
     }

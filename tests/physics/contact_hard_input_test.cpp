@@ -24,7 +24,9 @@ void set_friction(SceneDescription& scene, double friction) {
 
 bool finite(const Snapshot& s) {
     for (const BodyState& b : s.bodies)
-        if (!(b.origin.allFinite() && b.orientation.coeffs().allFinite() && b.velocity.allFinite() && b.angular_velocity.allFinite())) return false;
+        if (!(b.origin.allFinite() && b.orientation.coeffs().allFinite() && b.velocity.allFinite() &&
+              b.angular_velocity.allFinite()))
+            return false;
     return true;
 }
 
@@ -38,7 +40,8 @@ struct Watch {
             const Snapshot now = world.snapshot();
             ASSERT_TRUE(finite(now)) << k;
             for (std::size_t i = 0; i < now.bodies.size(); ++i)
-                fastest = std::max(fastest, (now.bodies[i].center_of_mass - before.bodies[i].center_of_mass).norm() / h);
+                fastest =
+                    std::max(fastest, (now.bodies[i].center_of_mass - before.bodies[i].center_of_mass).norm() / h);
             before = now;
         }
     }
@@ -54,7 +57,8 @@ TEST(ContactHardInput, OverlapsDissolveSlowly) {
             for (const int steps : {1, 4, 16}) {
                 SceneDescription scene = empty_scene(steps);
                 for (const double at : {0.0, 1.0 - depth})
-                    boxes ? add_box(scene, {1.0, 1.0, 1.0}, {at, 0.01 * at, 0.0}) : add_sphere(scene, 0.5, {at, 0.0, 0.0});
+                    boxes ? add_box(scene, {1.0, 1.0, 1.0}, {at, 0.01 * at, 0.0})
+                          : add_sphere(scene, 0.5, {at, 0.0, 0.0});
                 set_friction(scene, 0.3);
                 World world(scene);
                 Watch watch;
@@ -71,7 +75,9 @@ TEST(ContactHardInput, OverlapsDissolveSlowly) {
 TEST(ContactHardInput, ACrowdDissolves) {
     Random random(3);
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
-    for (int i = 0; i < 30; ++i) add_box(scene, {1.0, 1.0, 1.0}, {random(-1.2, 1.2), random(0.6, 2.6), random(-1.2, 1.2)}).rotation = random.turn();
+    for (int i = 0; i < 30; ++i)
+        add_box(scene, {1.0, 1.0, 1.0}, {random(-1.2, 1.2), random(0.6, 2.6), random(-1.2, 1.2)}).rotation =
+            random.turn();
     set_friction(scene, 0.5);
     World world(scene);
     Watch watch;
@@ -103,13 +109,16 @@ TEST(ContactHardInput, TilesOfOneFloor) {
     SceneDescription scene = empty_scene(4);
     scene.simulation.gravity = Vec3(0.0, -g, 0.0);
     for (int i = 0; i < 7; ++i)
-        for (int k = 0; k < 3; ++k) add_box(scene, {1.0, 1.0, 1.0}, {double(i), -0.5, double(k) - 1.0}).type = BodyType::fixed;
-    for (const Vec3& at : {Vec3(4.5, 0.3, -0.5), Vec3(0.5, 0.3, 0.0), Vec3(2.2, 0.3, 0.2), Vec3(2.8, 0.3, 0.2)}) add_box(scene, {0.6, 0.6, 0.6}, at);
+        for (int k = 0; k < 3; ++k)
+            add_box(scene, {1.0, 1.0, 1.0}, {double(i), -0.5, double(k) - 1.0}).type = BodyType::fixed;
+    for (const Vec3& at : {Vec3(4.5, 0.3, -0.5), Vec3(0.5, 0.3, 0.0), Vec3(2.2, 0.3, 0.2), Vec3(2.8, 0.3, 0.2)})
+        add_box(scene, {0.6, 0.6, 0.6}, at);
     set_friction(scene, 0.2);
     World world(scene);
     run(world, scene, 3.0);
     const Snapshot s = world.snapshot();
-    for (std::size_t i = 21; i < s.bodies.size(); ++i) EXPECT_LE((s.bodies[i].center_of_mass - scene.bodies[i].position).norm(), 1e-5) << i;
+    for (std::size_t i = 21; i < s.bodies.size(); ++i)
+        EXPECT_LE((s.bodies[i].center_of_mass - scene.bodies[i].position).norm(), 1e-5) << i;
 }
 
 // The same floor under boxes that slide, fast and slow, straight and diagonally, over joints: they stop after
@@ -121,16 +130,19 @@ TEST(ContactHardInput, SlidingOverTiles) {
             scene.simulation.gravity = Vec3(0.0, -g, 0.0);
             const double mu = 0.1, way = speed * speed / (2.0 * mu * g);
             for (int i = -1; i < 8; ++i)
-                for (int k = -2; k < 4; ++k) add_box(scene, {1.0, 1.0, 1.0}, {double(i), -0.5, double(k)}).type = BodyType::fixed;
+                for (int k = -2; k < 4; ++k)
+                    add_box(scene, {1.0, 1.0, 1.0}, {double(i), -0.5, double(k)}).type = BodyType::fixed;
             const Vec3 direction = Vec3(1.0, 0.0, aside).normalized();
-            const Vec3 start(0.2 - 0.3 * way, 0.3, 0.2 - 0.1 * way);   // its front reaches a joint at 0.3 of the displacement
+            const Vec3 start(0.2 - 0.3 * way, 0.3,
+                             0.2 - 0.1 * way);  // its front reaches a joint at 0.3 of the displacement
             add_box(scene, {0.6, 0.6, 0.6}, start).velocity = speed * direction;
             set_friction(scene, mu);
             World world(scene);
             run(world, scene, 1.2 * speed / (mu * g) + 0.1);
             const BodyState box = world.snapshot().bodies.back();
-            const double step_way = speed * scene.step();   // friction begins and ends with a step
-            EXPECT_NEAR((box.center_of_mass - start).dot(direction), way, step_way + 1e-3 * way) << speed << " " << aside;
+            const double step_way = speed * scene.step();  // friction begins and ends with a step
+            EXPECT_NEAR((box.center_of_mass - start).dot(direction), way, step_way + 1e-3 * way)
+                << speed << " " << aside;
             EXPECT_LE((box.center_of_mass - start).cross(direction).norm(), 1e-3 * way) << speed << " " << aside;
         }
 }
@@ -140,12 +152,15 @@ TEST(ContactHardInput, ParallelAndCrossingEdges) {
     SceneDescription scene = ground_scene(0.0, 0.6, 4);
     for (int level = 0; level < 6; ++level)
         for (const double side : {-1.0, 1.0}) {
-            BodyDescription& beam = add_box(scene, {3.0, 0.2, 0.2}, level % 2 ? Vec3(side, 0.1 + 0.2 * level, 0.0) : Vec3(0.0, 0.1 + 0.2 * level, side));
+            BodyDescription& beam =
+                add_box(scene, {3.0, 0.2, 0.2},
+                        level % 2 ? Vec3(side, 0.1 + 0.2 * level, 0.0) : Vec3(0.0, 0.1 + 0.2 * level, side));
             if (level % 2) beam.rotation = turn(Vec3::UnitY(), 0.5 * pi);
         }
     // Two lie beside each other with a gap of a quarter; a third stands on its edge in the gap.
     for (const double side : {-1.0, 1.0}) add_box(scene, {2.0, 0.5, 0.5}, {10.0, 0.25, side * 0.375});
-    add_box(scene, {2.0, 0.3, 0.3}, {10.0, 0.5 - 0.125 + 0.15 * std::sqrt(2.0), 0.0}).rotation = turn(Vec3::UnitX(), 0.25 * pi);
+    add_box(scene, {2.0, 0.3, 0.3}, {10.0, 0.5 - 0.125 + 0.15 * std::sqrt(2.0), 0.0}).rotation =
+        turn(Vec3::UnitX(), 0.25 * pi);
     set_friction(scene, 0.6);
     World world(scene);
     run(world, scene, 5.0);
@@ -178,7 +193,8 @@ TEST(ContactHardInput, NeedlesAndPlatesFallInAHeap) {
     SceneDescription scene = ground_scene(0.0, 0.6, 4);
     for (int i = 0; i < 16; ++i) {
         const double thin = i % 4 < 2 ? 0.02 : 0.05;
-        BodyDescription& body = add_box(scene, i % 2 ? Vec3(1.0, thin, thin) : Vec3(0.8, thin, 0.8), {0.1 * i, 0.6 + 0.3 * i, 0.0}, 0.1);
+        BodyDescription& body =
+            add_box(scene, i % 2 ? Vec3(1.0, thin, thin) : Vec3(0.8, thin, 0.8), {0.1 * i, 0.6 + 0.3 * i, 0.0}, 0.1);
         body.rotation = random.turn();
     }
     set_friction(scene, 0.6);
@@ -197,13 +213,15 @@ TEST(ContactHardInput, NeedlesAndPlatesFallInAHeap) {
 TEST(ContactHardInput, AMillimeterAndAHundredMeters) {
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
     const double sizes[] = {100.0, 1.0, 100.0, 1.0, 0.001};
-    const Vec3 places[] = {{0.0, 50.0, 0.0}, {0.0, 100.5, 0.0}, {200.0, 50.0, 0.0}, {251.0, 0.5, 0.0}, {252.0, 0.5e-3, 0.0}};
+    const Vec3 places[] = {
+        {0.0, 50.0, 0.0}, {0.0, 100.5, 0.0}, {200.0, 50.0, 0.0}, {251.0, 0.5, 0.0}, {252.0, 0.5e-3, 0.0}};
     for (std::size_t k = 0; k < 5; ++k) add_box(scene, sizes[k] * Vec3(1.0, 1.0, 1.0), places[k]).mass.reset();
     set_friction(scene, 0.5);
     World world(scene);
     run(world, scene, 5.0);
     const Snapshot s = world.snapshot();
-    for (std::size_t k = 0; k < 5; ++k) EXPECT_LE((s.bodies[k + 1].center_of_mass - places[k]).norm(), 1e-5 * sizes[k]) << k;
+    for (std::size_t k = 0; k < 5; ++k)
+        EXPECT_LE((s.bodies[k + 1].center_of_mass - places[k]).norm(), 1e-5 * sizes[k]) << k;
 }
 
 // Dust of 1e-24 kg and moons of 1e24 kg pile up as crates do: powers of two in mass change no digit in single
@@ -212,7 +230,8 @@ TEST(ContactHardInput, DustAndMoons) {
     const auto heap = [](double mass) {
         SceneDescription scene = ground_scene(0.0, 0.5, 4);
         scene.simulation.contact_solver = ContactSolverChoice::soft;
-        for (int k = 0; k < 12; ++k) add_box(scene, {0.5, 0.3, 0.4}, {0.1 * (k % 3), 0.16 + 0.31 * k, 0.07 * (k % 2)}, mass);
+        for (int k = 0; k < 12; ++k)
+            add_box(scene, {0.5, 0.3, 0.4}, {0.1 * (k % 3), 0.16 + 0.31 * k, 0.07 * (k % 2)}, mass);
         set_friction(scene, 0.5);
         World world(scene);
         run(world, scene, 2.0);
@@ -234,10 +253,10 @@ TEST(ContactHardInput, InternalEdgesOfAMesh) {
             scene.simulation.gravity = Vec3(0.0, -g, 0.0);
             add_body(scene, MeshShape{asset_of(grid_mesh(16, 8.0, 0.0))}, Vec3::Zero()).type = BodyType::fixed;
             const Vec3 velocity(2.5, 0.0, 0.7);
-            add_box(scene, {0.7, 0.4, 0.9}, {-4.0, 0.2, 0.1}).velocity = velocity;   // over internal edges
-            add_box(scene, {0.6, 0.6, 0.6}, {0.0, 0.3, -4.0});                       // on a vertex of six
-            add_sphere(scene, 0.5, {1.0, 0.5, 5.0});                                 // on a vertex
-            add_sphere(scene, 0.5, {-3.3, 0.5, 5.0}).velocity = Vec3(0.9, 0.0, 0.0); // along an internal edge
+            add_box(scene, {0.7, 0.4, 0.9}, {-4.0, 0.2, 0.1}).velocity = velocity;    // over internal edges
+            add_box(scene, {0.6, 0.6, 0.6}, {0.0, 0.3, -4.0});                        // on a vertex of six
+            add_sphere(scene, 0.5, {1.0, 0.5, 5.0});                                  // on a vertex
+            add_sphere(scene, 0.5, {-3.3, 0.5, 5.0}).velocity = Vec3(0.9, 0.0, 0.0);  // along an internal edge
             set_friction(scene, friction);
             World world(scene);
             run(world, scene, 1.0);
@@ -247,7 +266,8 @@ TEST(ContactHardInput, InternalEdgesOfAMesh) {
             EXPECT_NEAR(s.bodies[1].center_of_mass.y(), 0.2, 1e-5) << friction << " " << steps;
             EXPECT_LE((s.bodies[2].center_of_mass - Vec3(0.0, 0.3, -4.0)).norm(), 1e-6);
             EXPECT_LE((s.bodies[3].center_of_mass - Vec3(1.0, 0.5, 5.0)).norm(), 1e-6);
-            EXPECT_NEAR(s.bodies[4].velocity.x(), friction > 0.0 ? 0.9 * 5.0 / 7.0 : 0.9, 1e-4) << friction << " " << steps;
+            EXPECT_NEAR(s.bodies[4].velocity.x(), friction > 0.0 ? 0.9 * 5.0 / 7.0 : 0.9, 1e-4)
+                << friction << " " << steps;
             EXPECT_LE(std::abs(s.bodies[4].velocity.z()) + std::abs(s.bodies[4].velocity.y()), 1e-6);
         }
 }
@@ -260,7 +280,8 @@ TEST(ContactHardInput, ABeltCarriesABoxAlong) {
         BodyDescription& belt = add_box(scene, {40.0, 1.0, 2.0}, {0.0, -0.5, 0.0});
         belt.type = BodyType::kinematic;
         belt.interpolation = Interpolation::linear;
-        belt.keyframes = {{0.0, Vec3(0.0, -0.5, 0.0), Quat::Identity()}, {10.0, Vec3(20.0, -0.5, 0.0), Quat::Identity()}};
+        belt.keyframes = {{0.0, Vec3(0.0, -0.5, 0.0), Quat::Identity()},
+                          {10.0, Vec3(20.0, -0.5, 0.0), Quat::Identity()}};
         add_box(scene, {0.5, 0.2, 0.5}, {0.0, 0.1, 0.0});
         set_friction(scene, 0.3);
         World world(scene);
@@ -284,8 +305,9 @@ TEST(ContactHardInput, ATurntable) {
     BodyDescription& table = add_box(scene, {10.0, 1.0, 10.0}, {0.0, -0.5, 0.0});
     table.type = BodyType::kinematic;
     table.interpolation = Interpolation::linear;
-    const double omega = 1.5;   // mu g / omega^2 = 1.744 m
-    for (int k = 0; k <= 12; ++k) table.keyframes.push_back({0.5 * k, Vec3(0.0, -0.5, 0.0), turn(Vec3::UnitY(), 0.5 * k * omega)});
+    const double omega = 1.5;  // mu g / omega^2 = 1.744 m
+    for (int k = 0; k <= 12; ++k)
+        table.keyframes.push_back({0.5 * k, Vec3(0.0, -0.5, 0.0), turn(Vec3::UnitY(), 0.5 * k * omega)});
     for (const double r : {1.6, 2.0}) {
         BodyDescription& box = add_box(scene, {0.3, 0.1, 0.3}, {r > 1.7 ? r : -r, 0.05, 0.0});
         box.velocity = Vec3(0.0, 0.0, r > 1.7 ? -omega * r : omega * r);
@@ -320,14 +342,15 @@ TEST(ContactHardInput, GravitySwitched) {
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
     for (int i = 0; i < 5; ++i) add_box(scene, {1.0, 1.0, 1.0}, {0.0, 0.5 + i, 0.0}).mass = 2.0;
     for (std::size_t i = 1; i <= 5; ++i) {
-        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 2.0 * g, 0.0), false, 2.0, 3.0});    // off
-        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 4.0 * g, 0.0), false, 3.0, 3.25});   // upside down
+        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 2.0 * g, 0.0), false, 2.0, 3.0});   // off
+        scene.forces.push_back({i, Vec3::Zero(), Vec3(0.0, 4.0 * g, 0.0), false, 3.0, 3.25});  // upside down
     }
     World world(scene);
     const auto heights = [&](double lifted, double tolerance) {
         const Snapshot s = world.snapshot();
         for (std::size_t i = 1; i <= 5; ++i)
-            EXPECT_LE((s.bodies[i].center_of_mass - Vec3(0.0, i - 0.5 + lifted, 0.0)).norm(), tolerance) << i << " at " << s.time;
+            EXPECT_LE((s.bodies[i].center_of_mass - Vec3(0.0, i - 0.5 + lifted, 0.0)).norm(), tolerance)
+                << i << " at " << s.time;
     };
     run(world, scene, 1.9);
     EXPECT_EQ(world.measure().kinetic, 0.0);
@@ -335,9 +358,9 @@ TEST(ContactHardInput, GravitySwitched) {
     heights(0.0, 1e-5);
     run(world, scene, 0.35);
     const double h = scene.step();
-    heights(0.5 * g * 0.25 * 0.25, 2.0 * g * h * 0.25);   // symplectic Euler: g h t / 2
+    heights(0.5 * g * 0.25 * 0.25, 2.0 * g * h * 0.25);  // symplectic Euler: g h t / 2
     run(world, scene, 3.0);
-    heights(0.0, 1e-3);   // fell from 0.6 m, as a stack
+    heights(0.0, 1e-3);  // fell from 0.6 m, as a stack
     EXPECT_EQ(world.measure().kinetic, 0.0);
 }
 
@@ -352,7 +375,7 @@ TEST(ContactHardInput, AHundredThousandBodies) {
     }
     World world(scene, 2);
     for (int k = 0; k < 3; ++k) world.step();
-    const double h = 1.0 / 60.0, fall = g * h * h * 6.0;   // symplectic Euler: 1 + 2 + 3
+    const double h = 1.0 / 60.0, fall = g * h * h * 6.0;  // symplectic Euler: 1 + 2 + 3
     const Snapshot s = world.snapshot();
     for (std::size_t i = 1; i < s.bodies.size(); ++i) {
         const Vec3 at = scene.bodies[i].position - (scene.bodies[i].position.y() > 1.0 ? fall : 0.0) * Vec3::UnitY();

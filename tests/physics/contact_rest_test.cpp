@@ -23,7 +23,9 @@ struct Slope {
     double angle;
     Vec3 normal() const { return {std::sin(angle), std::cos(angle), 0.0}; }
     Vec3 down() const { return {std::cos(angle), -std::sin(angle), 0.0}; }
-    Vec3 at(double along, double up, double aside = 0.0) const { return along * down() + up * normal() + aside * Vec3::UnitZ(); }
+    Vec3 at(double along, double up, double aside = 0.0) const {
+        return along * down() + up * normal() + aside * Vec3::UnitZ();
+    }
     Quat rotation() const { return turn(Vec3::UnitZ(), -angle); }
     SceneDescription scene(double friction, int steps) const {
         SceneDescription scene = ground_scene(0.0, friction, steps);
@@ -64,7 +66,9 @@ TEST(ContactRest, ACoinLiesDown) {
     constexpr int corners = 64;
     TriangleMesh mesh;
     for (int k = 0; k < corners; ++k)
-        for (const double y : {-0.01, 0.01}) mesh.vertices.emplace_back(0.2 * std::cos(k * 2.0 * std::numbers::pi / corners), y, 0.2 * std::sin(k * 2.0 * std::numbers::pi / corners));
+        for (const double y : {-0.01, 0.01})
+            mesh.vertices.emplace_back(0.2 * std::cos(k * 2.0 * std::numbers::pi / corners), y,
+                                       0.2 * std::sin(k * 2.0 * std::numbers::pi / corners));
     for (std::uint32_t k = 0; k < corners; ++k) {
         const std::uint32_t low = 2 * k, next = 2 * ((k + 1) % corners);
         mesh.triangles.push_back({low, low + 1, next + 1});
@@ -92,9 +96,11 @@ TEST(ContactRest, ACoinLiesDown) {
 // At one step per frame they move too far between steps for their points to be refreshed: at risk of lying up to 2 cm
 // deep, rocking without end.
 TEST(ContactRest, MeshesOfManyCornersLieDownAtOneStepPerFrame) {
-    const struct { const char *file, *rotation; } cases[] = {{"bowl.obj", "[0.2142, 0.5094, 0.2049, -0.8079]"},
-                                                             {"bowl.obj", "[0.0013, 0.3053, -0.2801, -0.9101]"},
-                                                             {"torus.obj", "[0.3204, 0.5405, -0.7768, -0.042]"}};
+    const struct {
+        const char *file, *rotation;
+    } cases[] = {{"bowl.obj", "[0.2142, 0.5094, 0.2049, -0.8079]"},
+                 {"bowl.obj", "[0.0013, 0.3053, -0.2801, -0.9101]"},
+                 {"torus.obj", "[0.3204, 0.5405, -0.7768, -0.042]"}};
     for (const auto& [file, rotation] : cases) {
         const SceneDescription scene = parse_scene(std::string(R"(
             format = 1
@@ -106,11 +112,13 @@ TEST(ContactRest, MeshesOfManyCornersLieDownAtOneStepPerFrame) {
             friction = 0.6
             restitution = 0.0
             [[body]]
-            shape = { type = "mesh", file = "../meshes/)") + file + R"(" }
+            shape = { type = "mesh", file = "../meshes/)") +
+                                                       file + R"(" }
             position = [0.0, 2.5, 0.0]
             friction = 0.6
             restitution = 0.2
-            rotation = )" + rotation + "\n", TUMBLE_SOURCE_DIR "/assets/scenes/test.toml");
+            rotation = )" + rotation + "\n",
+                                                   TUMBLE_SOURCE_DIR "/assets/scenes/test.toml");
         World world(scene);
         run(world, scene, 12.0);
         EXPECT_EQ(world.measure().kinetic, 0.0) << file << rotation;
@@ -178,8 +186,10 @@ TEST(ContactRest, StickOrSlipToAThousandth) {
                 const double way = 0.5 * a * seconds * seconds * (1.0 + 1.0 / n);
                 for (std::size_t k = 1; k <= 4; ++k) {
                     const Vec3 moved = world.snapshot().bodies[k].center_of_mass - scene.bodies[k].position;
-                    EXPECT_NEAR(slope.down().dot(moved), way, share < 1.0 ? 0.01 * way : 1e-7) << steps << " " << angle << " " << share << " " << k;
-                    EXPECT_LE((moved - slope.down().dot(moved) * slope.down()).norm(), 1e-5) << steps << " " << angle << " " << share << " " << k;
+                    EXPECT_NEAR(slope.down().dot(moved), way, share < 1.0 ? 0.01 * way : 1e-7)
+                        << steps << " " << angle << " " << share << " " << k;
+                    EXPECT_LE((moved - slope.down().dot(moved) * slope.down()).norm(), 1e-5)
+                        << steps << " " << angle << " " << share << " " << k;
                 }
             }
 }
@@ -196,7 +206,8 @@ TEST(ContactRest, TheAccelerationOfASlide) {
             World world(scene);
             run(world, scene, 2.0);
             const double a = g * (std::sin(0.5) - mu * std::cos(0.5));
-            EXPECT_NEAR(world.snapshot().bodies[1].velocity.dot(slope.down()), 2.0 * a, 1e-6 * 2.0 * a) << steps << " " << mu;
+            EXPECT_NEAR(world.snapshot().bodies[1].velocity.dot(slope.down()), 2.0 * a, 1e-6 * 2.0 * a)
+                << steps << " " << mu;
         }
 }
 
@@ -207,7 +218,8 @@ TEST(ContactRest, APileOnASlopeDoesNotCreep) {
         SceneDescription scene = slope.scene(0.8, steps);
         for (int row = 0; row < 4; ++row)
             for (int i = 0; i < 4 - row; ++i) {
-                BodyDescription& box = add_box(scene, {1.0, 1.0, 1.0}, slope.at(1.02 * (i + 0.5 * row), 0.5 + row), 1.0);
+                BodyDescription& box =
+                    add_box(scene, {1.0, 1.0, 1.0}, slope.at(1.02 * (i + 0.5 * row), 0.5 + row), 1.0);
                 box.rotation = slope.rotation();
             }
         for (BodyDescription& body : scene.bodies) body.friction = 0.8;
@@ -228,7 +240,8 @@ TEST(ContactRest, AStackOnASlopeDoesNotCreep) {
     const Slope slope{15.0 * pi / 180.0};
     const double mu = 1.01 * std::tan(slope.angle);
     SceneDescription scene = slope.scene(mu, 4);
-    for (int i = 0; i < 3; ++i) add_box(scene, {1.0, 0.5, 1.0}, slope.at(0.0, 0.25 + 0.5 * i)).rotation = slope.rotation();
+    for (int i = 0; i < 3; ++i)
+        add_box(scene, {1.0, 0.5, 1.0}, slope.at(0.0, 0.25 + 0.5 * i)).rotation = slope.rotation();
     for (BodyDescription& body : scene.bodies) body.friction = mu;
     World world(scene);
     run(world, scene, 20.0);

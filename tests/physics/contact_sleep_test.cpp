@@ -1,7 +1,7 @@
 // Sleep seen from outside: it changes nothing visible, and ends exactly when it must.
 #include "core/deterministic_math.h"
-#include "sim/dynamics/body_builder.h"
 #include "sim/detection/broad_phase.h"
+#include "sim/dynamics/body_builder.h"
 #include "sim/random_shapes.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
@@ -43,13 +43,13 @@ TEST(Sleep, WakesInTheStepInWhichAForceBegins) {
     SceneDescription scene = stack(2, 0.0);
     push(scene, 2, Vec3(3.0, 0.0, 0.0), 2.0, 2.5);
     World world(scene);
-    for (int k = 0; k < 480; ++k) world.step();   // h = 1/240: 2 s exactly
+    for (int k = 0; k < 480; ++k) world.step();  // h = 1/240: 2 s exactly
     EXPECT_TRUE(all_asleep(world, 1, 2));
     world.step();
     EXPECT_NEAR(world.snapshot().bodies[2].velocity.x(), 3.0 / 240.0, 1e-9);
     run(world, scene, 0.5 - 1.0 / 60.0);
     for (int k = 0; k < 3; ++k) world.step();
-    EXPECT_NEAR(world.snapshot().bodies[2].velocity.x(), 1.5, 1e-6);   // the impulse of half a second
+    EXPECT_NEAR(world.snapshot().bodies[2].velocity.x(), 1.5, 1e-6);  // the impulse of half a second
 }
 
 // The end of a force wakes the bodies that it supported: a box held against a slope's pull.
@@ -104,9 +104,12 @@ TEST(Sleep, NotWhileSlidingOffAtAnyScale) {
                         run(world, scene, 3.0);
                         ends[sleep] = world.snapshot();
                     }
-                    EXPECT_EQ(ends[0].bodies[1].center_of_mass, ends[1].bodies[1].center_of_mass) << size << " " << acceleration << " " << drop;
+                    EXPECT_EQ(ends[0].bodies[1].center_of_mass, ends[1].bodies[1].center_of_mass)
+                        << size << " " << acceleration << " " << drop;
                     if (drop > 0.0 || steps == 1) continue;
-                    EXPECT_NEAR(ends[1].bodies[1].center_of_mass.x(), 4.5 * acceleration, 0.01 * 4.5 * acceleration + 1e-8) << size;
+                    EXPECT_NEAR(ends[1].bodies[1].center_of_mass.x(), 4.5 * acceleration,
+                                0.01 * 4.5 * acceleration + 1e-8)
+                        << size;
                 }
 }
 
@@ -132,10 +135,13 @@ TEST(Sleep, NotWhileRollingOffOrTurningBack) {
         const double share = 1.0 - acceleration / (9.81 * std::sin(angle));
         SceneDescription scene = ground_scene(0.0, share * tangent, 4);
         scene.simulation.gravity = 9.81 * Vec3(std::sin(angle), -std::cos(angle), 0.0);
-        for (int i = 0; i < 5; ++i) add_box(scene, Vec3(2.0, 1.0, 2.0) * size, {0.0, size * (i + 0.5), 0.0}).friction = i ? 1.0 : share * tangent;
+        for (int i = 0; i < 5; ++i)
+            add_box(scene, Vec3(2.0, 1.0, 2.0) * size, {0.0, size * (i + 0.5), 0.0}).friction =
+                i ? 1.0 : share * tangent;
         World world(scene);
         run(world, scene, 4.0);
-        EXPECT_NEAR(world.snapshot().bodies[5].center_of_mass.x(), 8.0 * acceleration, 0.01 * 8.0 * acceleration) << size;
+        EXPECT_NEAR(world.snapshot().bodies[5].center_of_mass.x(), 8.0 * acceleration, 0.01 * 8.0 * acceleration)
+            << size;
     }
 }
 
@@ -143,7 +149,7 @@ TEST(Sleep, NotWhileRollingOffOrTurningBack) {
 TEST(Sleep, FallsWhenItsSupportIsHitAway) {
     SceneDescription scene = stack(2, 0.0);
     scene.bodies[1].mass = 0.5;
-    BodyDescription& ball = add_sphere(scene, 0.3, {-11.0, 0.5, 0.0}, 20.0);   // slides in along the floor, 10 m/s
+    BodyDescription& ball = add_sphere(scene, 0.3, {-11.0, 0.5, 0.0}, 20.0);  // slides in along the floor, 10 m/s
     ball.velocity = Vec3(10.0 / 2.0, 0.0, 0.0);
     ball.position = Vec3(-10.8, 0.3, 0.0);
     World world(scene);
@@ -236,8 +242,10 @@ TEST(Sleep, SleepersDoNotDisturbABall) {
         for (int frame = 0; frame < 60; ++frame) {
             world.advance_frame();
             const Vec3 at = world.snapshot().bodies[1].center_of_mass;
-            if (side == 1) path.push_back(at);
-            else ASSERT_EQ(at, path[std::size_t(frame)]) << frame;
+            if (side == 1)
+                path.push_back(at);
+            else
+                ASSERT_EQ(at, path[std::size_t(frame)]) << frame;
         }
         EXPECT_TRUE(all_asleep(world, 2, scene.bodies.size() - 1));
     }

@@ -29,7 +29,8 @@ double drift(const World& world, const SceneDescription& scene) {
     const Snapshot now = world.snapshot();
     double most = 0.0;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (scene.bodies[i].type == BodyType::dynamic) most = std::max(most, (now.bodies[i].origin - scene.bodies[i].position).norm());
+        if (scene.bodies[i].type == BodyType::dynamic)
+            most = std::max(most, (now.bodies[i].origin - scene.bodies[i].position).norm());
     return most;
 }
 
@@ -99,16 +100,19 @@ TEST(Towers, AnArchOfFifteenStonesStands) {
     SceneDescription scene = floor_scene(0.7, 1);
     constexpr int stones = 15;
     const double half = 0.5 * pi / stones, inner = 4.0, outer = 5.0, spring = 1.0;
-    const double low = inner * std::cos(half), high = outer * std::cos(half), a = inner * std::sin(half), b = outer * std::sin(half);
+    const double low = inner * std::cos(half), high = outer * std::cos(half), a = inner * std::sin(half),
+                 b = outer * std::sin(half);
     const double center = low + (high - low) * (a + 2.0 * b) / (3.0 * (a + b));
     const auto asset = asset_of(stone(a, b, low - center, high - center));
     for (int i = 0; i < stones; ++i) {
-        const double angle = (2 * i + 1) * half - 0.5 * pi;   // from the vertical
-        BodyDescription& body = add_body(scene, MeshShape{asset}, {center * std::sin(angle), spring + center * std::cos(angle), 0.0});
+        const double angle = (2 * i + 1) * half - 0.5 * pi;  // from the vertical
+        BodyDescription& body =
+            add_body(scene, MeshShape{asset}, {center * std::sin(angle), spring + center * std::cos(angle), 0.0});
         body.rotation = turn(Vec3::UnitZ(), -angle);
         body.density = 2000.0;
     }
-    for (const double side : {-1.0, 1.0}) add_box(scene, {2.0, 1.0, 2.0}, {4.5 * side, 0.5, 0.0}).type = BodyType::fixed;
+    for (const double side : {-1.0, 1.0})
+        add_box(scene, {2.0, 1.0, 2.0}, {4.5 * side, 0.5, 0.0}).type = BodyType::fixed;
     set_friction(scene, 0.7);
     World world(scene);
     run(world, scene, 5.0);
@@ -117,16 +121,20 @@ TEST(Towers, AnArchOfFifteenStonesStands) {
 
 TEST(Towers, AHouseOfCardsStands) {
     SceneDescription scene = floor_scene(0.6, 1);
-    const double length = 0.9, width = 0.6, thick = 0.02, lean = 0.3, s = std::sin(lean), k = std::cos(lean), mass = 10.8;
-    const double up = 0.5 * (length * k + thick * s), aside = 0.5 * (thick * k + length * s), pitch = 0.8, storey = 2.0 * up + thick;
+    const double length = 0.9, width = 0.6, thick = 0.02, lean = 0.3, s = std::sin(lean), k = std::cos(lean),
+                 mass = 10.8;
+    const double up = 0.5 * (length * k + thick * s), aside = 0.5 * (thick * k + length * s), pitch = 0.8,
+                 storey = 2.0 * up + thick;
     for (int level = 0; level < 3; ++level) {
         const int pairs = 3 - level;
         const double first = -0.5 * pitch * (pairs - 1), ground = storey * level;
         for (int i = 0; i < pairs; ++i)
             for (const double side : {-1.0, 1.0})
-                add_box(scene, {thick, length, width}, {first + pitch * i + side * aside, ground + up, 0.0}, mass).rotation = turn(Vec3::UnitZ(), side * lean);
+                add_box(scene, {thick, length, width}, {first + pitch * i + side * aside, ground + up, 0.0}, mass)
+                    .rotation = turn(Vec3::UnitZ(), side * lean);
         for (int i = 0; i + 1 < pairs; ++i)
-            add_box(scene, {pitch - 0.004, thick, width}, {first + pitch * (i + 0.5), ground + 2.0 * up + 0.5 * thick, 0.0}, mass * (pitch - 0.004) / length);
+            add_box(scene, {pitch - 0.004, thick, width},
+                    {first + pitch * (i + 0.5), ground + 2.0 * up + 0.5 * thick, 0.0}, mass * (pitch - 0.004) / length);
     }
     set_friction(scene, 0.6);
     World world(scene);
@@ -142,7 +150,8 @@ TEST(Towers, FiveHoopsStand) {
     std::vector<CompoundPart> parts;
     for (int i = 0; i < pieces; ++i) {
         const Quat q = turn(Vec3::UnitY(), 2.0 * half * i);
-        parts.push_back(part(BoxShape{Vec3(thick, thick, 2.0 * radius * std::tan(half))}, q * Vec3(radius, 0.0, 0.0), q));
+        parts.push_back(
+            part(BoxShape{Vec3(thick, thick, 2.0 * radius * std::tan(half))}, q * Vec3(radius, 0.0, 0.0), q));
     }
     const CompoundShape hoop = compound_of(parts);
     for (int i = 0; i < 5; ++i) {
@@ -164,7 +173,8 @@ TEST(Towers, BallsRollOnADraggedPlate) {
         scene.output.fps = 1000.0;
         const Vec3 along(std::cos(angle), 0.0, std::sin(angle));
         add_box(scene, {20.0, 1.0, 20.0}, {0.0, 0.5, 0.0}, 10.0).friction = 0.8;
-        for (int i = 0; i < 25; ++i) add_sphere(scene, 0.5, {2.0 * (i % 5 - 2), 1.5, 2.0 * (i / 5 - 2)}, 1.0).friction = 0.8;
+        for (int i = 0; i < 25; ++i)
+            add_sphere(scene, 0.5, {2.0 * (i % 5 - 2), 1.5, 2.0 * (i / 5 - 2)}, 1.0).friction = 0.8;
         ForceDescription force;
         force.body = 1;
         force.force = 150.0 * along;
@@ -178,7 +188,8 @@ TEST(Towers, BallsRollOnADraggedPlate) {
         for (int k = 1; k <= steps; ++k) {
             world.step();
             const Snapshot now = world.snapshot();
-            squared += (now.bodies[1].velocity - 3.5 * second * now.time * along).squaredNorm() + (now.bodies[2].velocity - second * now.time * along).squaredNorm();
+            squared += (now.bodies[1].velocity - 3.5 * second * now.time * along).squaredNorm() +
+                       (now.bodies[2].velocity - second * now.time * along).squaredNorm();
         }
         EXPECT_LE(squared / steps, 1e-12) << angle;
     }

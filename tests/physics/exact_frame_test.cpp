@@ -24,7 +24,9 @@ SceneDescription eight(Kind kind, Layout layout, double restitution, double fric
     for (int i = 0; i < 8; ++i) {
         const Vec3 small = random.vector(0.1);
         Vec3 at(i % 4 + 0.5 * small.x(), 1.05 + 2.5 * small.y(), i / 4 + 0.5 * small.z());
-        if (layout == Layout::heap) at = Vec3(0.5 * (i % 2), 0.5 + 0.5 * (i / 4), 0.5 * (i / 2 % 2)) + Vec3(small.x(), 0.2 * std::abs(small.y()), small.z());
+        if (layout == Layout::heap)
+            at = Vec3(0.5 * (i % 2), 0.5 + 0.5 * (i / 4), 0.5 * (i / 2 % 2)) +
+                 Vec3(small.x(), 0.2 * std::abs(small.y()), small.z());
         if (layout == Layout::row) at = Vec3(0.45 * i, 0.4 + 0.05 * i, 0.5 * small.z());
         if (layout == Layout::tower) at = Vec3(0.2 * small.x(), 0.25 + 0.45 * i, 0.2 * small.z());
         const bool ball = kind == Kind::balls || (kind == Kind::mixed && i % 2 == 1);
@@ -47,7 +49,8 @@ std::vector<SceneDescription> scenes() {
         for (const double restitution : {0.2, 0.4, 0.7})
             for (const double friction : {0.0, 0.5}) {
                 SceneDescription& scene = all.emplace_back(eight(Kind(k % 3), layout, restitution, friction));
-                scene.title = fmt::format("kind {} layout {} e {} friction {}", k % 3, int(layout), restitution, friction);
+                scene.title =
+                    fmt::format("kind {} layout {} e {} friction {}", k % 3, int(layout), restitution, friction);
                 ++k;
             }
     all.resize(std::size_t(trials(int(all.size()))));
@@ -72,7 +75,8 @@ double apart(const std::vector<Snapshot>& one, const std::vector<Snapshot>& othe
     for (std::size_t frame = 0; frame < one.size(); ++frame)
         for (std::size_t i = 1; i < one[frame].bodies.size(); ++i) {
             const BodyState &a = one[frame].bodies[i], &b = other[frame].bodies[place(i)];
-            most = std::max({most, (b.center_of_mass - way - a.center_of_mass).norm(), 0.2 * a.orientation.angularDistance(b.orientation)});
+            most = std::max({most, (b.center_of_mass - way - a.center_of_mass).norm(),
+                             0.2 * a.orientation.angularDistance(b.orientation)});
         }
     return most;
 }
@@ -108,7 +112,7 @@ TEST(ExactFrame, AKilometerAwayTheMotionIsTheSame) {
         EXPECT_LE(apart(here, film(moved(scene, way)), way, same), 1e-6) << scene.title;
     }
     EXPECT_GT(steady, 0u);
-    if (all.size() >= 20) {   // debug builds run only a few scenes
+    if (all.size() >= 20) {  // debug builds run only a few scenes
         EXPECT_GE(10 * steady, 8 * all.size());
     }
 }
@@ -120,15 +124,18 @@ TEST(ExactFrame, TheOrderOfTheBodiesDoesNotMatter) {
         SceneDescription other = scene;
         std::reverse(other.bodies.begin(), other.bodies.end());
         const std::size_t last = scene.bodies.size() - 1;
-        EXPECT_LE(apart(listed, film(other), Vec3::Zero(), [&](std::size_t i) { return last - i; }), 1e-9) << scene.title;
+        EXPECT_LE(apart(listed, film(other), Vec3::Zero(), [&](std::size_t i) { return last - i; }), 1e-9)
+            << scene.title;
         std::vector<std::size_t> order(scene.bodies.size()), place(scene.bodies.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[std::size_t(random.below(int(i + 1)))]);
+        for (std::size_t i = order.size() - 1; i > 0; --i)
+            std::swap(order[i], order[std::size_t(random.below(int(i + 1)))]);
         for (std::size_t i = 0; i < order.size(); ++i) {
             other.bodies[i] = scene.bodies[order[i]];
             place[order[i]] = i;
         }
-        EXPECT_LE(apart(listed, film(other), Vec3::Zero(), [&](std::size_t i) { return place[i]; }), 1e-9) << scene.title;
+        EXPECT_LE(apart(listed, film(other), Vec3::Zero(), [&](std::size_t i) { return place[i]; }), 1e-9)
+            << scene.title;
     }
 }
 
@@ -150,7 +157,8 @@ TEST(ExactFrame, ABoxFarFromTheOthersRattlesDownAsItDoesAlone) {
             both.bodies[2].position += way;
             const auto one = film(alone), two = film(both);
             EXPECT_LE(apart(one, two, Vec3::Zero(), same), 1e-6) << restitution << ' ' << friction;
-            EXPECT_LE(apart(one, two, way, [](std::size_t) { return std::size_t(2); }), 1e-6) << restitution << ' ' << friction;
+            EXPECT_LE(apart(one, two, way, [](std::size_t) { return std::size_t(2); }), 1e-6)
+                << restitution << ' ' << friction;
         }
 }
 
@@ -168,5 +176,7 @@ TEST(ExactFrame, MeasuresAreInTheWorldFrame) {
     EXPECT_EQ(world.snapshot().bodies[0].center_of_mass, at);
     world.advance_frame();
     const double t = 1.0 / 60.0;
-    EXPECT_LE((world.snapshot().bodies[0].center_of_mass - (at + t * velocity + 0.5 * t * t * scene.simulation.gravity)).norm(), 1e-12);
+    EXPECT_LE((world.snapshot().bodies[0].center_of_mass - (at + t * velocity + 0.5 * t * t * scene.simulation.gravity))
+                  .norm(),
+              1e-12);
 }

@@ -16,7 +16,8 @@ double bouncing_metric(const SceneDescription& scene, double duration) {
     World world(scene);
     const auto energy_now = [&] {
         double sum = 0.0;
-        for (const BodyState& b : world.snapshot().bodies) sum += 10.0 * (0.5 * b.velocity.squaredNorm() + gravity * b.center_of_mass.y());
+        for (const BodyState& b : world.snapshot().bodies)
+            sum += 10.0 * (0.5 * b.velocity.squaredNorm() + gravity * b.center_of_mass.y());
         return sum;
     };
     const double start = energy_now();
@@ -33,7 +34,8 @@ double bouncing_metric(const SceneDescription& scene, double duration) {
 SceneDescription bouncing(int side, double rate) {
     SceneDescription scene = ground_scene(1.0, 0.0);
     set_step(scene, rate);
-    for (int i = 0; i < side * side; ++i) add_sphere(scene, 0.1, {2.0 * (i % side), 5.0, 2.0 * (i / side)}, 10.0).restitution = 1.0;
+    for (int i = 0; i < side * side; ++i)
+        add_sphere(scene, 0.1, {2.0 * (i % side), 5.0, 2.0 * (i / side)}, 10.0).restitution = 1.0;
     return scene;
 }
 
@@ -67,7 +69,8 @@ TEST(SimBenchmarkElastic666, EnergyIsKept) {
     set_step(scene, 60.0);
     Random random(666);
     for (int i = 0; i < 216; ++i) {
-        const Vec3 at(0.21 * (i % 6) + random(0.0, 0.001), 1.101 + 0.21 * (i / 36) + random(0.0, 0.001), 0.21 * (i / 6 % 6) + random(0.0, 0.001));
+        const Vec3 at(0.21 * (i % 6) + random(0.0, 0.001), 1.101 + 0.21 * (i / 36) + random(0.0, 0.001),
+                      0.21 * (i / 6 % 6) + random(0.0, 0.001));
         add_sphere(scene, 0.1, at, 10.0).restitution = 1.0;
     }
     make_exact(scene);
@@ -85,7 +88,8 @@ TEST(FlatBox, FollowsTheParabolasWithoutSpin) {
         for (int frame = 1; frame <= int(10.0 * rate); ++frame) {
             world.advance_frame();
             const BodyState b = world.snapshot().bodies[1];
-            ASSERT_NEAR(b.center_of_mass.y() - 0.3, bouncing_clearance(1.0, 1.0, frame / rate), 1e-9) << rate << " " << frame;
+            ASSERT_NEAR(b.center_of_mass.y() - 0.3, bouncing_clearance(1.0, 1.0, frame / rate), 1e-9)
+                << rate << " " << frame;
             ASSERT_LE(b.angular_velocity.norm(), 1e-12) << rate << " " << frame;
             ASSERT_LE(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-12);
         }
@@ -111,7 +115,7 @@ TEST(TiltedBox, EnergyIsKeptOverAHundredImpacts) {
         for (int frame = 0; frame < 60 * 200 && impacts < 100; ++frame) {
             world.advance_frame();
             const double now = world.snapshot().bodies[1].velocity.y();
-            impacts += std::abs(now - (speed - gravity * h)) > 1e-9;   // frames with at least one impact
+            impacts += std::abs(now - (speed - gravity * h)) > 1e-9;  // frames with at least one impact
             speed = now;
             ASSERT_NEAR(energy(world), start, 1e-10 * gravity * 2.5) << trial << ", frame " << frame;
         }
@@ -127,7 +131,7 @@ TEST(TiltedBox, EnergyIsKeptOverAHundredImpacts) {
 TEST(SettlingBall, RestsAtItsTimeAtAnyStep) {
     const double rest = time_of_rest(5.0, 0.8);
     EXPECT_NEAR(rest, 9.086738, 5e-7);
-    for (const int steps : {1, 7, 273, 545, 2181, 8723}) {   // of 9 s to 1/960 s
+    for (const int steps : {1, 7, 273, 545, 2181, 8723}) {  // of 9 s to 1/960 s
         for (const double offset : {-1e-6, 1e-6}) {
             SceneDescription scene = ground_scene(0.8, 0.0);
             set_step(scene, steps / (rest + offset));
@@ -176,8 +180,11 @@ TEST(SettlingBall, PathIsTheClosedForm) {
         world.step();
         const BodyState b = world.snapshot().bodies[1];
         const double to = b.center_of_mass.y() - 0.1, v = b.velocity.y();
-        if (std::abs(v - speed + gravity / rate) < 1e-9) path += speed > 0.0 && v < 0.0 ? (speed * speed + v * v) / (2.0 * gravity) : std::abs(to - height);
-        else path += std::pow(std::max(speed, 0.0), 2) / gravity + height + to + std::pow(std::min(v, 0.0), 2) / gravity;   // down to the ground and up
+        if (std::abs(v - speed + gravity / rate) < 1e-9)
+            path += speed > 0.0 && v < 0.0 ? (speed * speed + v * v) / (2.0 * gravity) : std::abs(to - height);
+        else
+            path += std::pow(std::max(speed, 0.0), 2) / gravity + height + to +
+                    std::pow(std::min(v, 0.0), 2) / gravity;  // down to the ground and up
         height = to;
         speed = v;
     }
@@ -200,7 +207,8 @@ void expect_outcome(const std::vector<Vec3>& places, double speed, ImpactLaw law
         World world(scene);
         run(world, scene, 2.0);
         for (std::size_t i = 0; i < places.size(); ++i)
-            EXPECT_LE((world.snapshot().bodies[i].velocity - speed * outcome[i]).norm(), 1e-12 * speed) << rate << ", ball " << i;
+            EXPECT_LE((world.snapshot().bodies[i].velocity - speed * outcome[i]).norm(), 1e-12 * speed)
+                << rate << ", ball " << i;
     }
 }
 
@@ -241,7 +249,7 @@ TEST(BernoullisThreeBalls, AreSymmetricUnderBothLaws) {
     for (const ImpactLaw law : {ImpactLaw::propagating, ImpactLaw::simultaneous})
         for (const double speed : {1.0, 5.0, 1e-3}) {
             std::vector<Vec3> nearer = places;
-            nearer[0].x() = -c - speed;   // one second away
+            nearer[0].x() = -c - speed;  // one second away
             expect_outcome(nearer, speed, law, outcome);
         }
 }

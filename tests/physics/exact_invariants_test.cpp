@@ -54,8 +54,11 @@ TEST(FreeSpace, ElasticSwarmKeepsMomentumAndEnergy) {
             world.advance_frame();
             const Measurement m = world.measure();
             ASSERT_NEAR(m.kinetic / start.kinetic, 1.0, 1e-12) << seed << " " << frame;
-            ASSERT_LE((m.momentum - start.momentum).norm(), 1e-12 * (1.0 + start.momentum.norm())) << seed << " " << frame;
-            ASSERT_LE((m.angular_momentum - start.angular_momentum).norm(), 1e-12 * (1.0 + start.angular_momentum.norm())) << seed << " " << frame;
+            ASSERT_LE((m.momentum - start.momentum).norm(), 1e-12 * (1.0 + start.momentum.norm()))
+                << seed << " " << frame;
+            ASSERT_LE((m.angular_momentum - start.angular_momentum).norm(),
+                      1e-12 * (1.0 + start.angular_momentum.norm()))
+                << seed << " " << frame;
             ASSERT_LE(m.max_penetration, 1e-11) << seed << " " << frame;
         }
         int struck = 0;
@@ -78,12 +81,14 @@ TEST(FreeSpace, InelasticSwarmKeepsMomentumAndLosesEnergy) {
                 world.advance_frame();
                 const Measurement m = world.measure();
                 // The position correction raises it, too: over twelve seeds by up to 5e-6 in a frame.
-                ASSERT_LE(m.kinetic, before + (e > 0.0 ? 1e-12 : 1e-5) * start.kinetic) << e << " " << friction << " " << frame;
+                ASSERT_LE(m.kinetic, before + (e > 0.0 ? 1e-12 : 1e-5) * start.kinetic)
+                    << e << " " << friction << " " << frame;
                 before = m.kinetic;
                 ASSERT_LE((m.momentum - start.momentum).norm(), 1e-11 * (1.0 + start.momentum.norm()));
                 // Bodies that stay together (e = 0, or friction) are stepped: the position correction, and the substeps
                 // of contact, move the centers, and with them x cross P.
-                ASSERT_LE((m.angular_momentum - start.angular_momentum).norm(), (e > 0.0 && friction == 0.0 ? 1e-11 : 1e-2) * (1.0 + start.angular_momentum.norm()))
+                ASSERT_LE((m.angular_momentum - start.angular_momentum).norm(),
+                          (e > 0.0 && friction == 0.0 ? 1e-11 : 1e-2) * (1.0 + start.angular_momentum.norm()))
                     << e << " " << friction << " " << frame;
             }
             EXPECT_LT(before, 0.9 * start.kinetic);
@@ -152,7 +157,7 @@ TEST(FreeSpace, ElasticMotionRunsBackwards) {
             error = std::max(error, (end.bodies[i].velocity + start.bodies[i].velocity).norm());
             error = std::max(error, end.bodies[i].orientation.angularDistance(start.bodies[i].orientation));
         }
-        EXPECT_LE(error, 1e-8) << seed;   // rounding, amplified by the impacts' own instability
+        EXPECT_LE(error, 1e-8) << seed;  // rounding, amplified by the impacts' own instability
     }
 }
 
@@ -166,8 +171,11 @@ TEST(Heap, EnergyNeverRises) {
     for (const Kind& kind : {Kind{0.0, 0.8, 1e-9}, Kind{0.5, 0.0, 1e-7}, Kind{0.5, 0.5, 1e-9}}) {
         for (int i = 0; i < trials(6); ++i) {
             Random random(40 + std::uint64_t(i));
-            SceneDescription scene = random_scene(random, {.bodies = 9 + i, .restitution_low = kind.restitution,
-                                                           .restitution_high = kind.restitution, .friction_high = kind.friction, .steps_per_frame = 16});
+            SceneDescription scene = random_scene(random, {.bodies = 9 + i,
+                                                           .restitution_low = kind.restitution,
+                                                           .restitution_high = kind.restitution,
+                                                           .friction_high = kind.friction,
+                                                           .steps_per_frame = 16});
             make_exact(scene);
             World world(scene);
             const double scale = energy_scale(scene, world);
@@ -204,7 +212,8 @@ TEST(Needle, ComesToLieOnTheFloor) {
             for (int step = 0; step < int(3.0 * rate); ++step) {
                 world.step();
                 const Measurement now = world.measure();
-                ASSERT_LT(now.kinetic + now.potential, 1.01 * (start.kinetic + start.potential)) << rate << ' ' << angle << ' ' << step;
+                ASSERT_LT(now.kinetic + now.potential, 1.01 * (start.kinetic + start.potential))
+                    << rate << ' ' << angle << ' ' << step;
                 ASSERT_GT(world.snapshot().bodies[1].center_of_mass.y(), 0.0) << rate << ' ' << angle << ' ' << step;
             }
         }

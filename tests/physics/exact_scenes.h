@@ -7,7 +7,7 @@
 
 namespace tumble::testing {
 
-constexpr double gravity = 9.81;   // m/s^2, the scenes' default
+constexpr double gravity = 9.81;  // m/s^2, the scenes' default
 
 /// Exact flights, and impacts at their own times.
 inline void make_exact(SceneDescription& scene) {
@@ -21,7 +21,8 @@ inline void set_step(SceneDescription& scene, double rate) {
     scene.simulation.steps_per_frame = 1;
 }
 
-inline BodyDescription& add_fixed_box(SceneDescription& scene, const Vec3& size, const Vec3& position, double restitution) {
+inline BodyDescription& add_fixed_box(SceneDescription& scene, const Vec3& size, const Vec3& position,
+                                      double restitution) {
     BodyDescription& wall = add_box(scene, size, position);
     wall.type = BodyType::fixed;
     wall.mass.reset();
@@ -39,7 +40,7 @@ inline double energy(const World& world) {
 inline double bouncing_clearance(double h, double e, double t) {
     double speed = std::sqrt(2.0 * gravity * h), start = std::sqrt(2.0 * h / gravity);
     if (t < start) return h - 0.5 * gravity * t * t;
-    if (e == 1.0) {   // all hops are equal: no sum is needed
+    if (e == 1.0) {  // all hops are equal: no sum is needed
         const double hop = 2.0 * start, s = std::fmod(t - start, hop);
         return speed * s - 0.5 * gravity * s * s;
     }

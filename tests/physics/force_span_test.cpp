@@ -19,16 +19,19 @@ struct Mode {
 
 std::vector<Mode> modes() {
     std::vector<Mode> list;
-    for (const auto& [name, kind] : {std::pair("explicit-euler", IntegratorKind::explicit_euler), std::pair("symplectic-euler", IntegratorKind::symplectic_euler),
-                                     std::pair("splitting", IntegratorKind::splitting), std::pair("rk4", IntegratorKind::runge_kutta_4),
-                                     std::pair("exact", IntegratorKind::exact)})
+    for (const auto& [name, kind] :
+         {std::pair("explicit-euler", IntegratorKind::explicit_euler),
+          std::pair("symplectic-euler", IntegratorKind::symplectic_euler),
+          std::pair("splitting", IntegratorKind::splitting), std::pair("rk4", IntegratorKind::runge_kutta_4),
+          std::pair("exact", IntegratorKind::exact)})
         for (const ImpactMode impacts : {ImpactMode::stepped, ImpactMode::exact})
             for (const int steps : {1, 4, 16}) list.push_back({name, kind, impacts, steps});
     return list;
 }
 
 std::string text(const Mode& mode) {
-    return std::string(mode.name) + (mode.impacts == ImpactMode::exact ? ", exact impacts, " : ", ") + std::to_string(mode.steps_per_frame) + " steps";
+    return std::string(mode.name) + (mode.impacts == ImpactMode::exact ? ", exact impacts, " : ", ") +
+           std::to_string(mode.steps_per_frame) + " steps";
 }
 
 void set(SceneDescription& scene, const Mode& mode) {
@@ -48,10 +51,16 @@ ForceDescription& push(SceneDescription& scene, std::size_t body, const Vec3& fo
 
 // Within one step, across a boundary, whole steps, many steps, longer than a frame; first and second: start and span,
 // s.
-constexpr std::array<std::pair<double, double>, 8> spans = {{{0.0101, 4e-4}, {0.0166, 4e-4}, {0.0, 4e-4}, {1.0 / 60.0, 4e-4},
-                                                             {0.0301, 5e-3}, {0.05, 0.05}, {0.0333, 0.1234}, {0.07, 1e-9}}};
+constexpr std::array<std::pair<double, double>, 8> spans = {{{0.0101, 4e-4},
+                                                             {0.0166, 4e-4},
+                                                             {0.0, 4e-4},
+                                                             {1.0 / 60.0, 4e-4},
+                                                             {0.0301, 5e-3},
+                                                             {0.05, 0.05},
+                                                             {0.0333, 0.1234},
+                                                             {0.07, 1e-9}}};
 
-constexpr double mass = 2.0, impulse = 2.0;   // kg, N s
+constexpr double mass = 2.0, impulse = 2.0;  // kg, N s
 
 void expect_velocity(const World& world, std::size_t body, const Vec3& v, double allowed, const std::string& what) {
     EXPECT_LT((world.snapshot().bodies[body].velocity - v).norm(), allowed) << what;
@@ -68,7 +77,7 @@ TEST(ForceSpan, GivesItsImpulseInFlight) {
             push(scene, 0, Vec3(0.6, 0.8, 0.0) * impulse / span, start, span);
             World world(scene);
             run(world, scene, 0.2);
-            const double rounding = 1e-13 + 1e-17 / span;   // of the ends of the span
+            const double rounding = 1e-13 + 1e-17 / span;  // of the ends of the span
             expect_velocity(world, 0, Vec3(0.6, 0.8, 0.0), rounding, text(mode) + " " + std::to_string(start));
         }
 }
@@ -82,7 +91,8 @@ TEST(ForceSpan, GivesItsImpulseOnAFloor) {
             push(scene, 1, Vec3(impulse / span, 0.0, 0.0), start, span);
             World world(scene);
             run(world, scene, 0.2);
-            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 1.0, 1e-12 + 1e-17 / span) << text(mode) << " " << start;
+            EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 1.0, 1e-12 + 1e-17 / span)
+                << text(mode) << " " << start;
         }
 }
 
@@ -95,7 +105,9 @@ TEST(ForceSpan, GivesItsImpulseAgainstFriction) {
         push(scene, 1, Vec3(2.0 * impulse / 4e-4, 0.0, 0.0), 0.0123, 4e-4).point = Vec3(0.0, -0.1, 0.0);
         World world(scene);
         run(world, scene, 0.2);
-        EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 2.0 - 0.1 * 9.81 * (0.2 - 0.0123), 0.1 * 9.81 * scene.step() + 1e-3) << text(mode);
+        EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 2.0 - 0.1 * 9.81 * (0.2 - 0.0123),
+                    0.1 * 9.81 * scene.step() + 1e-3)
+            << text(mode);
     }
 }
 
@@ -172,7 +184,7 @@ TEST(ForceSpan, GivesItsImpulseAcrossBounces) {
         ball.velocity = Vec3(0.0, -12.0, 0.0);
         ball.restitution = 0.8;
         push(scene, 1, Vec3(impulse / 0.5, 0.0, 0.0), 0.0011, 0.5);
-        push(scene, 1, Vec3(0.0, 0.0, impulse / 4e-3), 0.0151, 4e-3);   // in the steps of the first bounce
+        push(scene, 1, Vec3(0.0, 0.0, impulse / 4e-3), 0.0151, 4e-3);  // in the steps of the first bounce
         World world(scene);
         run(world, scene, 3.0);
         const Vec3 v = world.snapshot().bodies[1].velocity;
@@ -208,14 +220,15 @@ TEST(ForceSpan, GivesItsImpulseToABodyThatIsHitInTheStep) {
             set(scene, mode);
             add_box(scene, {1.0, 1.0, 1.0}, Vec3::Zero(), mass).restitution = 0.7;
             BodyDescription& ball = add_sphere(scene, 0.2, {-0.72, 0.1, 0.0}, 1.0);
-            ball.velocity = Vec3(2.0, 0.3, 0.0);   // arrives after 10 ms
+            ball.velocity = Vec3(2.0, 0.3, 0.0);  // arrives after 10 ms
             ball.restitution = 0.7;
             push(scene, 0, Vec3(0.0, impulse / 4e-4, 0.5 * impulse / 4e-4), start, 4e-4);
             push(scene, 0, Vec3(0.0, 0.0, 1.0), 0.0, 0.1);
             World world(scene);
             run(world, scene, 0.2);
             const Vec3 momentum = world.measure().momentum;
-            EXPECT_LT((momentum - Vec3(2.0, 0.3 + impulse, 0.5 * impulse + 0.1)).norm(), 1e-11) << text(mode) << " " << start;
+            EXPECT_LT((momentum - Vec3(2.0, 0.3 + impulse, 0.5 * impulse + 0.1)).norm(), 1e-11)
+                << text(mode) << " " << start;
         }
 }
 
@@ -230,7 +243,7 @@ TEST(ForceSpan, ActsOnceOnABodyThatIsReleasedInTheStep) {
             shelf.friction = 0.0;
             BodyDescription& plank = add_box(scene, {0.5, 0.2, 3.0}, {0.0, 1.2, 0.0}, mass);
             plank.friction = 0.0;
-            for (const double z : {-1.0, 1.0}) {   // both ends at once, after 105 ms
+            for (const double z : {-1.0, 1.0}) {  // both ends at once, after 105 ms
                 BodyDescription& ball = add_sphere(scene, 0.1, {0.0, 1.0 - 0.5, z}, 1.0);
                 ball.velocity = Vec3(0.0, (0.5 + 0.5 * 9.81 * 0.105 * 0.105) / 0.105, 0.0);
                 ball.restitution = 1.0;
@@ -241,6 +254,7 @@ TEST(ForceSpan, ActsOnceOnABodyThatIsReleasedInTheStep) {
             World world(scene);
             run(world, scene, 0.3);
             EXPECT_GT(world.snapshot().bodies[2].velocity.y(), 0.0);
-            EXPECT_NEAR(world.snapshot().bodies[2].velocity.x() * mass, impulse + 0.25, 1e-9) << text(mode) << " " << start;
+            EXPECT_NEAR(world.snapshot().bodies[2].velocity.x() * mass, impulse + 0.25, 1e-9)
+                << text(mode) << " " << start;
         }
 }

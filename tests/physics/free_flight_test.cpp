@@ -64,7 +64,7 @@ TEST(FreeFall, ProjectileConvergesToTheParabolaAtFirstOrder) {
         const Vec3 exact(5.0, 9.81 - 0.5 * g, 0.0);
         error[k] = (world.snapshot().bodies[0].center_of_mass - exact).norm();
     }
-    EXPECT_NEAR(error[0], 0.5 * g / 480.0, 1e-12);   // h g t / 2
+    EXPECT_NEAR(error[0], 0.5 * g / 480.0, 1e-12);  // h g t / 2
     EXPECT_NEAR(error[0] / error[1], 2.0, 1e-9);
 }
 
@@ -114,7 +114,8 @@ TEST(FreeRotation, OneStepRotatesByTheAngleOfItsForm) {
             add_sphere(scene, 0.5, {5.0, 0.0, 0.0}).angular_velocity = Vec3(0.0, 12.0, 0.0);
             World world(scene);
             world.step();
-            const double hw = 12.0 / 60.0, tangent = form == RotationForm::quaternion ? 2.0 * std::atan(0.5 * hw) : std::atan(hw);
+            const double hw = 12.0 / 60.0,
+                         tangent = form == RotationForm::quaternion ? 2.0 * std::atan(0.5 * hw) : std::atan(hw);
             const double angle = integrator == IntegratorKind::explicit_euler ? tangent : hw;
             for (const BodyState& body : world.snapshot().bodies)
                 EXPECT_LT((body.orientation.coeffs() - turn(Vec3::UnitY(), angle).coeffs()).norm(), 1e-14);
@@ -150,17 +151,17 @@ TEST(PointForce, GivesTorqueDuringItsSpan) {
     const Measurement m = world.measure();
     EXPECT_NEAR(m.momentum.z(), 1e-3, 1e-12);
     const Vec3 spin = m.angular_momentum - world.snapshot().bodies[0].center_of_mass.cross(m.momentum);
-    EXPECT_NEAR(spin.y(), -0.5e-3, 1e-6);   // the arm rotates a little while the force stays
+    EXPECT_NEAR(spin.y(), -0.5e-3, 1e-6);  // the arm rotates a little while the force stays
 }
 
 TEST(PointForce, BodyFrameForceRotatesWithTheBody) {
     SceneDescription scene = empty_scene(16);
     BodyDescription& body = add_sphere(scene, 0.5, Vec3::Zero(), 2.0);
-    body.angular_velocity = Vec3(0.0, 2.0 * pi, 0.0);   // one revolution per second
+    body.angular_velocity = Vec3(0.0, 2.0 * pi, 0.0);  // one revolution per second
     scene.forces.push_back({0, Vec3::Zero(), Vec3(4.0, 0.0, 0.0), true, 0.0, 1.0});
     World world(scene);
     run(world, scene, 1.0);
-    EXPECT_LT(world.measure().momentum.norm(), 0.02);   // a whole revolution cancels; remainder of order h
+    EXPECT_LT(world.measure().momentum.norm(), 0.02);  // a whole revolution cancels; remainder of order h
 }
 
 // Quadratic drag: v(t) = v_t tanh(g t / v_t), v_t = sqrt(2 m g / (rho C_d A)).
@@ -173,7 +174,7 @@ TEST(Wind, FallReachesTerminalVelocity) {
     run(world, scene, 1.0);
     EXPECT_NEAR(-world.snapshot().bodies[0].velocity.y(), terminal * std::tanh(g / terminal), 2e-3);
     run(world, scene, 9.0);
-    EXPECT_NEAR(-world.snapshot().bodies[0].velocity.y(), terminal, 1e-7);   // tanh(g t / v_t) is 2e-9 short of 1
+    EXPECT_NEAR(-world.snapshot().bodies[0].velocity.y(), terminal, 1e-7);  // tanh(g t / v_t) is 2e-9 short of 1
 }
 
 TEST(Wind, CarriesAFloatingBodyUpToItsOwnSpeed) {

@@ -42,8 +42,10 @@ TEST(Friction, InclineDecidesStickOrSlip) {
         run(world, scene, 4.0);
         const double way = (world.snapshot().bodies[1].center_of_mass - box.position).norm();
         const double a = g * (std::sin(angle) - mu * std::cos(angle));
-        if (a > 0.0) EXPECT_NEAR(way, 0.5 * a * 16.0, 0.01 * 0.5 * a * 16.0 + 1e-3);
-        else EXPECT_LT(way, 1e-4);
+        if (a > 0.0)
+            EXPECT_NEAR(way, 0.5 * a * 16.0, 0.01 * 0.5 * a * 16.0 + 1e-3);
+        else
+            EXPECT_LT(way, 1e-4);
     }
 }
 
@@ -91,9 +93,9 @@ TEST(Friction, BounceOfASpinningBall) {
 // a plate's face, under uniform pressure, has friction against its own slip. With enough friction for both, a spin
 // would not change the slide.
 TEST(Friction, SlidingAndSpinningShareIt) {
-    const double mu = 0.2, side = 0.4, inertia = side * side / 6.0, dt = 1e-3;   // of the unit mass
+    const double mu = 0.2, side = 0.4, inertia = side * side / 6.0, dt = 1e-3;  // of the unit mass
     struct Case {
-        double speed, spin;   // m/s, rad/s
+        double speed, spin;  // m/s, rad/s
     };
     for (const Case& start : {Case{3.0, 20.0}, Case{3.0, 5.0}, Case{1.0, 30.0}, Case{1.0, 10.0}}) {
         // The reference: elements at (x, z), rotated; v and w by the forces -mu g u / |u|, over all elements.
@@ -104,7 +106,8 @@ TEST(Friction, SlidingAndSpinningShareIt) {
             for (int i = 0; i < bits; ++i)
                 for (int k = 0; k < bits; ++k) {
                     const double p = side * ((i + 0.5) / bits - 0.5), q = side * ((k + 0.5) / bits - 0.5);
-                    const double x = p * std::cos(angle) - q * std::sin(angle), z = p * std::sin(angle) + q * std::cos(angle);
+                    const double x = p * std::cos(angle) - q * std::sin(angle),
+                                 z = p * std::sin(angle) + q * std::cos(angle);
                     const double sx = v + w * z, sz = -w * x, share = -mu * g / (bits * bits) / std::hypot(sx, sz);
                     force += share * sx;
                     torque += share * (z * sx - x * sz);
@@ -114,9 +117,11 @@ TEST(Friction, SlidingAndSpinningShareIt) {
             v += force * dt;
             w += torque / inertia * dt;
         }
-        for (const auto solver : {ContactSolverChoice::by_island, ContactSolverChoice::soft, ContactSolverChoice::direct})
+        for (const auto solver :
+             {ContactSolverChoice::by_island, ContactSolverChoice::soft, ContactSolverChoice::direct})
             for (const int steps : {1, 4, 16}) {
-                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // rotates too far in a step for one solve
+                if (solver == ContactSolverChoice::direct && steps == 1)
+                    continue;  // rotates too far in a step for one solve
                 SceneDescription scene = ground_scene(0.0, mu, steps);
                 scene.simulation.contact_solver = solver;
                 BodyDescription& plate = add_box(scene, {side, 0.01, side}, {0.0, 0.005, 0.0});
@@ -124,16 +129,19 @@ TEST(Friction, SlidingAndSpinningShareIt) {
                 plate.velocity = {start.speed, 0.0, 0.0};
                 plate.angular_velocity = {0.0, start.spin, 0.0};
                 World world(scene);
-                int sliding = 0;   // number of frames
+                int sliding = 0;  // number of frames
                 for (int frame = 1; frame < 180; ++frame) {
                     world.advance_frame();
                     if (world.snapshot().bodies[1].velocity.norm() > 0.02) sliding = frame;
                 }
                 const Vec3 x = world.snapshot().bodies[1].center_of_mass;
                 // With one ellipsoid for all ratios of spin to slip the displacements are up to 16 % too short.
-                EXPECT_NEAR(x.x(), way, 0.02 * way + start.speed / (60.0 * steps)) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
-                EXPECT_NEAR(x.z(), 0.0, 0.02 * way) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
-                EXPECT_NEAR(sliding / 60.0, time, 0.12 * time) << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
+                EXPECT_NEAR(x.x(), way, 0.02 * way + start.speed / (60.0 * steps))
+                    << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
+                EXPECT_NEAR(x.z(), 0.0, 0.02 * way)
+                    << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
+                EXPECT_NEAR(sliding / 60.0, time, 0.12 * time)
+                    << start.speed << ' ' << start.spin << ' ' << int(solver) << ' ' << steps;
             }
     }
 }

@@ -19,12 +19,15 @@ void set_mode(SceneDescription& scene, bool exact) {
 
 void expect_finite(const World& world, const std::string& what) {
     for (const BodyState& b : world.snapshot().bodies)
-        ASSERT_TRUE(b.origin.allFinite() && b.orientation.coeffs().allFinite() && b.velocity.allFinite() && b.angular_velocity.allFinite()) << what;
+        ASSERT_TRUE(b.origin.allFinite() && b.orientation.coeffs().allFinite() && b.velocity.allFinite() &&
+                    b.angular_velocity.allFinite())
+            << what;
 }
 
 // Two boxes or balls on a line with offset, alone in space.
 struct Encounter {
-    double mass = 1.0, other_mass = 1.0, speed = 1.0, offset = 0.0, gap = 0.5, spin = 0.0, restitution = 1.0, size = 0.5;
+    double mass = 1.0, other_mass = 1.0, speed = 1.0, offset = 0.0, gap = 0.5, spin = 0.0, restitution = 1.0,
+           size = 0.5;
     bool boxes = true, exact = true;
     Vec3 at = Vec3::Zero();
     Vec3 shape = Vec3(1.0, 1.0, 1.0);
@@ -45,7 +48,8 @@ double meet(const Encounter& e, double energy_tolerance, double momentum_toleran
     set_mode(scene, e.exact);
     World world(scene);
     const Measurement start = world.measure();
-    const double momentum = std::max(e.mass, e.other_mass) * e.speed, angular = start.angular_momentum.norm() + momentum * (e.size + e.at.norm());
+    const double momentum = std::max(e.mass, e.other_mass) * e.speed,
+                 angular = start.angular_momentum.norm() + momentum * (e.size + e.at.norm());
     double overlap = 0.0;
     for (int frame = 0; frame < 60; ++frame) {
         world.advance_frame();
@@ -76,7 +80,8 @@ TEST(HardInput, SpeedsOfANanometerAndAMillionMetersPerSecond) {
                     c.speed = speed;
                     c.offset = offset;
                     c.restitution = e;
-                    EXPECT_LE(meet(c, 1e-12, 1e-12), e > 0.0 ? 1e-11 : 0.06) << boxes << " " << speed << " " << offset << " " << e;
+                    EXPECT_LE(meet(c, 1e-12, 1e-12), e > 0.0 ? 1e-11 : 0.06)
+                        << boxes << " " << speed << " " << offset << " " << e;
                 }
 }
 
@@ -92,7 +97,8 @@ TEST(HardInput, GrazingEncounters) {
                     c.offset = c.size * (1.0 + miss) / std::sqrt(boxes ? 1.0 : 1.01);
                     c.gap = gap;
                     c.restitution = 0.5;
-                    EXPECT_LE(meet(c, 1e-12, 1e-12), 2.0 * std::max(0.0, -miss) + 1e-11) << boxes << " " << speed << " " << miss << " " << gap;
+                    EXPECT_LE(meet(c, 1e-12, 1e-12), 2.0 * std::max(0.0, -miss) + 1e-11)
+                        << boxes << " " << speed << " " << miss << " " << gap;
                 }
 }
 
@@ -108,7 +114,8 @@ TEST(HardInput, TouchingAndOverlappingStarts) {
                     c.speed = std::abs(speed);
                     c.restitution = 0.5;
                     const double overlap = meet(c, 1e-9, 1e-9);
-                    EXPECT_LE(overlap, 1.01 * std::abs(gap) / c.size + (exact ? 1e-9 : 0.2)) << exact << " " << boxes << " " << gap << " " << speed;
+                    EXPECT_LE(overlap, 1.01 * std::abs(gap) / c.size + (exact ? 1e-9 : 0.2))
+                        << exact << " " << boxes << " " << gap << " " << speed;
                 }
 }
 
@@ -175,7 +182,8 @@ TEST(HardInput, NeedlesAndPlates) {
                     c.spin = spin;
                     c.offset = offset;
                     c.restitution = e;
-                    EXPECT_LE(meet(c, 1e-9, 1e-11), e == 1.0 ? 1e-9 : 5e-3) << shape.transpose() << " " << spin << " " << offset << " " << e;
+                    EXPECT_LE(meet(c, 1e-9, 1e-11), e == 1.0 ? 1e-9 : 5e-3)
+                        << shape.transpose() << " " << spin << " " << offset << " " << e;
                 }
 }
 
@@ -192,7 +200,8 @@ TEST(HardInput, BoundsOfFreeRotation) {
             const double t = 0.005 * k;
             const Motion m = path.at(t);
             const Mat3 inverse_inertia = m.rotation * body.inverse_inertia_body * m.rotation.transpose();
-            const Vec3 omega = inverse_inertia * body.angular_momentum, alpha = -(inverse_inertia * omega.cross(body.angular_momentum));
+            const Vec3 omega = inverse_inertia * body.angular_momentum,
+                       alpha = -(inverse_inertia * omega.cross(body.angular_momentum));
             spin = std::max(spin, omega.norm());
             turning = std::max(turning, omega.squaredNorm() + alpha.norm());
         }
@@ -239,7 +248,8 @@ TEST(HardInput, ScenesOfAnyScale) {
         scene.simulation.steps_per_frame = 1;
         scene.simulation.gravity = Vec3(0.0, -gravity * s, 0.0);
         for (int i = 0; i < 4; ++i) {
-            BodyDescription& body = i % 2 ? add_sphere(scene, 0.3 * s, {1.0 * s * i, 1.5 * s, 0.0}) : add_box(scene, Vec3(0.5, 0.4, 0.3) * s, {1.0 * s * i, 1.5 * s, 0.0});
+            BodyDescription& body = i % 2 ? add_sphere(scene, 0.3 * s, {1.0 * s * i, 1.5 * s, 0.0})
+                                          : add_box(scene, Vec3(0.5, 0.4, 0.3) * s, {1.0 * s * i, 1.5 * s, 0.0});
             body.mass = s * s * s;
             body.restitution = 0.8;
             body.rotation = turn({1.0, 0.5, 0.3 * i}, 0.7);
@@ -253,7 +263,9 @@ TEST(HardInput, ScenesOfAnyScale) {
     }
     for (int k = 1; k < 3; ++k)
         for (std::size_t i = 1; i < ends[0].bodies.size(); ++i) {
-            EXPECT_LE((ends[k].bodies[i].center_of_mass / scales[k] - ends[0].bodies[i].center_of_mass).norm(), 1e-9) << scales[k] << " " << i;
-            EXPECT_LE((ends[k].bodies[i].velocity / scales[k] - ends[0].bodies[i].velocity).norm(), 1e-8) << scales[k] << " " << i;
+            EXPECT_LE((ends[k].bodies[i].center_of_mass / scales[k] - ends[0].bodies[i].center_of_mass).norm(), 1e-9)
+                << scales[k] << " " << i;
+            EXPECT_LE((ends[k].bodies[i].velocity / scales[k] - ends[0].bodies[i].velocity).norm(), 1e-8)
+                << scales[k] << " " << i;
         }
 }

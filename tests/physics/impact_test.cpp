@@ -35,7 +35,9 @@ Body random_body(Random& random) {
     return body;
 }
 
-double kinetic(const Body& b) { return 0.5 * (b.momentum.dot(b.velocity) + b.angular_momentum.dot(b.angular_velocity)); }
+double kinetic(const Body& b) {
+    return 0.5 * (b.momentum.dot(b.velocity) + b.angular_momentum.dot(b.angular_velocity));
+}
 
 double largest_energy_error(World& world, int frames) {
     const Measurement start = world.measure();
@@ -70,19 +72,22 @@ TEST(Impulse, RandomPairsObeyTheNotes) {
         const Contact& c = contacts[0];
         const double before = relative_velocity(c, a, b), energy = kinetic(a) + kinetic(b);
         const Vec3 momentum = a.momentum + b.momentum;
-        const Vec3 angular = a.position.cross(a.momentum) + a.angular_momentum + b.position.cross(b.momentum) + b.angular_momentum;
+        const Vec3 angular =
+            a.position.cross(a.momentum) + a.angular_momentum + b.position.cross(b.momentum) + b.angular_momentum;
         const auto turning = [&](const Body& body, const Vec3& arm) {
             return c.normal.dot((body.inverse_inertia * arm.cross(c.normal)).cross(arm));
         };
         const double k = a.inverse_mass + b.inverse_mass + turning(a, c.arm_a) + turning(b, c.arm_b);
         const double j = before < 0.0 ? -(1.0 + c.restitution) * before / k : 0.0;
-        resolve_impacts({{0, 1}, {0}}, contacts, bodies, {.law = trial % 2 ? ImpactLaw::propagating : ImpactLaw::simultaneous});
+        resolve_impacts({{0, 1}, {0}}, contacts, bodies,
+                        {.law = trial % 2 ? ImpactLaw::propagating : ImpactLaw::simultaneous});
         EXPECT_NEAR(c.impact, j, 1e-12 * (1.0 + j));
         add_impulse(c, c.impact * c.normal, a, b);
         a.derive();
         b.derive();
         EXPECT_LT((a.momentum + b.momentum - momentum).norm(), 1e-13);
-        const Vec3 after = a.position.cross(a.momentum) + a.angular_momentum + b.position.cross(b.momentum) + b.angular_momentum;
+        const Vec3 after =
+            a.position.cross(a.momentum) + a.angular_momentum + b.position.cross(b.momentum) + b.angular_momentum;
         EXPECT_LT((after - angular).norm(), 1e-12);
         if (!(before < 0.0)) continue;
         EXPECT_NEAR(relative_velocity(c, a, b), -c.restitution * before, 1e-12 * (1.0 - before));
@@ -120,7 +125,7 @@ TEST(Bounce, ElasticBallRetracesItsPathFromTheCeiling) {
 TEST(Bounce, HeightsFollowRestitution) {
     for (const double e : {0.3, 0.5, 0.8}) {
         SceneDescription scene = ground_scene(e, 0.0, 64);
-        add_sphere(scene, 0.2, {0.0, 2.2, 0.0}).restitution = 0.1;   // the pair uses the larger restitution
+        add_sphere(scene, 0.2, {0.0, 2.2, 0.0}).restitution = 0.1;  // the pair uses the larger restitution
         World world(scene);
         double top = 0.0;
         bool rising = false;
@@ -167,7 +172,8 @@ TEST(Row, CradleTransmitsTheImpulse) {
         run(world, scene, 2.0);
         const Snapshot s = world.snapshot();
         for (int i = 0; i < 5; ++i)
-            EXPECT_NEAR(s.bodies[std::size_t(i)].velocity.x(), i >= 5 - incoming ? 2.0 : 0.0, 1e-12) << incoming << " " << i;
+            EXPECT_NEAR(s.bodies[std::size_t(i)].velocity.x(), i >= 5 - incoming ? 2.0 : 0.0, 1e-12)
+                << incoming << " " << i;
     }
 }
 
@@ -230,14 +236,16 @@ TEST(TiltedBox, WhirlingElasticBouncesGainNothing) {
     Random random;
     for (int trial = 0; trial < 8; ++trial) {
         SceneDescription scene = ground_scene(1.0, 0.0);
-        BodyDescription& box = add_box(scene, Vec3(random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)), {0.0, 2.0, 0.0});
+        BodyDescription& box =
+            add_box(scene, Vec3(random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)), {0.0, 2.0, 0.0});
         box.restitution = 1.0;
         box.rotation = turn(random.vector(1.0), 1.0);
         box.angular_velocity = random.vector(12.0);
         World world(scene);
         const Measurement start = world.measure();
         const double energy = start.kinetic + start.potential;
-        double mean = 0.0;   // over ten seconds: in each flight the energy falls and rises by symplectic Euler's g h v / 2
+        double mean =
+            0.0;  // over ten seconds: in each flight the energy falls and rises by symplectic Euler's g h v / 2
         for (int frame = 0; frame < 2400; ++frame) {
             world.advance_frame();
             const Measurement m = world.measure();

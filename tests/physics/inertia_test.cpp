@@ -45,7 +45,8 @@ TEST(Inertia, RightTetrahedron) {
 // A mesh with an offset origin rotates about its center of mass.
 TEST(Inertia, BodyWithOffsetOriginRotatesAboutItsCenterOfMass) {
     SceneDescription scene = empty_scene(16);
-    BodyDescription& body = add_body(scene, MeshShape{asset_of(box_mesh({1.0, 0.0, 0.0}, {3.0, 1.0, 1.0}))}, {5.0, 0.0, 0.0});
+    BodyDescription& body =
+        add_body(scene, MeshShape{asset_of(box_mesh({1.0, 0.0, 0.0}, {3.0, 1.0, 1.0}))}, {5.0, 0.0, 0.0});
     body.angular_velocity = Vec3(0.0, 0.0, 1.0);
     World world(scene);
     EXPECT_LT((world.snapshot().bodies[0].center_of_mass - Vec3(7.0, 0.5, 0.5)).norm(), 1e-14);
@@ -62,7 +63,7 @@ TEST(Inertia, GivenMassScalesTheTensor) {
     World world(scene);
     const BodyReport r = world.report(0);
     EXPECT_DOUBLE_EQ(r.mass, 7.0);
-    EXPECT_NEAR(r.principal_inertia.x(), r.principal_inertia.z(), 1e-12);   // by symmetry
+    EXPECT_NEAR(r.principal_inertia.x(), r.principal_inertia.z(), 1e-12);  // by symmetry
     EXPECT_EQ(r.hull_vertices, 12u);
 }
 
@@ -96,7 +97,8 @@ TEST(PrincipalInertia, RebuildsTheTensor) {
 }
 
 TEST(PrincipalInertia, DiagonalTensorsKeepTheirAxes) {
-    for (const Vec3& moments : {Vec3(1, 2, 3), Vec3(3, 2, 1.5), Vec3(1, 1, 1e-9), Vec3(2, 2, 2), Vec3(1, 1 + 1e-13, 1.5)}) {
+    for (const Vec3& moments :
+         {Vec3(1, 2, 3), Vec3(3, 2, 1.5), Vec3(1, 1, 1e-9), Vec3(2, 2, 2), Vec3(1, 1 + 1e-13, 1.5)}) {
         const PrincipalInertia p = principal_inertia(moments.asDiagonal());
         EXPECT_EQ(p.axes.coeffs(), Quat::Identity().coeffs());
         EXPECT_EQ(p.moments, moments);

@@ -28,7 +28,9 @@ TEST(BetterIntegrators, FallOnTheParabola) {
             world.advance_frame();
             const double t = n / 10.0;
             const BodyState b = world.snapshot().bodies[0];
-            EXPECT_LT((b.center_of_mass - body.position - t * body.velocity - Vec3(0.0, -0.5 * 9.81 * t * t, 0.0)).norm(), 1e-13 * 50);
+            EXPECT_LT(
+                (b.center_of_mass - body.position - t * body.velocity - Vec3(0.0, -0.5 * 9.81 * t * t, 0.0)).norm(),
+                1e-13 * 50);
             EXPECT_LT((b.velocity - body.velocity - Vec3(0.0, -9.81 * t, 0.0)).norm(), 1e-13 * 50);
         }
     }

@@ -79,7 +79,7 @@ TEST(Kinematic, ImpulsesDoNotMoveIt) {
     World world(scene);
     run(world, scene, 0.9);
     EXPECT_LT((world.snapshot().bodies[0].center_of_mass - Vec3(0.9, 0, 0)).norm(), 1e-12);
-    EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 2.0, 1e-9);   // twice the wall's speed, e = 1
+    EXPECT_NEAR(world.snapshot().bodies[1].velocity.x(), 2.0, 1e-9);  // twice the wall's speed, e = 1
     EXPECT_NEAR(world.snapshot().bodies[0].velocity.x(), 1.0, 1e-12);
 }
 
@@ -132,12 +132,13 @@ TEST(Kinematic, ABallOnATurntableRollsInACircle) {
         BodyDescription& ball = add_sphere(scene, radius, {1.0, radius, 0.0});
         ball.friction = 0.8;
         ball.velocity = {0.0, 0.0, -1.0};
-        ball.angular_velocity = {(speed * 1.0 - 1.0) / radius, 0.0, 0.0};   // rolls without slipping
+        ball.angular_velocity = {(speed * 1.0 - 1.0) / radius, 0.0, 0.0};  // rolls without slipping
         World world(scene);
         const Vec3 center(1.0 - 1.0 / circling, radius, 0.0);
         for (int k = 0; k < int(60.0 * 2.0 * pi / circling); ++k) {
             world.step();
-            EXPECT_NEAR((world.snapshot().bodies[1].center_of_mass - center).norm(), 1.0 / circling, 5e-4) << int(solver);
+            EXPECT_NEAR((world.snapshot().bodies[1].center_of_mass - center).norm(), 1.0 / circling, 5e-4)
+                << int(solver);
         }
     }
 }
@@ -151,15 +152,18 @@ TEST(Kinematic, NothingCreepsOnARockingPlatform) {
         BodyDescription& platform = add_box(scene, {5.0, 0.2, 2.0}, {0.0, -0.1, 0.0});
         platform.type = BodyType::kinematic;
         platform.friction = 0.8;
-        for (int i = 0; i <= 320; ++i) {   // a swing in two seconds, starting smoothly
-            const double t = i / 40.0, swing = std::min(1.0, t / 2.0) * std::sin(2.0 * 3.14159265358979323846 * 0.5 * t);
+        for (int i = 0; i <= 320; ++i) {  // a swing in two seconds, starting smoothly
+            const double t = i / 40.0,
+                         swing = std::min(1.0, t / 2.0) * std::sin(2.0 * 3.14159265358979323846 * 0.5 * t);
             platform.keyframes.push_back({t, Vec3(0.05 * swing, -0.1, 0.0), turn(Vec3::UnitZ(), 0.2 * swing)});
         }
-        for (const double x : {-2.0, -1.0, 0.0, 1.0, 2.0}) add_box(scene, {0.3, 0.3, 0.3}, {x, 0.15, 0.0}).friction = 0.8;
+        for (const double x : {-2.0, -1.0, 0.0, 1.0, 2.0})
+            add_box(scene, {0.3, 0.3, 0.3}, {x, 0.15, 0.0}).friction = 0.8;
         World world(scene);
         run(world, scene, 8.0);
         for (std::size_t i = 1; i < scene.bodies.size(); ++i)
-            EXPECT_LT((world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm(), 2e-3) << int(solver) << ' ' << i;
+            EXPECT_LT((world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm(), 2e-3)
+                << int(solver) << ' ' << i;
     }
 }
 
@@ -173,7 +177,8 @@ TEST(Kinematic, ARotatingPaddleHitsTheBodiesItMeets) {
             BodyDescription& paddle = add_box(scene, {3.0, 0.4, 0.02}, Vec3::Zero());
             paddle.type = BodyType::kinematic;
             paddle.interpolation = Interpolation::linear;
-            for (int i = 0; i < 4; ++i) paddle.keyframes.push_back({0.25 * i, Vec3::Zero(), turn(Vec3::UnitY(), 0.5 * std::numbers::pi * i)});
+            for (int i = 0; i < 4; ++i)
+                paddle.keyframes.push_back({0.25 * i, Vec3::Zero(), turn(Vec3::UnitY(), 0.5 * std::numbers::pi * i)});
             add_sphere(scene, 0.1, {1.0, 0.0, -1.0});
             for (BodyDescription& body : scene.bodies) body.restitution = restitution;
             World world(scene);

@@ -45,7 +45,7 @@ TEST(Rest, StackOfTenStands) {
 
 TEST(Rest, HeavyOnLight) {
     SceneDescription scene = stack(2);
-    scene.bodies[2].mass = 50.0;   // light under heavy converges slowly: see docs/reference/guarantees-and-limits.md
+    scene.bodies[2].mass = 50.0;  // light under heavy converges slowly: see docs/reference/guarantees-and-limits.md
     World world(scene);
     run(world, scene, 3.0);
     EXPECT_LT(world.measure().max_penetration, 1e-5);
@@ -67,7 +67,7 @@ TEST(Rest, HeapLosesEnergyAndSettles) {
     }
     World world(scene);
     double before = energy(world);
-    const double scale = 36.0 * 9.81;   // J, about the energy of 36 bodies of 1 kg one meter high
+    const double scale = 36.0 * 9.81;  // J, about the energy of 36 bodies of 1 kg one meter high
     for (int frame = 0; frame < 480; ++frame) {
         world.advance_frame();
         const double now = energy(world);
@@ -78,7 +78,8 @@ TEST(Rest, HeapLosesEnergyAndSettles) {
     EXPECT_LT(world.measure().max_penetration, 1e-3);
     const Snapshot s = world.snapshot();
     for (std::size_t i = 1; i < s.bodies.size(); ++i) {
-        if (std::holds_alternative<SphereShape>(scene.bodies[i].shape)) continue;   // no rolling friction: may still roll
+        if (std::holds_alternative<SphereShape>(scene.bodies[i].shape))
+            continue;  // no rolling friction: may still roll
         EXPECT_LT(s.bodies[i].velocity.norm(), 0.01) << i;
     }
 }
@@ -104,10 +105,10 @@ TEST(Sleep, ASleepingStackWakesWhenHit) {
     ball.velocity = Vec3(10.0, 0.0, 0.0);
     ball.friction = 0.0;
     scene.simulation.gravity = Vec3(0.0, -9.81, 0.0);
-    scene.bodies.back().position.y() = 2.5 + 0.5 * 9.81 * 3.6;   // arrives at the top box after 1.9 s
+    scene.bodies.back().position.y() = 2.5 + 0.5 * 9.81 * 3.6;  // arrives at the top box after 1.9 s
     World world(scene);
     run(world, scene, 1.5);
-    EXPECT_TRUE(world.snapshot().bodies[3].velocity.isZero(0.0));   // asleep: exactly at rest
+    EXPECT_TRUE(world.snapshot().bodies[3].velocity.isZero(0.0));  // asleep: exactly at rest
     run(world, scene, 1.5);
     EXPECT_GT((world.snapshot().bodies[3].center_of_mass - Vec3(0.0, 2.5, 0.0)).norm(), 0.1);
 }
@@ -128,7 +129,8 @@ TEST(MeshShape, InternalEdgesDoNotCatch) {
         BodyDescription& floor = add_body(scene, MeshShape{asset_of(grid_mesh(20, 5.0, 0.0))}, Vec3::Zero());
         floor.type = BodyType::fixed;
         floor.restitution = 0.0;
-        BodyDescription& body = sphere ? add_sphere(scene, 0.3, {-4.0, 0.3, 0.13}) : add_box(scene, {0.6, 0.6, 0.6}, {-4.0, 0.3, 0.13});
+        BodyDescription& body =
+            sphere ? add_sphere(scene, 0.3, {-4.0, 0.3, 0.13}) : add_box(scene, {0.6, 0.6, 0.6}, {-4.0, 0.3, 0.13});
         body.velocity = Vec3(2.0, 0.0, 0.3);
         World world(scene);
         run(world, scene, 3.0);
@@ -143,20 +145,21 @@ TEST(MeshShape, HoldsFallingBodies) {
     for (const bool closed : {true, false}) {
         SceneDescription scene;
         BodyDescription& table = add_body(
-            scene, MeshShape{asset_of(closed ? box_mesh({-2.0, -0.5, -2.0}, {2.0, 0.0, 2.0}) : grid_mesh(3, 2.0, 0.0))}, Vec3::Zero());
+            scene, MeshShape{asset_of(closed ? box_mesh({-2.0, -0.5, -2.0}, {2.0, 0.0, 2.0}) : grid_mesh(3, 2.0, 0.0))},
+            Vec3::Zero());
         table.type = BodyType::fixed;
         table.friction = 0.5;
         add_box(scene, {0.5, 0.5, 0.5}, {0.3, 1.0, 0.2}).rotation = turn({1.0, 0.5, 0.2}, 0.6);
         add_sphere(scene, 0.3, {-1.0, 1.0, -1.0});
         BodyDescription& gem = add_body(scene, MeshShape{icosahedron(0.4)}, {1.0, 0.4, 1.0});
         gem.restitution = 0.0;
-        gem.rotation = turn({1.0, 0.0, 0.3}, 0.2);   // without tilt it would balance on an edge
+        gem.rotation = turn({1.0, 0.0, 0.3}, 0.2);  // without tilt it would balance on an edge
         for (BodyDescription& b : scene.bodies) b.friction = 0.5;
         World world(scene);
         run(world, scene, 3.0);
         const Snapshot s = world.snapshot();
         EXPECT_NEAR(s.bodies[1].center_of_mass.y(), 0.25, 1e-3) << closed;
         EXPECT_NEAR(s.bodies[2].center_of_mass.y(), 0.3, 1e-3) << closed;
-        EXPECT_NEAR(s.bodies[3].center_of_mass.y(), 0.4 * 0.7946544723, 1e-3) << closed;   // inradius of the icosahedron
+        EXPECT_NEAR(s.bodies[3].center_of_mass.y(), 0.4 * 0.7946544723, 1e-3) << closed;  // inradius of the icosahedron
     }
 }

@@ -42,7 +42,7 @@ TriangleMesh prism(int corners, double radius, double width) {
 enum class Floor { plane, box };
 
 struct Rolled {
-    double hop, speed;   // m above the circle's height; m/s at the end
+    double hop, speed;  // m above the circle's height; m/s at the end
 };
 
 Rolled roll(int corners, double radius, double speed, double restitution, Floor floor, int steps) {
@@ -83,9 +83,12 @@ TEST(Rolling, WheelsOfCornersStayOnTheGround) {
                     // of v, over the distance: dv / dx = -loss v
                     const double up = speed * sine, loss = (1.0 - cosine) / 1.5 / (radius * angle);
                     const double pivoting = speed / (1.0 + loss * speed * 1.0);
-                    EXPECT_LT(rolled.hop, up * up / (2.0 * g) + 1e-4) << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
-                    EXPECT_GT(rolled.speed, 0.8 * pivoting) << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
-                    EXPECT_LT(rolled.speed, 1.002 * speed) << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
+                    EXPECT_LT(rolled.hop, up * up / (2.0 * g) + 1e-4)
+                        << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
+                    EXPECT_GT(rolled.speed, 0.8 * pivoting)
+                        << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
+                    EXPECT_LT(rolled.speed, 1.002 * speed)
+                        << radius << ' ' << speed << ' ' << steps << ' ' << int(floor);
                 }
 }
 
@@ -100,7 +103,8 @@ TEST(Rolling, AWeightedBallSwingsOn) {
     for (const double amplitude : {0.5 * pi, 2.0 / 3.0 * pi})
         for (const int steps : {1, 2, 4}) {
             SceneDescription scene = ground_scene(0.0, 1.0, steps);
-            std::vector<CompoundPart> parts{part(SphereShape{radius}, Vec3::Zero()), part(SphereShape{inner}, {0.0, -off, 0.0})};
+            std::vector<CompoundPart> parts{part(SphereShape{radius}, Vec3::Zero()),
+                                            part(SphereShape{inner}, {0.0, -off, 0.0})};
             parts[0].density = 1.0 / mass_of(radius);
             parts[1].density = 1.0 / mass_of(inner);
             BodyDescription& ball = add_body(scene, compound_of(std::move(parts)), {0.0, radius, 0.0});
@@ -121,7 +125,7 @@ TEST(Rolling, AWeightedBallSwingsOn) {
                 period += 4.0 * amplitude * cosine / rate * 0.5 * pi / parts_of_it;
             }
             double before = amplitude, highest = 0.0;
-            std::vector<double> passes, tilts = {0.0};   // the extreme of each swing
+            std::vector<double> passes, tilts = {0.0};  // the extreme of each swing
             for (int frame = 1; frame <= 600; ++frame) {
                 world.advance_frame();
                 const BodyState now = world.snapshot().bodies[1];
@@ -135,7 +139,8 @@ TEST(Rolling, AWeightedBallSwingsOn) {
                 before = angle;
             }
             ASSERT_GT(passes.size(), 3u);
-            EXPECT_NEAR((passes.back() - passes[0]) / (0.5 * double(passes.size() - 1)), period, 1e-4 * period) << amplitude << ' ' << steps;
+            EXPECT_NEAR((passes.back() - passes[0]) / (0.5 * double(passes.size() - 1)), period, 1e-4 * period)
+                << amplitude << ' ' << steps;
             EXPECT_NEAR(tilts[tilts.size() - 2], amplitude, 1e-3 * amplitude) << amplitude << ' ' << steps;
             EXPECT_LT(highest, 2e-5) << amplitude << ' ' << steps;
         }
@@ -147,12 +152,15 @@ TEST(Rolling, AWeightedBallSwingsOn) {
 // fraction of that.
 TEST(Rocking, LosesNoMoreThanItsLandingsTake) {
     const Vec3 size(0.2, 1.0, 0.5);
-    const double diagonal = 0.5 * std::hypot(size.x(), size.y()), alpha = atan2_stable(size.x(), size.y()), tilt = 0.7 * alpha;
-    const auto height = [&](double angle) { return sincos(0.5 * pi - alpha + angle).sin - sincos(0.5 * pi - alpha).sin; };
+    const double diagonal = 0.5 * std::hypot(size.x(), size.y()), alpha = atan2_stable(size.x(), size.y()),
+                 tilt = 0.7 * alpha;
+    const auto height = [&](double angle) {
+        return sincos(0.5 * pi - alpha + angle).sin - sincos(0.5 * pi - alpha).sin;
+    };
     const double kept = std::pow(1.0 - 1.5 * std::pow(sincos(alpha).sin, 2.0), 2.0);
     struct Case {
         int steps;
-        double error;   // relative error of the energy after two landings; without parts of the step: 0.25 and 0.125
+        double error;  // relative error of the energy after two landings; without parts of the step: 0.25 and 0.125
     };
     for (const Case& c : {Case{2, 0.15}, Case{4, 0.11}}) {
         SceneDescription scene = ground_scene(0.0, 0.9, c.steps);
@@ -160,7 +168,7 @@ TEST(Rocking, LosesNoMoreThanItsLandingsTake) {
         add_box(scene, size, {-diagonal * sine, diagonal * cosine, 0.0}).rotation = turn(Vec3::UnitZ(), -tilt);
         scene.bodies.back().friction = 0.9;
         World world(scene);
-        std::vector<double> tilts = {0.0};   // the extreme of each swing
+        std::vector<double> tilts = {0.0};  // the extreme of each swing
         double before = -1.0;
         for (int frame = 0; frame < 180; ++frame) {
             world.advance_frame();

@@ -26,9 +26,10 @@ SceneDescription tiles(int steps_per_frame, int count = 9) {
 TEST(Seam, DoesNotCatchThinPlates) {
     struct Case {
         Vec3 size;
-        double speed;   // m/s
+        double speed;  // m/s
     };
-    for (const Case& plate : {Case{{0.6, 0.02, 0.6}, 5.0}, Case{{0.2, 0.01, 0.3}, 3.0}, Case{{0.09, 0.0003, 0.06}, 2.0}})
+    for (const Case& plate :
+         {Case{{0.6, 0.02, 0.6}, 5.0}, Case{{0.2, 0.01, 0.3}, 3.0}, Case{{0.09, 0.0003, 0.06}, 2.0}})
         for (const double yaw : {0.0, 8.0, 45.0})
             for (const int steps : {1, 2, 4, 16}) {
                 SceneDescription scene = tiles(steps);
@@ -48,7 +49,8 @@ TEST(Seam, DoesNotCatchBodiesThatFallAlongAWall) {
     for (const int steps : {1, 4, 16}) {
         SceneDescription scene;
         scene.simulation.steps_per_frame = steps;
-        for (const double y : {0.0, -1.0, -2.0, -3.0}) add_box(scene, {1.0, 1.0, 1.0}, {-0.5, y, 0.0}).type = BodyType::fixed;
+        for (const double y : {0.0, -1.0, -2.0, -3.0})
+            add_box(scene, {1.0, 1.0, 1.0}, {-0.5, y, 0.0}).type = BodyType::fixed;
         add_box(scene, {0.02, 0.6, 0.6}, {0.01, 1.5, 0.0});
         World world(scene);
         run(world, scene, 0.75);
@@ -109,15 +111,17 @@ TEST(PredictedGap, ANearMissChangesNothing) {
         add_sphere(scene, radius, {0.0, 0.0, 0.0});
         add_sphere(scene, radius, {-1.0, 2.0 * radius + gap, 0.0});
         add_box(scene, {1.0, 1.0, 1.0}, {0.0, -3.0, 0.0}).type = BodyType::fixed;
-        add_sphere(scene, radius, {-1.5, -2.5 + radius + gap, 0.0});               // over a face
-        add_sphere(scene, radius, {-2.0, -2.5 + diagonal, 0.5 + diagonal});        // along an edge
+        add_sphere(scene, radius, {-1.5, -2.5 + radius + gap, 0.0});         // over a face
+        add_sphere(scene, radius, {-2.0, -2.5 + diagonal, 0.5 + diagonal});  // along an edge
         for (const std::size_t k : {1u, 3u, 4u}) scene.bodies[k].velocity = {6.0, 0.0, 0.0};
-        BodyDescription& across = add_sphere(scene, radius, {0.5 + diagonal, -2.5 + diagonal + 1.0, 1.0});   // past an edge, askew
+        BodyDescription& across =
+            add_sphere(scene, radius, {0.5 + diagonal, -2.5 + diagonal + 1.0, 1.0});  // past an edge, askew
         across.velocity = {0.0, -6.0, -3.0};
         across.position.x() = 0.5 + radius + gap;
         World world(scene);
         run(world, scene, 0.5);
         for (const std::size_t k : {0u, 1u, 3u, 4u, 5u})
-            EXPECT_LT((world.snapshot().bodies[k].velocity - scene.bodies[k].velocity).norm(), 1e-9) << k << ' ' << steps;
+            EXPECT_LT((world.snapshot().bodies[k].velocity - scene.bodies[k].velocity).norm(), 1e-9)
+                << k << ' ' << steps;
     }
 }

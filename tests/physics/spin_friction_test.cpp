@@ -21,7 +21,7 @@ constexpr double g = 9.81, mu = 0.4;
 struct Corner {
     double x, z;
 };
-using Outline = std::vector<Corner>;   // convex, about the origin
+using Outline = std::vector<Corner>;  // convex, about the origin
 
 Outline regular(int corners, double radius) {
     Outline outline;
@@ -31,7 +31,9 @@ Outline regular(int corners, double radius) {
     }
     return outline;
 }
-Outline rectangle(double a, double b) { return {{-0.5 * a, -0.5 * b}, {0.5 * a, -0.5 * b}, {0.5 * a, 0.5 * b}, {-0.5 * a, 0.5 * b}}; }
+Outline rectangle(double a, double b) {
+    return {{-0.5 * a, -0.5 * b}, {0.5 * a, -0.5 * b}, {0.5 * a, 0.5 * b}, {-0.5 * a, 0.5 * b}};
+}
 
 // The integrals of a function of degree `power` in the distance from the centroid, edge by edge: that of r^power over a
 // triangle at the centroid is height / (power + 2) times the integral along the edge.
@@ -52,7 +54,7 @@ double integral(const Outline& outline, int power) {
     return sum;
 }
 double mean_distance(const Outline& outline) { return integral(outline, 1) / integral(outline, 0); }
-double inertia(const Outline& outline) { return integral(outline, 2) / integral(outline, 0); }   // of the unit mass
+double inertia(const Outline& outline) { return integral(outline, 2) / integral(outline, 0); }  // of the unit mass
 
 Outline about_centroid(Outline outline) {
     double area = 0.0, x = 0.0, z = 0.0;
@@ -85,7 +87,7 @@ TriangleMesh prism(const Outline& outline, double height) {
 
 struct Way {
     ContactSolverChoice solver;
-    int steps;   // per frame
+    int steps;  // per frame
     ImpactMode impacts;
 };
 std::vector<Way> ways() {
@@ -93,7 +95,8 @@ std::vector<Way> ways() {
     for (const auto solver : {ContactSolverChoice::by_island, ContactSolverChoice::soft, ContactSolverChoice::direct})
         for (const int steps : {1, 4, 16})
             for (const auto impacts : {ImpactMode::stepped, ImpactMode::exact}) {
-                if (solver == ContactSolverChoice::direct && steps == 1) continue;   // rotates too far in a step for one solve
+                if (solver == ContactSolverChoice::direct && steps == 1)
+                    continue;  // rotates too far in a step for one solve
                 // bodies at rest are stepped in either mode
                 if (solver == ContactSolverChoice::soft && impacts == ImpactMode::exact) continue;
                 all.push_back({solver, steps, impacts});
@@ -101,7 +104,8 @@ std::vector<Way> ways() {
     return all;
 }
 std::string name(const Way& way) {
-    return "solver " + std::to_string(int(way.solver)) + ", steps " + std::to_string(way.steps) + ", impacts " + std::to_string(int(way.impacts));
+    return "solver " + std::to_string(int(way.solver)) + ", steps " + std::to_string(way.steps) + ", impacts " +
+           std::to_string(int(way.impacts));
 }
 
 SceneDescription scene_of(const Way& way, double restitution = 0.0) {
@@ -145,7 +149,7 @@ Stop spin_down(const SceneDescription& scene, double spin) {
 
 // The soft solver's sweeps tilt a body that they set down in the first step, more so in a long one; the resulting drift
 // has little friction against it.
-double most_walk(const Way& way) { return way.steps == 1 ? 3e-6 : 1e-6; }   // m
+double most_walk(const Way& way) { return way.steps == 1 ? 3e-6 : 1e-6; }  // m
 
 }  // namespace
 
@@ -158,7 +162,8 @@ TEST(SpinFriction, StopsInTheTimeOfUniformPressure) {
     };
     const Outline uneven = {{-0.7, -0.3}, {0.1, -0.55}, {0.6, -0.2}, {0.5, 0.35}, {-0.1, 0.6}, {-0.6, 0.3}};
     std::vector<Case> cases;
-    for (const int corners : {12, 16, 31, 64, 128}) cases.push_back({"disc of " + std::to_string(corners), regular(corners, 0.5), 0.2, 20.0});
+    for (const int corners : {12, 16, 31, 64, 128})
+        cases.push_back({"disc of " + std::to_string(corners), regular(corners, 0.5), 0.2, 20.0});
     cases.push_back({"1:1", rectangle(0.5, 0.5), 0.1, 20.0});
     cases.push_back({"1:1, high", rectangle(0.5, 0.5), 1.5, 20.0});
     cases.push_back({"1:4", rectangle(1.0, 0.25), 0.1, 20.0});
@@ -182,8 +187,10 @@ TEST(SpinFriction, OnOtherGrounds) {
         for (const bool tiles : {false, true})
             for (const Way& way : ways()) {
                 SceneDescription scene = scene_of(way);
-                if (tiles) scene.bodies[0].shape = MeshShape{asset_of(grid_mesh(2, 5.0, 0.0))};
-                else scene.bodies[0].shape = BoxShape{{10.0, 1.0, 10.0}};
+                if (tiles)
+                    scene.bodies[0].shape = MeshShape{asset_of(grid_mesh(2, 5.0, 0.0))};
+                else
+                    scene.bodies[0].shape = BoxShape{{10.0, 1.0, 10.0}};
                 if (!tiles) scene.bodies[0].position = {0.0, -0.5, 0.0};
                 const Vec3 size(2.0 * outline[2].x, 0.1, 2.0 * outline[2].z);
                 BodyDescription& box = add_box(scene, size, {tiles ? 2.1 : 0.0, 0.05, tiles ? 1.3 : 0.0});
@@ -213,7 +220,8 @@ TEST(SpinFriction, OfABounce) {
             EXPECT_GT(b.velocity.y(), 0.0);
             const double lost = mu * (1.0 + e) * landing * mean_distance(outline) / inertia(outline);
             EXPECT_NEAR(b.angular_velocity.y(), 20.0 - lost, 0.02 * lost) << outline.size() << ' ' << int(impacts);
-            EXPECT_LT(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-6) << outline.size() << ' ' << int(impacts);
+            EXPECT_LT(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-6)
+                << outline.size() << ' ' << int(impacts);
         }
 }
 
@@ -223,7 +231,8 @@ TEST(SpinFriction, OfABounce) {
 TEST(SpinFriction, AHeavyEndSlidesStraight) {
     for (const Way& way : ways()) {
         SceneDescription scene = scene_of(way);
-        CompoundPart base = part(BoxShape{{1.0, 0.05, 0.3}}, {0.0, 0.025, 0.0}), end = part(BoxShape{{0.1, 0.05, 0.3}}, {0.45, 0.075, 0.0});
+        CompoundPart base = part(BoxShape{{1.0, 0.05, 0.3}}, {0.0, 0.025, 0.0}),
+                     end = part(BoxShape{{0.1, 0.05, 0.3}}, {0.45, 0.075, 0.0});
         base.density = 10.0;
         end.density = 1000.0;
         BodyDescription& sledge = add_body(scene, compound_of({base, end}), Vec3::Zero());
@@ -232,12 +241,14 @@ TEST(SpinFriction, AHeavyEndSlidesStraight) {
         sledge.velocity = {0.0, 0.0, 3.0};
         World world(scene);
         const Vec3 start = world.snapshot().bodies[1].center_of_mass;
-        double turned = 0.0;   // rad/s
+        double turned = 0.0;  // rad/s
         for (int frame = 0; frame < 60; ++frame) {
             world.advance_frame();
             turned = std::max(turned, std::abs(world.snapshot().bodies[1].angular_velocity.y()));
         }
         EXPECT_LT(turned, 0.01) << name(way);
-        EXPECT_NEAR((world.snapshot().bodies[1].center_of_mass - start).norm(), 9.0 / (2.0 * mu * g), 3.0 / (60.0 * way.steps) + 5e-3) << name(way);
+        EXPECT_NEAR((world.snapshot().bodies[1].center_of_mass - start).norm(), 9.0 / (2.0 * mu * g),
+                    3.0 / (60.0 * way.steps) + 5e-3)
+            << name(way);
     }
 }

@@ -16,7 +16,8 @@ constexpr double g = 9.81;
 TriangleMesh ridge(double half_width, double height, double half_length) {
     TriangleMesh mesh;
     for (const double z : {-half_length, half_length})
-        for (const Vec3& corner : {Vec3(-half_width, -height, z), Vec3(half_width, -height, z), Vec3(0.0, 0.0, z)}) mesh.vertices.push_back(corner);
+        for (const Vec3& corner : {Vec3(-half_width, -height, z), Vec3(half_width, -height, z), Vec3(0.0, 0.0, z)})
+            mesh.vertices.push_back(corner);
     mesh.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {0, 3, 5}, {0, 5, 2}};
     return mesh;
 }
@@ -43,12 +44,16 @@ TEST(Textbook, SeeSawOnARidge) {
         const BodyState b = world.snapshot().bodies[1];
         const double angle = 2.0 * std::atan2(b.orientation.z(), b.orientation.w());
         const double high = thick + 0.5 * side, loads = left + right;
-        const double inertia = board * (length * length + 4.0 * thick * thick) / 12.0 + loads * (out * out + high * high + side * side / 6.0);
+        const double inertia = board * (length * length + 4.0 * thick * thick) / 12.0 +
+                               loads * (out * out + high * high + side * side / 6.0);
         const double moment_x = (right - left) * out, moment_y = board * 0.5 * thick + loads * high;
         const double work = g * (moment_y * (1.0 - std::cos(angle)) - moment_x * std::sin(angle));
         EXPECT_GT(angle, 0.05) << steps;
-        EXPECT_NEAR(b.angular_velocity.z(), std::sqrt(2.0 * work / inertia), 0.02 * b.angular_velocity.z() / steps + 1e-3) << steps;
-        const double over_edge = -std::sin(angle) * b.center_of_mass.x() + std::cos(angle) * b.center_of_mass.y() - 0.5 * thick;
+        EXPECT_NEAR(b.angular_velocity.z(), std::sqrt(2.0 * work / inertia),
+                    0.02 * b.angular_velocity.z() / steps + 1e-3)
+            << steps;
+        const double over_edge =
+            -std::sin(angle) * b.center_of_mass.x() + std::cos(angle) * b.center_of_mass.y() - 0.5 * thick;
         EXPECT_NEAR(over_edge, 0.0, 1e-6) << steps;
     }
 }
@@ -63,7 +68,8 @@ TEST(Textbook, ASpinningBallKeepsItsAngularMomentumAboutTheFloor) {
             for (const int steps : {1, 2, 16}) {
                 SceneDescription scene;
                 scene.simulation.steps_per_frame = steps;
-                BodyDescription& floor = plane ? add_body(scene, PlaneShape{}, Vec3::Zero()) : add_box(scene, {20.0, 1.0, 20.0}, {0.0, -0.5, 0.0});
+                BodyDescription& floor = plane ? add_body(scene, PlaneShape{}, Vec3::Zero())
+                                               : add_box(scene, {20.0, 1.0, 20.0}, {0.0, -0.5, 0.0});
                 floor.type = BodyType::fixed;
                 floor.restitution = e;
                 BodyDescription& ball = add_sphere(scene, r, {0.0, 1.0, 0.0});
@@ -73,11 +79,14 @@ TEST(Textbook, ASpinningBallKeepsItsAngularMomentumAboutTheFloor) {
                 World world(scene);
                 run(world, scene, 1.5);
                 const BodyState b = world.snapshot().bodies[1];
-                EXPECT_NEAR(b.velocity.x() - 0.4 * r * b.angular_velocity.z(), v.x() - 0.4 * r * w.z(), 1e-9) << plane << ' ' << e << ' ' << steps;
-                EXPECT_NEAR(b.velocity.z() + 0.4 * r * b.angular_velocity.x(), v.z() + 0.4 * r * w.x(), 1e-9) << plane << ' ' << e << ' ' << steps;
+                EXPECT_NEAR(b.velocity.x() - 0.4 * r * b.angular_velocity.z(), v.x() - 0.4 * r * w.z(), 1e-9)
+                    << plane << ' ' << e << ' ' << steps;
+                EXPECT_NEAR(b.velocity.z() + 0.4 * r * b.angular_velocity.x(), v.z() + 0.4 * r * w.x(), 1e-9)
+                    << plane << ' ' << e << ' ' << steps;
                 EXPECT_NEAR(b.angular_velocity.y(), w.y(), 1e-9);
                 // It rolls at this time: (5 v - 2 r w) / 7.
-                EXPECT_NEAR(b.velocity.x(), (5.0 * v.x() - 2.0 * r * w.z()) / 7.0, 1e-3) << plane << ' ' << e << ' ' << steps;
+                EXPECT_NEAR(b.velocity.x(), (5.0 * v.x() - 2.0 * r * w.z()) / 7.0, 1e-3)
+                    << plane << ' ' << e << ' ' << steps;
             }
 }
 
@@ -95,7 +104,7 @@ TEST(Textbook, ARodReboundsFromRoughGround) {
                     SceneDescription scene = ground_scene(e, mu, 16);
                     scene.output.fps = 240;
                     const Quat tilt = turn(Vec3::UnitZ(), degrees * pi / 180.0);
-                    const Vec3 arm = tilt * Vec3(-0.5 * length, -0.5 * thick, 0.0);   // of the end
+                    const Vec3 arm = tilt * Vec3(-0.5 * length, -0.5 * thick, 0.0);  // of the end
                     BodyDescription& rod = add_box(scene, {length, thick, 0.4}, {0.0, height - arm.y(), 0.0});
                     rod.rotation = tilt;
                     rod.friction = mu;
@@ -106,14 +115,17 @@ TEST(Textbook, ARodReboundsFromRoughGround) {
                     run(world, scene, (std::floor(landing * 240.0) + 2.0) / 240.0);
                     const double since = (std::floor(landing * 240.0) + 2.0) / 240.0 - landing;
                     const double inertia = (length * length + thick * thick) / 12.0;
-                    const double nn = 1.0 + arm.x() * arm.x() / inertia, tt = 1.0 + arm.y() * arm.y() / inertia, nt = -arm.x() * arm.y() / inertia;
-                    const double slope = std::abs(nt) / tt > mu ? -std::copysign(mu, nt) : -nt / tt;   // f / j
+                    const double nn = 1.0 + arm.x() * arm.x() / inertia, tt = 1.0 + arm.y() * arm.y() / inertia,
+                                 nt = -arm.x() * arm.y() / inertia;
+                    const double slope = std::abs(nt) / tt > mu ? -std::copysign(mu, nt) : -nt / tt;  // f / j
                     const double j = (1.0 + e) * v / (nn + slope * nt), f = slope * j;
                     const BodyState b = world.snapshot().bodies[1];
                     const double near = exact ? 1e-9 : 0.02;
                     EXPECT_NEAR(b.velocity.x(), f, near) << degrees << ' ' << mu << ' ' << e << ' ' << exact;
-                    EXPECT_NEAR(b.velocity.y() + g * since, j - v, near) << degrees << ' ' << mu << ' ' << e << ' ' << exact;
-                    EXPECT_NEAR(b.angular_velocity.z(), (arm.x() * j - arm.y() * f) / inertia, 5.0 * near) << degrees << ' ' << mu << ' ' << e << ' ' << exact;
+                    EXPECT_NEAR(b.velocity.y() + g * since, j - v, near)
+                        << degrees << ' ' << mu << ' ' << e << ' ' << exact;
+                    EXPECT_NEAR(b.angular_velocity.z(), (arm.x() * j - arm.y() * f) / inertia, 5.0 * near)
+                        << degrees << ' ' << mu << ' ' << e << ' ' << exact;
                 }
 }
 

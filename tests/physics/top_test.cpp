@@ -15,13 +15,14 @@ namespace {
 // A square plate at a height over the middle of a light ball, which stands on the ground at x = z = 0, leaning towards
 // +x.
 struct Top {
-    double ball, height, edge, thickness, lean, spin;   // m, m, m, m, rad, rad/s about its axis
+    double ball, height, edge, thickness, lean, spin;  // m, m, m, m, rad, rad/s about its axis
 
     Vec3 axis() const { return {std::sin(lean), std::cos(lean), 0.0}; }
 
     SceneDescription scene(double friction, int steps_per_frame) const {
         SceneDescription scene = ground_scene(0.0, friction, steps_per_frame);
-        std::vector<CompoundPart> parts{part(SphereShape{ball}, Vec3::Zero()), part(BoxShape{Vec3(edge, thickness, edge)}, {0.0, height, 0.0})};
+        std::vector<CompoundPart> parts{part(SphereShape{ball}, Vec3::Zero()),
+                                        part(BoxShape{Vec3(edge, thickness, edge)}, {0.0, height, 0.0})};
         parts[0].density = 1e-3;
         BodyDescription& body = add_body(scene, compound_of(std::move(parts)), {0.0, ball, 0.0});
         body.restitution = 0.0;
@@ -45,9 +46,11 @@ struct Precession {
 Precession steady_precession(const Top& top, const BodyReport& body, bool rolls) {
     const double m = body.mass, a = body.center_of_mass.y(), c = std::cos(top.lean), i1 = body.principal_inertia[0],
                  i3 = body.principal_inertia[2], r = rolls ? top.ball : 0.0, arm = rolls ? a * c + r : 0.0;
-    const double square = -i1 * c - arm * m * (a + c * r), linear = (i3 + arm * m * r) * top.spin, constant = -m * 9.81 * a;
+    const double square = -i1 * c - arm * m * (a + c * r), linear = (i3 + arm * m * r) * top.spin,
+                 constant = -m * 9.81 * a;
     Precession p;
-    p.rate = a == 0.0 ? -linear / square : -2.0 * constant / (linear + std::sqrt(linear * linear - 4.0 * square * constant));
+    p.rate =
+        a == 0.0 ? -linear / square : -2.0 * constant / (linear + std::sqrt(linear * linear - 4.0 * square * constant));
     if (rolls) p.speed = (p.rate * a - (top.spin - p.rate * c) * r) * std::sin(top.lean);
     return p;
 }

@@ -62,8 +62,9 @@ void expect_on_this_side(const Shot& shot, double energy_bound) {
     for (int frame = 0; frame < frames; ++frame) {
         world.advance_frame();
         ASSERT_LT(world.snapshot().bodies[1].center_of_mass.x(), -0.03)
-            << "kind " << int(shot.kind) << ", wall " << shot.thickness << " m, " << shot.speed << " m/s from " << shot.distance
-            << " m, e " << shot.restitution << ", 1/" << shot.rate << " s, spin " << shot.spin.norm() << ", exact " << shot.exact;
+            << "kind " << int(shot.kind) << ", wall " << shot.thickness << " m, " << shot.speed << " m/s from "
+            << shot.distance << " m, e " << shot.restitution << ", 1/" << shot.rate << " s, spin " << shot.spin.norm()
+            << ", exact " << shot.exact;
     }
     if (shot.restitution == 1.0) {
         EXPECT_NEAR(energy(world) / start, 1.0, energy_bound);
@@ -85,7 +86,11 @@ TEST(ThinWall, FromAnyDistance) {
     for (const bool exact : {true, false})
         for (const double rate : {60.0, 480.0, 1920.0})
             for (int i = 0; i < trials(40); ++i)
-                expect_on_this_side({.thickness = i % 2 ? 0.01 : 0.001, .distance = 0.06 + 0.0331 * i * i, .rate = rate, .exact = exact}, 1e-10);
+                expect_on_this_side({.thickness = i % 2 ? 0.01 : 0.001,
+                                     .distance = 0.06 + 0.0331 * i * i,
+                                     .rate = rate,
+                                     .exact = exact},
+                                    1e-10);
 }
 
 // Spinning ones: up to 4000 rad/s, whole revolutions in a step.
@@ -98,8 +103,14 @@ TEST(ThinWall, SpinningBodiesOfEveryShape) {
                     const double spin = i % 4 == 0 ? 0.0 : std::pow(10.0, random(0.0, 3.4));
                     // Stepped, a spin rotates the body by whole revolutions per step: its energy is that of the step's
                     // pose.
-                    expect_on_this_side({.kind = kind, .thickness = thickness, .speed = random(20.0, 1000.0), .distance = random(0.1, 20.0),
-                                         .rate = rates[i % 7], .spin = random.vector(spin), .rotation = random.turn(), .exact = exact},
+                    expect_on_this_side({.kind = kind,
+                                         .thickness = thickness,
+                                         .speed = random(20.0, 1000.0),
+                                         .distance = random(0.1, 20.0),
+                                         .rate = rates[i % 7],
+                                         .spin = random.vector(spin),
+                                         .rotation = random.turn(),
+                                         .exact = exact},
                                         exact ? 1e-10 : 0.1);
                 }
 }
@@ -111,8 +122,15 @@ TEST(ThinWall, InelasticImpactsStayOnThisSide) {
         for (const double e : {0.0, 0.5})
             for (const Projectile kind : {Projectile::cube, Projectile::sphere, Projectile::hull})
                 for (int i = 0; i < trials(12); ++i)
-                    expect_on_this_side({.kind = kind, .thickness = i % 3 * 0.005, .speed = random(20.0, 1000.0), .distance = random(0.1, 20.0),
-                                         .restitution = e, .rate = rates[i % 7], .spin = random.vector(50.0), .rotation = random.turn(), .exact = exact},
+                    expect_on_this_side({.kind = kind,
+                                         .thickness = i % 3 * 0.005,
+                                         .speed = random(20.0, 1000.0),
+                                         .distance = random(0.1, 20.0),
+                                         .restitution = e,
+                                         .rate = rates[i % 7],
+                                         .spin = random.vector(50.0),
+                                         .rotation = random.turn(),
+                                         .exact = exact},
                                         1.0);
 }
 
@@ -124,7 +142,8 @@ TEST(ThinWall, BodiesDoNotPassThroughEachOther) {
                 SceneDescription scene = empty_scene(1);
                 set_step(scene, rate);
                 for (const double side : {-1.0, 1.0}) {
-                    BodyDescription& body = add_projectile(scene, offset > 0.0 ? Projectile::cube : Projectile::sphere, {3.0 * side, offset * side, 0.0});
+                    BodyDescription& body = add_projectile(scene, offset > 0.0 ? Projectile::cube : Projectile::sphere,
+                                                           {3.0 * side, offset * side, 0.0});
                     body.velocity = Vec3(-400.0 * side, 0.0, 0.0);
                     body.restitution = 1.0;
                 }
@@ -133,7 +152,8 @@ TEST(ThinWall, BodiesDoNotPassThroughEachOther) {
                 for (int frame = 0; frame < std::max(3, int(0.02 * rate)); ++frame) {
                     world.advance_frame();
                     const Snapshot s = world.snapshot();
-                    ASSERT_LT(s.bodies[0].center_of_mass.x(), s.bodies[1].center_of_mass.x()) << exact << " " << rate << " " << offset;
+                    ASSERT_LT(s.bodies[0].center_of_mass.x(), s.bodies[1].center_of_mass.x())
+                        << exact << " " << rate << " " << offset;
                 }
                 EXPECT_NEAR(world.measure().kinetic, 160000.0, exact ? 1e-5 : 200.0) << rate << " " << offset;
                 EXPECT_LE(world.measure().momentum.norm(), 1e-9);
@@ -167,7 +187,8 @@ TEST(ThinWall, NoBodyLeavesTheRoom) {
             for (int frame = 0; frame < trials(int(rate / 4.0)); ++frame) {
                 world.advance_frame();
                 for (std::size_t i = 6; i < scene.bodies.size(); ++i)
-                    ASSERT_LT(world.snapshot().bodies[i].center_of_mass.cwiseAbs().maxCoeff(), 1.0) << exact << ", 1/" << rate << " s, body " << i;
+                    ASSERT_LT(world.snapshot().bodies[i].center_of_mass.cwiseAbs().maxCoeff(), 1.0)
+                        << exact << ", 1/" << rate << " s, body " << i;
             }
             if (exact) {
                 EXPECT_NEAR(energy(world) / start, 1.0, 1e-10);
@@ -193,10 +214,12 @@ TEST(ThinWall, SlidingBodiesAreStopped) {
                     for (int frame = 0; frame < std::max(4, int(0.04 * rate)); ++frame) {
                         world.advance_frame();
                         EXPECT_LE(energy(world), start * (1.0 + 1e-6));
-                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03) << exact << " " << thickness << " e " << e << " 1/" << rate;
+                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03)
+                            << exact << " " << thickness << " e " << e << " 1/" << rate;
                     }
                     // A box slightly rotated by the ground hits the wall edge by edge: part of its speed becomes spin.
-                    EXPECT_LE(world.snapshot().bodies[2].velocity.x(), -20.0 * e + 0.1) << exact << " " << thickness << " e " << e << " 1/" << rate;
+                    EXPECT_LE(world.snapshot().bodies[2].velocity.x(), -20.0 * e + 0.1)
+                        << exact << " " << thickness << " e " << e << " 1/" << rate;
                 }
 }
 
@@ -216,8 +239,10 @@ TEST(ThinWall, LandingBodiesAreStopped) {
                     World world(scene);
                     for (int frame = 0; frame < std::max(4, int(0.04 * rate)); ++frame) {
                         world.advance_frame();
-                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03) << exact << " e " << e << " 1/" << rate << " " << i;
-                        ASSERT_GT(world.snapshot().bodies[2].center_of_mass.y(), 0.01) << exact << " e " << e << " 1/" << rate << " " << i;
+                        ASSERT_LT(world.snapshot().bodies[2].center_of_mass.x(), -0.03)
+                            << exact << " e " << e << " 1/" << rate << " " << i;
+                        ASSERT_GT(world.snapshot().bodies[2].center_of_mass.y(), 0.01)
+                            << exact << " e " << e << " 1/" << rate << " " << i;
                     }
                 }
 }
@@ -239,12 +264,15 @@ TEST(ThinWall, APlaneStopsThinBodiesAsABoxDoes) {
                 World world(scene);
                 for (int k = 0; k < int(0.06 * rate) + 6; ++k) {
                     world.step();
-                    EXPECT_GT(world.snapshot().bodies[1].center_of_mass.y(), 0.0) << rate << ' ' << size.y() << ' ' << plane;
+                    EXPECT_GT(world.snapshot().bodies[1].center_of_mass.y(), 0.0)
+                        << rate << ' ' << size.y() << ' ' << plane;
                 }
                 end[plane ? 0 : 1] = world.snapshot().bodies[1];
             }
             EXPECT_LT((end[0].velocity - end[1].velocity).norm(), 1e-6 * 12.0) << rate << ' ' << size.y();
-            EXPECT_LT((end[0].angular_velocity - end[1].angular_velocity).norm(), 1e-6 * end[1].angular_velocity.norm() + 1e-9) << rate << ' ' << size.y();
+            EXPECT_LT((end[0].angular_velocity - end[1].angular_velocity).norm(),
+                      1e-6 * end[1].angular_velocity.norm() + 1e-9)
+                << rate << ' ' << size.y();
         }
 }
 
@@ -264,7 +292,8 @@ TEST(ThinWall, AFastBallRollsOnOverAPlane) {
                 World world(scene);
                 run(world, scene, 2.0);
                 const BodyState end = world.snapshot().bodies[1];
-                EXPECT_LT((end.center_of_mass - Vec3(1.2 * speed, 0.03, 1.6 * speed)).norm(), 1e-6 * speed) << speed << ' ' << friction << ' ' << exact;
+                EXPECT_LT((end.center_of_mass - Vec3(1.2 * speed, 0.03, 1.6 * speed)).norm(), 1e-6 * speed)
+                    << speed << ' ' << friction << ' ' << exact;
             }
 }
 
@@ -286,10 +315,11 @@ TEST(ThinWall, ARackIsBroken) {
     run(world, scene, 1.0);
     const Snapshot s = world.snapshot();
     for (std::size_t i = 1; i < s.bodies.size(); ++i)
-        for (std::size_t k = 1; k < i; ++k) EXPECT_GT((s.bodies[i].center_of_mass - s.bodies[k].center_of_mass).norm(), 1.99 * r) << i << ' ' << k;
+        for (std::size_t k = 1; k < i; ++k)
+            EXPECT_GT((s.bodies[i].center_of_mass - s.bodies[k].center_of_mass).norm(), 1.99 * r) << i << ' ' << k;
     const Measurement m = world.measure();
     EXPECT_NEAR(m.momentum.x(), 0.17 * 6.0, 1e-12);
-    EXPECT_LT(m.kinetic, 0.35 * 3.06);   // exact impacts: 0.16
+    EXPECT_LT(m.kinetic, 0.35 * 3.06);  // exact impacts: 0.16
 }
 
 // A rod that rotates by a radian per step beside a block that it never reaches: CCD checks its motion, which is that of
@@ -315,8 +345,9 @@ TEST(WavyGround, NoBodySinksThrough) {
     Random random(11);
     const auto ground = asset_of(wavy_mesh(24, 6.0));
     const Vec3 leg(0.04, 0.5, 0.04);
-    const Shape stool = compound_of({part(BoxShape{Vec3(0.8, 0.04, 0.6)}, Vec3::Zero()), part(BoxShape{leg}, {0.35, -0.25, 0.25}),
-                                     part(BoxShape{leg}, {-0.35, -0.25, 0.25}), part(BoxShape{leg}, {0.0, -0.25, -0.25})});
+    const Shape stool =
+        compound_of({part(BoxShape{Vec3(0.8, 0.04, 0.6)}, Vec3::Zero()), part(BoxShape{leg}, {0.35, -0.25, 0.25}),
+                     part(BoxShape{leg}, {-0.35, -0.25, 0.25}), part(BoxShape{leg}, {0.0, -0.25, -0.25})});
     for (const bool exact : {true, false})
         for (const int steps : {1, 4})
             for (int i = 0; i < trials(18); ++i) {
@@ -331,7 +362,8 @@ TEST(WavyGround, NoBodySinksThrough) {
                 const Shape shape = i % 3 == 0   ? Shape(BoxShape{Vec3(thin, length, width)})
                                     : i % 3 == 1 ? Shape(BoxShape{Vec3(thin, thin, length)})
                                                  : stool;
-                BodyDescription& body = add_body(scene, shape, {random(-2.0, 2.0), random(1.6, 3.0), random(-2.0, 2.0)});
+                BodyDescription& body =
+                    add_body(scene, shape, {random(-2.0, 2.0), random(1.6, 3.0), random(-2.0, 2.0)});
                 body.rotation = random.turn();
                 body.angular_velocity = random.vector(5.0);
                 body.friction = 0.6;
@@ -340,7 +372,8 @@ TEST(WavyGround, NoBodySinksThrough) {
                 for (int frame = 0; frame < 120; ++frame) {
                     world.advance_frame();
                     const Vec3 at = world.snapshot().bodies[1].center_of_mass;
-                    ASSERT_GT(at.y(), wavy_height(at.x(), at.z()) - 0.1) << exact << ", " << steps << " steps, body " << i;
+                    ASSERT_GT(at.y(), wavy_height(at.x(), at.z()) - 0.1)
+                        << exact << ", " << steps << " steps, body " << i;
                     ASSERT_LT(world.measure().max_penetration, 0.03) << exact << ", " << steps << " steps, body " << i;
                 }
             }

@@ -44,7 +44,7 @@ TEST(Zeno, TiltedBoxesComeToRestOnAFace) {
             // The position correction of the resting solver, after a sequence of impacts that ends on an edge: in one
             // of 50 more than 1e-4.
             EXPECT_LE(rise, 5e-4) << e << " " << trial;
-            EXPECT_LE(sunk, 2e-3) << e << " " << trial;     // in contact, and rotating within a step
+            EXPECT_LE(sunk, 2e-3) << e << " " << trial;  // in contact, and rotating within a step
             const BodyState s = world.snapshot().bodies[1];
             EXPECT_LE(s.velocity.norm() + s.angular_velocity.norm(), 1e-3) << e << " " << trial;
             EXPECT_NEAR(lowest_corner(size, s), 0.0, 2e-5) << e << " " << trial;
@@ -71,7 +71,7 @@ TEST(Zeno, FlatBoxRestsWhenABallDoes) {
             if (offset < 0.0) {
                 EXPECT_GT(speed, 1e-6) << e;
             } else {
-                EXPECT_LE(speed, 1e-6) << e;   // the resting solver's tolerance
+                EXPECT_LE(speed, 1e-6) << e;  // the resting solver's tolerance
             }
             EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.y(), 0.3, 1e-9) << e;
         }
@@ -116,7 +116,8 @@ TEST(ManyContacts, FlatBoxOnABedOfBalls) {
             SceneDescription scene = ground_scene(e, 0.0);
             const double middle = 0.5 * (bed.side - 1), width = bed.pitch * (bed.side - 1) + 2.0;
             for (int i = 0; i < bed.side * bed.side; ++i)
-                add_sphere(scene, 0.4, {bed.pitch * (i % bed.side - middle), 0.4, bed.pitch * (i / bed.side - middle)}).restitution = e;
+                add_sphere(scene, 0.4, {bed.pitch * (i % bed.side - middle), 0.4, bed.pitch * (i / bed.side - middle)})
+                    .restitution = e;
             BodyDescription& box = add_box(scene, {width, 0.5, width}, {0.0, 1.55, 0.0}, 20.0);
             box.restitution = e;
             box.rotation = turn(Vec3::UnitY(), bed.turn);
@@ -132,7 +133,7 @@ TEST(ManyContacts, FlatBoxOnABedOfBalls) {
                 before = now;
                 const BodyState b = world.snapshot().bodies[top];
                 ASSERT_TRUE(b.center_of_mass.allFinite());
-                ASSERT_LE(b.angular_velocity.norm(), 1e-9) << frame;   // by symmetry
+                ASSERT_LE(b.angular_velocity.norm(), 1e-9) << frame;  // by symmetry
                 ASSERT_LE(std::hypot(b.center_of_mass.x(), b.center_of_mass.z()), 1e-9) << frame;
                 ASSERT_GT(b.center_of_mass.y(), 1.049) << frame;
             }
@@ -152,7 +153,8 @@ TEST(ManyContacts, BlockOfTouchingBallsThrownAtAWall) {
             add_fixed_box(scene, {1.0, 30.0, 30.0}, {-1.5, 0.0, 0.0}, e);
             const int side = trials(100) == 100 ? 6 : 3;
             for (int i = 0; i < side * side * side; ++i) {
-                BodyDescription& ball = add_sphere(scene, 0.5, {1.0 + i % side, double(i / side % side), double(i / side / side)});
+                BodyDescription& ball =
+                    add_sphere(scene, 0.5, {1.0 + i % side, double(i / side % side), double(i / side / side)});
                 ball.velocity = Vec3(-2.0, 0.0, 0.0);
                 ball.restitution = e;
             }
@@ -166,7 +168,7 @@ TEST(ManyContacts, BlockOfTouchingBallsThrownAtAWall) {
                 before = energy(world);
                 ASSERT_LE(world.measure().max_penetration, 1e-6) << e << " " << frame;
             }
-            const double back = e * e * start;   // every ball rebounds at e v: also row by row
+            const double back = e * e * start;  // every ball rebounds at e v: also row by row
             if (e != 0.5) {
                 EXPECT_NEAR(energy(world), back, 1e-9 * start) << e << " law " << int(law);
             }

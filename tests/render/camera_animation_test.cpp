@@ -2,12 +2,12 @@
 #include "drawing.h"
 #include "example_scenes.h"
 
-#include "render/render_scene_builder.h"
-#include "render/scene/render_scene.h"
-#include "render/camera/camera_animation.h"
 #include "render/camera/camera.h"
-#include "render/scene/pose_filter.h"
+#include "render/camera/camera_animation.h"
+#include "render/render_scene_builder.h"
 #include "render/scene/fog_distance.h"
+#include "render/scene/pose_filter.h"
+#include "render/scene/render_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace tumble {
 namespace {
 
-constexpr double rounding = 1e-12;   // m, at the distances of these scenes
+constexpr double rounding = 1e-12;  // m, at the distances of these scenes
 
 Snapshot at_time(const SceneDescription& scene, double time) {
     Snapshot snapshot = first_snapshot(scene);
@@ -52,7 +52,7 @@ TEST(CameraAnimation, TurnsAboutTheTargetCounterClockwiseFromAbove) {
 
 TEST(CameraAnimation, AnOrbitKeepsItsHeightAboutATiltedUp) {
     SceneDescription scene = empty_scene();
-    scene.camera.up = Vec3(1.0, 2.0, 0.5);   // not normalized
+    scene.camera.up = Vec3(1.0, 2.0, 0.5);  // not normalized
     scene.camera.orbit = -77.0;
     const Vec3 arm = scene.camera.eye - scene.camera.target;
     const CameraDescription now = CameraAnimation(scene.camera).at(at_time(scene, 1.3));
@@ -62,7 +62,8 @@ TEST(CameraAnimation, AnOrbitKeepsItsHeightAboutATiltedUp) {
 
 TEST(CameraAnimation, GoesThroughItsKeyframes) {
     SceneDescription scene = empty_scene();
-    scene.camera.keyframes = {{1.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {2.0, {4, 0, 8}, {0, 2, 0}, 20.0}, {4.0, {4, 6, 8}, {0, 2, 2}, 30.0}};
+    scene.camera.keyframes = {
+        {1.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {2.0, {4, 0, 8}, {0, 2, 0}, 20.0}, {4.0, {4, 6, 8}, {0, 2, 2}, 30.0}};
     for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
         scene.camera.interpolation = way;
         const CameraAnimation path(scene.camera);
@@ -83,7 +84,8 @@ TEST(CameraAnimation, GoesThroughItsKeyframes) {
 // A waiting camera stands still, even if it leaves fast; its eye may wait while its target moves.
 TEST(CameraAnimation, AWaitingCameraStandsStill) {
     SceneDescription scene = empty_scene();
-    scene.camera.keyframes = {{0.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {3.0, {0, 0, 8}, {2, 0, 0}, 40.0}, {3.2, {5, 0, 8}, {2, 1, 0}, 20.0}};
+    scene.camera.keyframes = {
+        {0.0, {0, 0, 8}, {0, 0, 0}, 40.0}, {3.0, {0, 0, 8}, {2, 0, 0}, 40.0}, {3.2, {5, 0, 8}, {2, 1, 0}, 20.0}};
     const CameraAnimation path(scene.camera);
     for (double t = 0.0; t <= 3.0; t += 0.1) {
         const CameraDescription now = path.at(at_time(scene, t));
@@ -101,7 +103,8 @@ TEST(CameraAnimation, PassesOverItsTargetWithoutAQuarterTurn) {
                 scene.camera.up = Vec3(0.0, 2.0, 0.0);
                 scene.camera.interpolation = way;
                 scene.camera.orbit = orbit;
-                scene.camera.keyframes = {{1.0, {2, height, 4}, {0, 0, 0}, 40.0}, {3.0, {-2, height, -4}, {0, 0, 0}, 40.0}};
+                scene.camera.keyframes = {{1.0, {2, height, 4}, {0, 0, 0}, 40.0},
+                                          {3.0, {-2, height, -4}, {0, 0, 0}, 40.0}};
                 const CameraAnimation path(scene.camera);
                 const auto view_at = [&](double time) { return Camera(path.at(at_time(scene, time)), 320, 180); };
                 const Camera before = view_at(2.0 - 1e-6), there = view_at(2.0), after = view_at(2.0 + 1e-6);
@@ -133,7 +136,7 @@ TEST(CameraAnimation, FollowsABodyAndTurnsAroundIt) {
 // straight line.
 TEST(CameraAnimation, FollowsTheCenterOfMassOfATumblingBody) {
     SceneDescription scene = empty_scene();
-    const Vec3 middle(0.3, 0.1, -0.2);   // body frame, from the origin
+    const Vec3 middle(0.3, 0.1, -0.2);  // body frame, from the origin
     const Quat first(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
     scene.bodies = {box_body(Vec3(1.0, 2.0, 0.0), Vec3::Ones(), {200, 60, 50}, first)};
     scene.camera.follow = 0;
@@ -184,10 +187,11 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
         Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
         PoseFilter poses(scene);
         Image frame, sparse, truth;
-        for (int n = 0; n < 15; ++n) {   // with still frames before and after
+        for (int n = 0; n < 15; ++n) {  // with still frames before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
             snapshot.bodies[1].origin.x() += 0.05 * n;
-            if (n > 10) snapshot.bodies[last].origin = snapshot.bodies[last].center_of_mass += Vec3(0.1 * (n - 10), 0.2, 0.0);
+            if (n > 10)
+                snapshot.bodies[last].origin = snapshot.bodies[last].center_of_mass += Vec3(0.1 * (n - 10), 0.2, 0.0);
             poses.follow(snapshot);
             partial.render(snapshot, frame);
             full.render(snapshot, truth);
@@ -205,7 +209,7 @@ TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
     SceneDescription scene = heap_scene(250);
     scene.output.width = 232;
     scene.output.height = 152;
-    scene.camera.eye += 30.0 * (scene.camera.eye - scene.camera.target);   // a long lens: distances round coarsely
+    scene.camera.eye += 30.0 * (scene.camera.eye - scene.camera.target);  // a long lens: distances round coarsely
     scene.camera.vertical_fov = 1.3;
     scene.camera.orbit = 1.0;
     const std::vector<double> times = {0.0, 5.3, 9.1};
@@ -247,7 +251,7 @@ TEST(MovingCamera, StandsStillWithAJitteringBody) {
     SceneDescription scene = small_heap();
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
-    scene.bodies[1].surface.visible = false;   // followed although invisible
+    scene.bodies[1].surface.visible = false;  // followed although invisible
     PoseFilter poses(scene);
     Snapshot snapshot = at_time(scene, 0.0);
     poses.follow(snapshot);
@@ -301,13 +305,14 @@ TEST(FogDistance, KeepsLargeBodiesVisible) {
     EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 50.0);      // behind the eye
     EXPECT_EQ(with_box(Vec3(0.0, -1001.0, 0.0), 2000.0), 50.0);  // below the bodies: a meter below the eye
     scene.camera.orbit = 10.0;
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);     // visible later
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, 215.0), 10.0), 400.0);  // visible later
     scene.camera.orbit = 0.0;
-    scene.bodies[3].keyframes = {{0.0, Vec3(0.0, 0.0, -1.0), Quat::Identity()}, {1.0, Vec3(0.0, 0.0, -195.0), Quat::Identity()}};
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -1.0), 10.0), 400.0);      // visible at the end
+    scene.bodies[3].keyframes = {{0.0, Vec3(0.0, 0.0, -1.0), Quat::Identity()},
+                                 {1.0, Vec3(0.0, 0.0, -195.0), Quat::Identity()}};
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -1.0), 10.0), 400.0);  // visible at the end
     scene.bodies[3].keyframes.clear();
     scene.camera.keyframes = {{0.0, {0, 0, 10}, {0, 0, 0}, 40.0}, {1.0, {0, 0, 20}, {0, 0, 0}, 40.0}};
-    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 420.0);    // the farthest
+    EXPECT_EQ(with_box(Vec3(0.0, 0.0, -195.0), 10.0), 420.0);  // the farthest
 }
 
 TEST(FogDistance, ATowerBehindMarblesIsVisible) {

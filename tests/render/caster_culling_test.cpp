@@ -1,6 +1,6 @@
 // Culled shadow casters: their sides towards the sun are behind other boxes.
-#include "example_scenes.h"
 #include "core/rotation.h"
+#include "example_scenes.h"
 #include "random.h"
 
 #include "render/render_scene_builder.h"
@@ -12,7 +12,9 @@ namespace tumble {
 namespace {
 
 // True if the ray from `point` to the sun passes through the box.
-bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) { return passes_through(box, point, to_sun, 1e9); }
+bool shades(const BodyDescription& box, const Vec3& point, const Vec3& to_sun) {
+    return passes_through(box, point, to_sun, 1e9);
+}
 
 /// A cloud of boxes, with wide ones among them, seen from the sun.
 struct Cloud {
@@ -53,7 +55,8 @@ TEST(CasterCulling, CulledCastersAreInTheShadowOfOthers) {
                         on_cube[axis] = side;
                         on_cube[(axis + 1) % 3] = u;
                         on_cube[(axis + 2) % 3] = v;
-                        const Vec3 point = cloud.view.eye() + cloud.items[i].center + cloud.items[i].half_axes * on_cube;
+                        const Vec3 point =
+                            cloud.view.eye() + cloud.items[i].center + cloud.items[i].half_axes * on_cube;
                         bool shaded = false;
                         for (std::size_t k = 0; k < cloud.items.size() && !shaded; ++k)
                             shaded = casting[k] != 0 && shades(cloud.scene.bodies[k], point, to_sun);
@@ -68,12 +71,15 @@ TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
     const Vec3 down = scene.light.direction.normalized();
     const Vec3 across = down.unitOrthogonal();
     const Quat turned = turn_between(Vec3::UnitZ(), down);
-    const auto cube = [&](const Vec3& at, double size) { return box_body(at, Vec3::Constant(size), {200, 200, 200}, turned); };
+    const auto cube = [&](const Vec3& at, double size) {
+        return box_body(at, Vec3::Constant(size), {200, 200, 200}, turned);
+    };
     scene.bodies = {cube(Vec3(0.0, 2.0, 0.0), 2.0)};
     const Vec3 front = scene.bodies[0].position;
-    for (const auto& [away, beside] : {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
+    for (const auto& [away, beside] :
+         {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
         scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
-    scene.bodies.push_back(cube(front + 2.0 * down, 2.5));   // wider than the box in front of it
+    scene.bodies.push_back(cube(front + 2.0 * down, 2.5));  // wider than the box in front of it
     const RenderScene looks = make_render_scene(scene);
     const Camera view(scene.camera, 320, 180);
     const Snapshot snapshot = first_snapshot(scene);

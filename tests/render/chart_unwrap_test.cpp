@@ -3,8 +3,8 @@
 #include "random.h"
 
 #include "core/deterministic_math.h"
-#include "render/lightmap/occlusion_lightmap.h"
 #include "render/lightmap/chart_unwrap.h"
+#include "render/lightmap/occlusion_lightmap.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ std::shared_ptr<const MeshAsset> spiral_asset(int turns) {
     for (int i = 0; i <= turns * steps; ++i) {
         const SinCos at = sincos(2.0 * pi * i / steps);
         for (const double radius : {1.0, 3.0})
-            asset->vertices.push_back({{float(radius * at.cos), float(i) / steps, float(radius * at.sin)}, {0.0f, 1.0f, 0.0f}});
+            asset->vertices.push_back(
+                {{float(radius * at.cos), float(i) / steps, float(radius * at.sin)}, {0.0f, 1.0f, 0.0f}});
         if (i == 0) continue;
         const auto k = std::uint32_t(2 * i);
         asset->indices.insert(asset->indices.end(), {k - 2, k, k + 1, k - 2, k + 1, k - 1});
@@ -30,7 +31,9 @@ std::shared_ptr<const MeshAsset> spiral_asset(int turns) {
 }
 
 Vec3 vec3(const std::array<float, 3>& v) { return {double(v[0]), double(v[1]), double(v[2])}; }
-Vec3 position(const MeshAsset::Vertex& v) { return {double(v.position[0]), double(v.position[1]), double(v.position[2])}; }
+Vec3 position(const MeshAsset::Vertex& v) {
+    return {double(v.position[0]), double(v.position[1]), double(v.position[2])};
+}
 
 // Largest distance of a point from the position interpolated from its texels; the point must be within the bounds of a
 // used one.
@@ -115,7 +118,8 @@ TEST(OcclusionLightmap, BlocksHoldTheirTexels) {
                 EXPECT_EQ(block.bounds.min, block.bounds.min.cwiseMax(group.bounds.min));
                 EXPECT_EQ(block.bounds.max, block.bounds.max.cwiseMin(group.bounds.max));
                 for (int y = block.y; y < block.y + block.height; ++y)
-                    for (int x = block.x; x < block.x + block.width; ++x) in_blocks += surface == &mesh ? used.erase({x, y}) : 1;
+                    for (int x = block.x; x < block.x + block.width; ++x)
+                        in_blocks += surface == &mesh ? used.erase({x, y}) : 1;
             }
     EXPECT_TRUE(used.empty());
     EXPECT_GE(in_blocks, std::size_t(100 * 100));

@@ -1,6 +1,6 @@
 // Partial and full redraw of the demo scenes give the same bytes.
-#include "render/scene/pose_filter.h"
 #include "render/renderer.h"
+#include "render/scene/pose_filter.h"
 #include "scene/load.h"
 #include "sim/world.h"
 
@@ -17,8 +17,8 @@ TEST_P(DemoRedraw, HasTheBytesOfAFullRedraw) {
     SceneOverrides small;
     small.width = 160;
     small.height = 90;
-    const SceneDescription scene =
-        load_scene(std::filesystem::path(TUMBLE_SOURCE_DIR) / "assets" / "scenes" / (std::string(GetParam()) + ".toml"), small);
+    const SceneDescription scene = load_scene(
+        std::filesystem::path(TUMBLE_SOURCE_DIR) / "assets" / "scenes" / (std::string(GetParam()) + ".toml"), small);
     const bool large = scene.bodies.size() > 500;
     World world(scene);
     PoseFilter poses(scene);

@@ -3,8 +3,8 @@
 #include "example_scenes.h"
 
 #include "render/antialiasing/analytic_aa.h"
-#include "render/camera/convex_hull_2d.h"
 #include "render/antialiasing/surface_ids.h"
+#include "render/camera/convex_hull_2d.h"
 
 #include <gtest/gtest.h>
 
@@ -27,14 +27,18 @@ TEST(ShareBefore, IsTheMeanOfAClampedRamp) {
 // White below a line through the center at this angle, black above, with one sample per pixel.
 struct HalfPlane {
     static constexpr int size = 48;
-    Vec3 normal;   // in pixels: inside where normal . (x, y, 1) > 0
+    Vec3 normal;  // in pixels: inside where normal . (x, y, 1) > 0
     Image drawn{size, size};
     ScreenEdge edge;
 
     explicit HalfPlane(double angle)
         : normal(-std::sin(angle), std::cos(angle), 24.3 * std::sin(angle) - 23.9 * std::cos(angle)),
-          edge{float(24.3 - 60.0 * std::cos(angle)), float(23.9 - 60.0 * std::sin(angle)),
-               float(24.3 + 60.0 * std::cos(angle)), float(23.9 + 60.0 * std::sin(angle)), inner, outer} {
+          edge{float(24.3 - 60.0 * std::cos(angle)),
+               float(23.9 - 60.0 * std::sin(angle)),
+               float(24.3 + 60.0 * std::cos(angle)),
+               float(23.9 + 60.0 * std::sin(angle)),
+               inner,
+               outer} {
         for (int y = 0; y < size; ++y)
             for (int x = 0; x < size; ++x) {
                 const bool inside = normal.dot(Vec3(x + 0.5, y + 0.5, 1.0)) > 0.0;
@@ -43,7 +47,7 @@ struct HalfPlane {
                 p[3] = inside ? inner : outer;
             }
     }
-    double area(int x, int y) const {   // of the pixel inside the half-plane
+    double area(int x, int y) const {  // of the pixel inside the half-plane
         int count = 0;
         for (int i = 0; i < 32; ++i)
             for (int j = 0; j < 32; ++j)
@@ -84,10 +88,9 @@ TEST(BlendAnalyticEdges, GivesEveryPixelOfALineItsArea) {
 
 TEST(BlendAnalyticEdges, LeavesHiddenEdgesAlone) {
     const HalfPlane half(0.4);
-    for (const ScreenEdge& edge :
-         {ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 4},
-          ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 0},
-          ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, inner, 4}}) {
+    for (const ScreenEdge& edge : {ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 4},
+                                   ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, 3, 0},
+                                   ScreenEdge{half.edge.x0, half.edge.y0, half.edge.x1, half.edge.y1, inner, 4}}) {
         const Image frame = blended(half.drawn, edge);
         for (int y = 0; y < HalfPlane::size; ++y)
             for (int x = 0; x < HalfPlane::size; ++x) EXPECT_EQ(frame.at(x, y)[0], half.drawn.at(x, y)[0]);
@@ -98,9 +101,10 @@ TEST(BlendAnalyticEdges, LeavesHiddenEdgesAlone) {
 TEST(BlendAnalyticEdges, LeavesEdgesAloneThatAreHiddenByTheirSurface) {
     for (double angle = 0.0; angle < 6.28; angle += 0.13) {
         const HalfPlane half(angle);
-        const double x = -1.5 * std::sin(angle), y = 1.5 * std::cos(angle);   // pixels inwards
+        const double x = -1.5 * std::sin(angle), y = 1.5 * std::cos(angle);  // pixels inwards
         const ScreenEdge& e = half.edge;
-        const Image frame = blended(half.drawn, {float(e.x0 + x), float(e.y0 + y), float(e.x1 + x), float(e.y1 + y), inner, 0});
+        const Image frame =
+            blended(half.drawn, {float(e.x0 + x), float(e.y0 + y), float(e.x1 + x), float(e.y1 + y), inner, 0});
         for (int i = 0; i < HalfPlane::size * HalfPlane::size; ++i)
             ASSERT_EQ(frame.pixels[std::size_t(4 * i)], half.drawn.pixels[std::size_t(4 * i)]) << angle;
     }
@@ -125,7 +129,8 @@ public:
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 int covered = 0;
-                for (int i = 0; i < 64; ++i) covered += inside(ScreenPoint(x + (i % 8 + 0.5) / 8.0, y + (i / 8 + 0.5) / 8.0));
+                for (int i = 0; i < 64; ++i)
+                    covered += inside(ScreenPoint(x + (i % 8 + 0.5) / 8.0, y + (i / 8 + 0.5) / 8.0));
                 if (covered == 0 || covered == 64) continue;
                 const double off = image.at(x, y)[0] / 255.0 - covered / 64.0;
                 sum += off * off;
@@ -160,7 +165,8 @@ private:
 // True if a point of the screen is on the box.
 auto shown_box(const Camera& view, const BodyDescription& box, const Vec3& half_size) {
     FewPoints corners;
-    for (const Vec3& p : box_corners(view.relative(box.position), box.rotation.toRotationMatrix(), half_size)) corners.push_back(view.pixel(p));
+    for (const Vec3& p : box_corners(view.relative(box.position), box.rotation.toRotationMatrix(), half_size))
+        corners.push_back(view.pixel(p));
     return [corners = convex_hull(corners)](const ScreenPoint& p) {
         for (std::size_t i = 0; i < corners.size(); ++i)
             if (turn(corners[i], corners[(i + 1) % corners.size()], p) < 0.0) return false;
@@ -177,7 +183,7 @@ TEST(AnalyticAntialiasing, OfABoxAndABallAreFinerThanFourSamples) {
         const Quat turned(Eigen::AngleAxisd(angle, Vec3(1.0, 2.0, 0.5).normalized()));
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), Vec3(2.0, 1.4, 1.0), {255, 255, 255}, turned)};
         const auto inside = shown_box(view, scene.bodies[0], Vec3(1.0, 0.7, 0.5));
-        EXPECT_LT(silhouettes.error(scene, false, inside), 0.055);   // corners have several edges
+        EXPECT_LT(silhouettes.error(scene, false, inside), 0.055);  // corners have several edges
         EXPECT_GT(silhouettes.error(scene, true, inside), 0.06) << "four samples know five shades";
     }
     scene.bodies = {ball_body(Vec3(0.3, 1.1, 0.0), 1.2, {255, 255, 255})};
@@ -186,7 +192,7 @@ TEST(AnalyticAntialiasing, OfABoxAndABallAreFinerThanFourSamples) {
         const Vec3 ray = view.ray(p.x(), p.y()).normalized();
         return center.cross(ray).norm() < 1.2;
     };
-    EXPECT_LT(silhouettes.error(scene, false, inside), 0.06);   // the ball is drawn as a mesh within 0.15 pixels
+    EXPECT_LT(silhouettes.error(scene, false, inside), 0.06);  // the ball is drawn as a mesh within 0.15 pixels
 }
 
 // One color inside and outside: only the outline of the ring is visible, with its hole.
@@ -198,7 +204,7 @@ TEST(AnalyticAntialiasing, OfAMeshHaveManyShades) {
     const Camera view(scene.camera, 320, 180);
     const Quat back = scene.bodies[0].rotation.conjugate();
     const Vec3 eye = back * (scene.camera.eye - scene.bodies[0].position);
-    const auto inside = [&](const ScreenPoint& p) {   // march along the ray to the exact torus
+    const auto inside = [&](const ScreenPoint& p) {  // march along the ray to the exact torus
         const Vec3 ray = back * view.ray(p.x(), p.y()).normalized();
         double at = 4.0;
         for (int i = 0; i < 100 && at < 12.0; ++i) {
@@ -210,7 +216,7 @@ TEST(AnalyticAntialiasing, OfAMeshHaveManyShades) {
         return false;
     };
     const double smooth = silhouettes.error(scene, false, inside);
-    EXPECT_LT(smooth, 0.1);   // the mesh itself is a little thinner than the torus
+    EXPECT_LT(smooth, 0.1);  // the mesh itself is a little thinner than the torus
     EXPECT_LT(smooth, silhouettes.error(scene, true, inside) + 0.02);
 }
 
@@ -259,7 +265,7 @@ TEST(AnalyticAntialiasing, OfGroundsThatReachBehindTheEye) {
         return center.cross(ray).norm() < 20.0 && center.dot(ray) > 0.0;
     };
     scene.bodies = {ball_body(Vec3(0.0, -20.0, 0.0), 20.0, {255, 255, 255})};
-    EXPECT_LT(silhouettes.error(scene, false, on_ball), 0.06);   // it is drawn as a mesh within 0.15 pixels
+    EXPECT_LT(silhouettes.error(scene, false, on_ball), 0.06);  // it is drawn as a mesh within 0.15 pixels
 }
 
 // A rod of three pixels or less: its narrow sides may cover no pixel center along a part of the outline.
@@ -269,7 +275,8 @@ TEST(AnalyticAntialiasing, OfThinBoxesAreStraight) {
     scene.light.shadows = false;
     const Camera view(scene.camera, 320, 180);
     for (double angle = 0.07; angle < 1.5; angle += 0.3) {
-        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
+        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) *
+                          Eigen::AngleAxisd(0.5, Vec3::UnitX()));
         const Vec3 half_size(1.5, 0.03, 0.03);
         scene.bodies = {box_body(Vec3(0.3, 1.1, 0.0), 2.0 * half_size, {255, 255, 255}, turned)};
         const auto inside = shown_box(view, scene.bodies[0], half_size);
@@ -282,7 +289,8 @@ TEST(AnalyticAntialiasing, ThinBoxesLookAsInALargerPicture) {
     SceneDescription scene = empty_scene();
     scene.light.shadows = false;
     for (double angle = 0.37; angle < 1.5; angle += 0.3) {
-        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) * Eigen::AngleAxisd(0.5, Vec3::UnitX()));
+        const Quat turned(Eigen::AngleAxisd(angle, Vec3(0.2, -0.1, 1.0).normalized()) *
+                          Eigen::AngleAxisd(0.5, Vec3::UnitX()));
         scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3(3.0, 0.06, 0.06), {216, 192, 112}, turned)};
         constexpr int times = 8;
         SceneDescription larger = scene;

@@ -2,19 +2,19 @@
 #include "example_scenes.h"
 
 #include "core/deterministic_math.h"
-#include "render/render_scene_builder.h"
-#include "render/scene/render_scene.h"
+#include "render/ambient_occlusion/analytic_occlusion.h"
+#include "render/ambient_occlusion/occluder_boxes.h"
+#include "render/ambient_occlusion/texel_grid.h"
 #include "render/camera/camera.h"
 #include "render/damage/tile_merge.h"
-#include "render/passes/draw_list.h"
-#include "render/scene/near_plane.h"
-#include "render/scene/large_receivers.h"
-#include "render/ambient_occlusion/occluder_boxes.h"
-#include "render/scene/plane_patch.h"
 #include "render/mesh/primitive_meshes.h"
+#include "render/passes/draw_list.h"
+#include "render/render_scene_builder.h"
+#include "render/scene/large_receivers.h"
+#include "render/scene/near_plane.h"
+#include "render/scene/plane_patch.h"
+#include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
-#include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/ambient_occlusion/texel_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,9 @@ TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
     const auto random = [&](float low, float high) {
         return low + (high - low) * float(double(engine()) / 4294967296.0);
     };
-    const auto vector = [&](float size) { return Eigen::Vector3f(random(-size, size), random(-size, size), random(-size, size)); };
+    const auto vector = [&](float size) {
+        return Eigen::Vector3f(random(-size, size), random(-size, size), random(-size, size));
+    };
     int dark = 0, clear = 0;
     for (int trial = 0; trial < 2000; ++trial) {
         Occluder box{};
@@ -92,7 +94,8 @@ TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
         box.half_size = {random(0.1f, 1.0f), random(0.1f, 1.0f), random(0.1f, 1.0f)};
         box.reach = random(0.1f, 1.0f);
         box.center = vector(2.0f);
-        const Eigen::Vector3f normal = vector(1.0f).normalized(), across = normal.unitOrthogonal() * random(0.05f, 0.3f);
+        const Eigen::Vector3f normal = vector(1.0f).normalized(),
+                              across = normal.unitOrthogonal() * random(0.05f, 0.3f);
         const Eigen::Vector3f along = normal.cross(across), corner = vector(1.0f), floor = vector(1.0f).normalized();
         const int columns = 5, rows = 1 + trial % 4;
         const float reach = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
@@ -111,16 +114,16 @@ TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
         darken(points, floor, height, reach);
         for (std::size_t k = 0; k < points.size(); ++k) ASSERT_NEAR(lattice.open()[k], points.open[k], 1e-4f) << trial;
     }
-    EXPECT_GT(dark, 1000);    // of 25,000
+    EXPECT_GT(dark, 1000);  // of 25,000
     EXPECT_GT(clear, 1000);
 }
 
 TEST(TileMerge, CoverEveryWantedCellOnceAndNoForbiddenOne) {
     std::mt19937 engine(9);
-    const CellGrid grid{20, 12, 8, 157, 96};   // the last column is cut
+    const CellGrid grid{20, 12, 8, 157, 96};  // the last column is cut
     std::size_t strict = 0, loose = 0;
     for (int trial = 0; trial < 300; ++trial) {
-        std::vector<int> cells(std::size_t(grid.columns * grid.rows));   // 0: forbidden, 1: free, 2: wanted
+        std::vector<int> cells(std::size_t(grid.columns * grid.rows));  // 0: forbidden, 1: free, 2: wanted
         for (int& cell : cells) cell = int(engine() % 3);
         const auto at = [&](int column, int row) { return cells[std::size_t(row * grid.columns + column)]; };
         const auto wanted = [&](int column, int row) { return at(column, row) == 2; };
@@ -256,7 +259,7 @@ TEST(LargeReceivers, AreMuchLargerThanAllTheRestTogether) {
         scene.bodies.push_back(box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), {}));
         for (const double x : {-1.5, 0.5, 1.5}) scene.bodies.push_back(box_body(Vec3(x, 0.5, 0.0), Vec3::Ones(), {}));
         const RenderScene looks = make_render_scene(scene);
-        EXPECT_EQ(looks.bodies[0].ground, ground) << size;   // diagonal against 1.5 * max(4.73, 7.5)
+        EXPECT_EQ(looks.bodies[0].ground, ground) << size;  // diagonal against 1.5 * max(4.73, 7.5)
         for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(looks.bodies[i].ground);
         EXPECT_EQ(looks.typical_reach, 0.5);
     }
@@ -264,7 +267,7 @@ TEST(LargeReceivers, AreMuchLargerThanAllTheRestTogether) {
 
 TEST(LargeReceivers, AreFoundBelowFallingBodies) {
     SceneDescription scene = empty_scene();
-    scene.bodies.push_back(ground_plane());   // y = 0
+    scene.bodies.push_back(ground_plane());  // y = 0
     const Quat slope(Eigen::AngleAxisd(pi / 6.0, Vec3::UnitZ()));
     scene.bodies.push_back(box_body(Vec3(0.0, 20.0, 0.0), Vec3(40.0, 2.0, 40.0), {}, slope));
     scene.bodies.push_back(ball_body(Vec3(0.0, 25.0, 0.0), 0.5, {}));
@@ -300,12 +303,11 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
     const Camera view(scene.camera, 1280, 720);
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
-    const DrawList list = make_draw_list(scene, looks, first_snapshot(scene), view,
-                                         find_visible(looks, first_snapshot(scene), view), atlas, {},
-                                         std::vector<char>(scene.bodies.size(), 1),
-                                         std::vector<char>(scene.bodies.size(), 1));
+    const DrawList list =
+        make_draw_list(scene, looks, first_snapshot(scene), view, find_visible(looks, first_snapshot(scene), view),
+                       atlas, {}, std::vector<char>(scene.bodies.size(), 1), std::vector<char>(scene.bodies.size(), 1));
     std::size_t faces = 0;
-    double last = 0.0;   // distance
+    double last = 0.0;  // distance
     const double shell = std::exp2(1.0 / 8.0);
     for (const Batch& batch : list.visible) {
         EXPECT_EQ(batch.mesh, face_mesh);
@@ -313,7 +315,7 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
         for (std::size_t i = 0; i < batch.count; ++i) {
             const glm::vec4& p = list.instances[batch.first + i].position;
             const double distance = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-            EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);   // batches within one shell start again
+            EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);  // batches within one shell start again
             last = distance;
         }
     }

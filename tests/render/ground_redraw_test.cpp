@@ -30,7 +30,8 @@ std::shared_ptr<const MeshAsset> hills(double size, std::uint32_t cells, Height 
         p.y() = height(p.x(), p.z());
         const double e = 1e-3 * size;
         const Vec3 normal = Vec3(height(p.x() - e, p.z()) - height(p.x() + e, p.z()), 2.0 * e,
-                                 height(p.x(), p.z() - e) - height(p.x(), p.z() + e)).normalized();
+                                 height(p.x(), p.z() - e) - height(p.x(), p.z() + e))
+                                .normalized();
         for (int k = 0; k < 3; ++k) {
             asset->vertices[i].position[k] = float(p[k]);
             asset->vertices[i].normal[k] = float(normal[k]);
@@ -60,12 +61,13 @@ void add_curved_ground(SceneDescription& scene, Random& random, unsigned kind) {
 void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
     const double size = std::pow(10.0, random.between(0.7, 2.6)), thick = random.between(0.2, 2.0);
     const Vec3 whole(size, thick, size);
-    if (kind == 0) scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(Vec3::UnitY(), random.between(0.0, 1.5))));
+    if (kind == 0)
+        scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(Vec3::UnitY(), random.between(0.0, 1.5))));
     if (kind == 1) {
         const Vec3 axis = Vec3(random.between(-1.0, 1.0), 0.2, random.between(-1.0, 1.0)).normalized();
         scene.bodies.push_back(slab(Vec3::Zero(), whole, turned_about(axis, random.between(-0.6, 0.6))));
     }
-    if (kind == 2) {   // some of the walls may be in front of the eye
+    if (kind == 2) {  // some of the walls may be in front of the eye
         const double room = std::min(size, 30.0), high = random.between(2.0, 6.0);
         scene.bodies.push_back(slab(Vec3::Zero(), Vec3(room, thick, room)));
         scene.bodies.push_back(slab(Vec3(-0.5 * room, high, 0.0), Vec3(thick, high, room)));
@@ -85,17 +87,19 @@ enum class Ground { boxes, curved };
 SceneDescription random_scene(unsigned seed, Ground ground) {
     Random random(seed);
     SceneDescription scene = empty_scene();
-    scene.output.width = 232;   // not a multiple of the tile size
+    scene.output.width = 232;  // not a multiple of the tile size
     scene.output.height = 152;
     scene.output.samples = seed % 7 == 0 ? 1 : 4;
     scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 6.0), random.between(4.0, 12.0));
     scene.camera.target = Vec3(0.0, 0.3, 0.0);
     if (seed % 6 == 5) scene.camera.orbit = 40.0;
     scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.1, 1.0), random.between(-1.0, 0.6));
-    if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);   // infinitely long shadows
-    scene.light.shadows = seed % 8 != 6;   // without shadows, changes of AO are not hidden
-    if (ground == Ground::boxes) add_ground(scene, random, seed % 4);
-    else add_curved_ground(scene, random, seed % 5);
+    if (seed % 11 == 8) scene.light.direction = Vec3(0.6, -0.012, -0.8);  // infinitely long shadows
+    scene.light.shadows = seed % 8 != 6;  // without shadows, changes of AO are not hidden
+    if (ground == Ground::boxes)
+        add_ground(scene, random, seed % 4);
+    else
+        add_curved_ground(scene, random, seed % 5);
     if (seed % 5 == 4) {
         scene.bodies.push_back(ground_plane(stone, Pattern::checker));
         scene.bodies.back().position.y() = -2.0;
@@ -110,7 +114,7 @@ SceneDescription random_scene(unsigned seed, Ground ground) {
             scene.bodies.back().type = BodyType::kinematic;
             const Vec3 far = random.vector(5.0, 1.0, 5.0) + Vec3(0.0, 1.2, 0.0);
             scene.bodies.back().keyframes = {{0.0, scene.bodies.back().position, Quat::Identity()},
-                                                 {2.0, far, Quat::Identity()}};
+                                             {2.0, far, Quat::Identity()}};
         }
     }
     if (seed % 9 == 8) scene.bodies.push_back(mesh_body(Vec3(0.5, 0.8, 0.0), torus_asset(0.4, 0.15), random.color()));
@@ -151,13 +155,14 @@ double draw_partly(unsigned seeds, Ground ground) {
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 20; ++step) {
-            if (step % 10 == 9) snapshot.time += 0.5;   // an orbiting camera moves
+            if (step % 10 == 9) snapshot.time += 0.5;  // an orbiting camera moves
             partial.render(snapshot, frame);
             full.render(snapshot, truth);
             EXPECT_EQ(different_pixels(frame, truth), 0u) << "scene " << seed << ", step " << step;
             if (step % 2 == 0) {
                 second.render(snapshot, half);
-                EXPECT_EQ(different_pixels(half, truth), 0u) << "scene " << seed << ", step " << step << ", second worker";
+                EXPECT_EQ(different_pixels(half, truth), 0u)
+                    << "scene " << seed << ", step " << step << ", second worker";
             }
             if (frame != truth) return 1.0;
             for (const Rectangle& r : partial.changed()) redrawn += double(r.width) * r.height / (232.0 * 152.0);

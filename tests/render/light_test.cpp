@@ -17,7 +17,8 @@ SceneDescription shadow_scene() {
     scene.camera.eye = Vec3(0.0, 5.0, 9.0);
     scene.camera.target = Vec3(0.0, 0.5, 0.0);
     scene.light.direction = Vec3(-0.5, -1.0, 0.0);
-    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain), box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {200, 133, 60})};
+    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain),
+                    box_body(Vec3(0.0, 2.0, 0.0), Vec3::Ones(), {200, 133, 60})};
     return scene;
 }
 
@@ -35,7 +36,8 @@ std::vector<double> levels_taken(const SceneDescription& scene, const std::vecto
 TEST(Light, UnlitColorsComeBackAsGiven) {
     ShaderCopy shaders;
     shaders.replace("box.frag", "pixel = ", "pixel = vec4(displayed(v_diffuse), 1.0); // ");
-    for (const Color color : {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
+    for (const Color color :
+         {Color{0x10, 0x40, 0x80}, Color{0xc8, 0x85, 0x3c}, Color{0xc0, 0xc0, 0x05}, Color{0, 30, 200}}) {
         SceneDescription scene = empty_scene();
         scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), color)};
         const Image image = drawn(scene, shaders.options());
@@ -87,7 +89,8 @@ int most_difference(const Image& a, const Image& b, const SceneDescription& scen
 TEST(Light, ASunBelowTheGroundLightsNothing) {
     SceneDescription scene = shadow_scene();
     scene.bodies.push_back(ball_body(Vec3(-2.0, 1.5, 0.0), 0.5, {60, 130, 200}));
-    scene.bodies.push_back(box_body(Vec3(2.0, 1.5, 0.0), Vec3::Ones(), {200, 160, 60}, Quat(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.0, 1.0).normalized()))));
+    scene.bodies.push_back(box_body(Vec3(2.0, 1.5, 0.0), Vec3::Ones(), {200, 160, 60},
+                                    Quat(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.0, 1.0).normalized()))));
     scene.bodies.back().surface.metallic = 1.0;
     const auto with_sun = [&](const Vec3& direction) {
         scene.light.direction = direction;
@@ -97,9 +100,10 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     const Image day = with_sun(above), dark = with_sun(Vec3(0.3, 1.0, -0.4));
     EXPECT_GT(brightness_at(day, scene, Vec3(0.0, 2.0, 0.5)), 1.3 * brightness_at(dark, scene, Vec3(0.0, 2.0, 0.5)));
     EXPECT_EQ(with_sun(Vec3(-0.7, 0.1, -0.5)), dark) << "from wherever it shines not";
-    scene.bodies[0].rotation = Quat(Eigen::AngleAxisd(0.9, Vec3::UnitX()));   // rises towards -z, from where no light comes
+    scene.bodies[0].rotation =
+        Quat(Eigen::AngleAxisd(0.9, Vec3::UnitX()));  // rises towards -z, from where no light comes
     EXPECT_EQ(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.0, 0.3, 1.0)));
-    std::get<PlaneShape>(scene.bodies[0].shape).normal = Vec3::UnitZ();   // a wall, 8 m behind the bodies
+    std::get<PlaneShape>(scene.bodies[0].shape).normal = Vec3::UnitZ();  // a wall, 8 m behind the bodies
     scene.bodies[0].rotation = Quat::Identity();
     scene.bodies[0].position.z() = -8.0;
     EXPECT_NE(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.2, -0.6, 1.0))) << "is no ground";
@@ -115,7 +119,8 @@ BodyDescription bent_sheet(bool face_up) {
     for (MeshAsset::Vertex& v : asset->vertices) v.position[1] = v.position[2] < -7.0f ? 2.0f : 0.0f;
     if (!face_up) {
         for (auto& t : asset->surface.triangles) std::swap(t[1], t[2]);
-        for (std::size_t i = 0; i < asset->indices.size(); i += 3) std::swap(asset->indices[i + 1], asset->indices[i + 2]);
+        for (std::size_t i = 0; i < asset->indices.size(); i += 3)
+            std::swap(asset->indices[i + 1], asset->indices[i + 2]);
         for (MeshAsset::Vertex& v : asset->vertices) v.normal[1] = -1.0f;
     }
     return mesh_body(Vec3::Zero(), asset, {190, 190, 190});
@@ -134,9 +139,9 @@ TEST(Light, BothSidesOfAnOpenMeshAreLitAlike) {
     };
     scene.bodies.back().position.y() = -0.05;
     EXPECT_LE(difference(), 1);
-    scene.output.width = 160;   // shadows are looked up per pixel
+    scene.output.width = 160;  // shadows are looked up per pixel
     scene.output.height = 90;
-    scene.bodies.back().position.y() = -0.5;   // back faces are a pixel's depth farther
+    scene.bodies.back().position.y() = -0.5;  // back faces are a pixel's depth farther
     EXPECT_LE(difference(), 1);
 }
 
@@ -170,9 +175,11 @@ TEST(Light, BodiesNearTheEyeKeepTheirShadowsWhereOthersAreFar) {
     const double bright = brightness_at(image, scene, Vec3(1.5, 0.0, 1.5));
     for (const Vec3& inside : {Vec3(-1.0, 0.0, 0.0), Vec3(-1.6, 0.0, 0.0), Vec3(-0.4, 0.0, 0.0), Vec3(-1.0, 0.0, 0.4)})
         EXPECT_LT(brightness_at(image, scene, inside), 0.78 * bright) << inside.transpose();
-    for (const Vec3& outside : {Vec3(-1.9, 0.0, 0.0), Vec3(-0.1, 0.0, 0.0), Vec3(-1.0, 0.0, 0.65), Vec3(-1.0, 0.0, -0.65)})
+    for (const Vec3& outside :
+         {Vec3(-1.9, 0.0, 0.0), Vec3(-0.1, 0.0, 0.0), Vec3(-1.0, 0.0, 0.65), Vec3(-1.0, 0.0, -0.65)})
         EXPECT_GT(brightness_at(image, scene, outside), 0.95 * bright) << outside.transpose();
-    EXPECT_LT(brightness_at(image, scene, Vec3(-15.0, 0.0, -300.0)), 0.9 * brightness_at(image, scene, Vec3(40.0, 0.0, -300.0)))
+    EXPECT_LT(brightness_at(image, scene, Vec3(-15.0, 0.0, -300.0)),
+              0.9 * brightness_at(image, scene, Vec3(40.0, 0.0, -300.0)))
         << "nor are those far away without";
 }
 
@@ -182,7 +189,7 @@ BodyDescription wide_ground(const std::string& kind, double size) {
     BodyDescription ground = box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), color);
     if (kind == "mesh") ground = mesh_body(Vec3::Zero(), sheet_asset(size, 8), color);
     ground.type = BodyType::fixed;
-    ground.surface.roughness = 0.8;   // the same as the plane's
+    ground.surface.roughness = 0.8;  // the same as the plane's
     return ground;
 }
 
@@ -194,7 +201,8 @@ TEST(Light, ALargeReceiverHasTheShadowsOfAPlane) {
     for (const std::string kind : {"box", "mesh"})
         for (const double size : {16.0, 60.0, 2000.0}) {
             scene.bodies[0] = wide_ground(kind, size);
-            EXPECT_LE(most_difference(drawn(scene), on_plane, scene, Vec3(-0.6, 0.0, 0.0), 2.0), 1) << kind << ", " << size;
+            EXPECT_LE(most_difference(drawn(scene), on_plane, scene, Vec3(-0.6, 0.0, 0.0), 2.0), 1)
+                << kind << ", " << size;
         }
 }
 
@@ -204,7 +212,7 @@ TEST(Light, ALargeReceiverHasTheFarShadowsOfAPlane) {
     scene.camera.eye = Vec3(0.0, 15.0, 20.0);
     scene.bodies.push_back(box_body(Vec3(3.0, 2.0, 0.0), Vec3(1.0, 0.5, 1.0), {90, 120, 180}));
     Snapshot snapshot = first_snapshot(scene);
-    snapshot.bodies[2].origin = Vec3(9.0, 2.0, -2.0);   // it leaves the near map
+    snapshot.bodies[2].origin = Vec3(9.0, 2.0, -2.0);  // it leaves the near map
     const Image on_plane = drawn(scene, snapshot);
     scene.bodies[0] = wide_ground("box", 60.0);
     snapshot.bodies[0] = first_snapshot(scene).bodies[0];
@@ -232,12 +240,14 @@ TEST(Light, FineOpenMeshesShowNoSpecksOfTheirUnderside) {
     }
     scene.bodies = {mesh_body(Vec3::Zero(), sheet, {190, 190, 190})};
     const Image image = drawn(scene);
-    int specks = 0;   // darker than all four neighbors, by 15 levels on average
+    int specks = 0;  // darker than all four neighbors, by 15 levels on average
     for (int y = 1; y < image.height - 1; ++y)
         for (int x = 1; x < image.width - 1; ++x) {
             const double most = 2.0 * brightness(image, {x, y}) + 30.0;
             specks += most < brightness(image, {x - 1, y}) + brightness(image, {x + 1, y}) &&
-                      most < brightness(image, {x, y - 1}) + brightness(image, {x, y + 1}) ? 1 : 0;
+                              most < brightness(image, {x, y - 1}) + brightness(image, {x, y + 1})
+                          ? 1
+                          : 0;
         }
     EXPECT_EQ(specks, 0);
 }
@@ -250,8 +260,9 @@ TEST(Light, MetalEdgesDoNotGlitter) {
     scene.bodies.clear();
     Random random(4);
     for (int i = 0; i < 24; ++i)
-        scene.bodies.push_back(box_body(Vec3(1.6 * (i % 6) - 4.0, 1.6 * (i / 6) - 2.0, 0.0), Vec3::Ones(), {200, 160, 60}, random.turn()));
-    const auto brightest = [&] {   // of each pixel: the difference from the mean
+        scene.bodies.push_back(
+            box_body(Vec3(1.6 * (i % 6) - 4.0, 1.6 * (i / 6) - 2.0, 0.0), Vec3::Ones(), {200, 160, 60}, random.turn()));
+    const auto brightest = [&] {  // of each pixel: the difference from the mean
         std::vector<Image> images;
         for (int i = 0; i < 16; ++i) {
             RenderOptions options;
@@ -324,7 +335,8 @@ TEST(Light, ContactIsAsDarkOnALargeBoxAsOnAPlane) {
         scene.bodies[0].position.y() = -0.5 * thick;
         const Image on_box = drawn(scene);
         for (const double gap : {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2})
-            for (const Vec3& at : {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
+            for (const Vec3& at :
+                 {Vec3(0.0, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.5 + gap), Vec3(0.5 + gap, 0.0, 0.0)})
                 EXPECT_NEAR(brightness_at(on_box, scene, at), brightness_at(on_plane, scene, at), 4.0)
                     << size << " m, " << thick << " thick, " << at.transpose();
     }
@@ -344,10 +356,11 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     const std::vector<double> on_plane = taken();
     const auto compare = [&](const std::string& what) {
         scene.bodies[0].type = BodyType::fixed;
-        scene.bodies[0].surface.roughness = 0.8;   // the same as the plane's
+        scene.bodies[0].surface.roughness = 0.8;  // the same as the plane's
         const std::vector<double> here = taken();
         for (std::size_t i = 0; i < places.size(); ++i)
-            EXPECT_NEAR(here[i], on_plane[i], 4.5) << what << ", " << places[i].transpose();   // the plane is dithered by 0.5
+            EXPECT_NEAR(here[i], on_plane[i], 4.5)
+                << what << ", " << places[i].transpose();  // the plane is dithered by 0.5
     };
     for (const double size : {6.0, 16.0, 60.0})
         for (const std::uint32_t cells : {1u, 8u, 120u}) {
@@ -355,14 +368,14 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
             compare(std::to_string(size) + " m, " + std::to_string(cells) + " cells");
         }
     scene.bodies[0] = ball_body(Vec3(0.0, -10.0, 0.0), 10.0, {190, 190, 190});
-    compare("a ball");   // the corners of the box are 4 cm inside it
+    compare("a ball");  // the corners of the box are 4 cm inside it
 }
 
 // A body on a shelf or in a bowl does not occlude the ground below; a body beyond the shelf's edge does.
 TEST(Light, NoBodyOccludesTheGroundThroughAFixedBody) {
     SceneDescription scene = shadow_scene();
     scene.light.shadows = false;
-    scene.camera.eye = Vec3(0.0, 0.3, 6.0);   // below the shelf
+    scene.camera.eye = Vec3(0.0, 0.3, 6.0);  // below the shelf
     scene.camera.target = Vec3::Zero();
     scene.bodies[1] = ball_body(Vec3(0.0, 0.92, 0.0), 0.5, {200, 133, 60});
     const std::vector<Vec3> places = {Vec3::Zero(), Vec3(0.3, 0.0, 0.2), Vec3(-0.5, 0.0, 0.4)};
@@ -382,7 +395,7 @@ TEST(Light, NoBodyOccludesTheGroundThroughAFixedBody) {
     }
     scene.bodies[2] = shelves[0];
     scene.bodies[2].type = BodyType::fixed;
-    scene.bodies[2].position.x() = 2.1;   // ends at 0.1
+    scene.bodies[2].position.x() = 2.1;  // ends at 0.1
     const double half = taken().back();
     EXPECT_GT(half, 0.3 * open.back());
     EXPECT_LT(half, 0.95 * open.back());
@@ -399,7 +412,8 @@ TEST(Light, ContactIsNotDarkFarAway) {
             scene.bodies[0].type = BodyType::fixed;
             SceneDescription alone = scene;
             alone.bodies[1].surface.visible = false;
-            EXPECT_LE(most_difference(drawn(scene), drawn(alone), scene, Vec3(3.0, 0.0, 0.0), 1.2), 1) << size << " m, " << cells;
+            EXPECT_LE(most_difference(drawn(scene), drawn(alone), scene, Vec3(3.0, 0.0, 0.0), 1.2), 1)
+                << size << " m, " << cells;
         }
 }
 
@@ -413,14 +427,15 @@ TEST(Light, ALostBodyChangesNothingAroundTheRest) {
     scene.bodies[2].position = Vec3(2.0, 0.5, -1.0);
     Snapshot aside = first_snapshot(scene);
     aside.bodies[2].origin = Vec3(6.0, 0.5, -1.0);
-    const Image gone_aside = drawn(scene, aside);   // the shadow map is fitted to both
+    const Image gone_aside = drawn(scene, aside);  // the shadow map is fitted to both
     for (const Vec3& place :
          {Vec3(0.0, -5000.0, 0.0), Vec3(3000.0, 0.5, 0.0), Vec3(-3000.0, 0.5, 0.0), Vec3(0.0, 0.5, -3000.0)})
         for (const bool from_start : {true, false}) {
             scene.bodies[2].position = from_start ? place : Vec3(2.0, 0.5, -1.0);
             Snapshot snapshot = first_snapshot(scene);
             snapshot.bodies[2].origin = place;
-            EXPECT_LE(most_difference(drawn(scene, snapshot), from_start ? alone : gone_aside, scene, Vec3::Zero(), 1.8), 1)
+            EXPECT_LE(
+                most_difference(drawn(scene, snapshot), from_start ? alone : gone_aside, scene, Vec3::Zero(), 1.8), 1)
                 << "at " << place.transpose() << (from_start ? ", from the start" : ", later");
         }
 }

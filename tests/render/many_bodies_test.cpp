@@ -3,11 +3,11 @@
 #include "example_scenes.h"
 #include "random.h"
 
-#include "render/render_scene_builder.h"
-#include "render/mesh/mesh_lod.h"
-#include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/ambient_occlusion/atlas_layout.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/mesh/mesh_lod.h"
 #include "render/mesh/triangle_distance.h"
+#include "render/render_scene_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -30,9 +30,12 @@ SceneDescription crowded_scene() {
         const Vec3 at = Vec3(0.0, 4.0, -5.0) + random.vector(9.0, 3.5, i % 8 == 0 ? 40.0 : 12.0);
         const Color color = random.color();
         const double size = random.between(0.2, 1.2);
-        if (i % 40 == 0) scene.bodies.push_back(ball_body(at, 0.5 * size, color));
-        else if (i % 80 == 1) scene.bodies.push_back(mesh_body(at, ring, color, random.turn(0.1)));
-        else scene.bodies.push_back(box_body(at, Vec3(size, random.between(0.2, 1.2), size), color, random.turn(0.1)));
+        if (i % 40 == 0)
+            scene.bodies.push_back(ball_body(at, 0.5 * size, color));
+        else if (i % 80 == 1)
+            scene.bodies.push_back(mesh_body(at, ring, color, random.turn(0.1)));
+        else
+            scene.bodies.push_back(box_body(at, Vec3(size, random.between(0.2, 1.2), size), color, random.turn(0.1)));
     }
     scene.bodies.push_back(box_body(Vec3(-6.0, 3.0, 12.0), Vec3(5.0, 5.0, 0.5), {150, 150, 150}));
     return scene;
@@ -53,7 +56,7 @@ TEST(ManyBodies, CullingChangesNoByte) {
 }
 
 TEST(ManyBodies, PartialRedrawHasTheBytesOfAFullRedraw) {
-    for (const int samples : {1, 4}) {   // with 4: smooth edges
+    for (const int samples : {1, 4}) {  // with 4: smooth edges
         SceneDescription scene = crowded_scene();
         scene.output.samples = samples;
         RenderOptions full;
@@ -62,7 +65,7 @@ TEST(ManyBodies, PartialRedrawHasTheBytesOfAFullRedraw) {
         Snapshot snapshot = first_snapshot(scene);
         Random random(9);
         Image frame, truth;
-        for (const int moved : {0, 1, 5, 60, 3000, 2}) {   // above a quarter, all AO is checked again
+        for (const int moved : {0, 1, 5, 60, 3000, 2}) {  // above a quarter, all AO is checked again
             for (int i = 0; i < moved; ++i) {
                 BodyState& body = snapshot.bodies[1 + std::size_t(random.between(0.0, 4000.0))];
                 body.origin += random.vector(0.4);
@@ -101,7 +104,7 @@ TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
         last = detail;
     }
     EXPECT_EQ(last, 1.0);
-    const auto tile_range = [](double away) {   // of the texels of a face that stands on the ground
+    const auto tile_range = [](double away) {  // of the texels of a face that stands on the ground
         SceneDescription scene = empty_scene();
         scene.camera.eye = Vec3(0.0, 1.0, away);
         scene.bodies = {ground_plane(), box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 200, 200})};
@@ -132,10 +135,10 @@ TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
 
 TEST(TriangleDistance, OfATriangle) {
     const Vec3 a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
-    EXPECT_DOUBLE_EQ(distance_to_triangle({0.5, 0.5, 3.0}, a, b, c), 3.0);            // above it
-    EXPECT_DOUBLE_EQ(distance_to_triangle({-3.0, -4.0, 0.0}, a, b, c), 5.0);          // beyond a corner
-    EXPECT_DOUBLE_EQ(distance_to_triangle({1.0, -2.0, 0.0}, a, b, c), 2.0);           // beside a side
-    EXPECT_DOUBLE_EQ(distance_to_triangle({2.0, 2.0, 1.0}, a, b, c), std::sqrt(3.0)); // beside the long one
+    EXPECT_DOUBLE_EQ(distance_to_triangle({0.5, 0.5, 3.0}, a, b, c), 3.0);             // above it
+    EXPECT_DOUBLE_EQ(distance_to_triangle({-3.0, -4.0, 0.0}, a, b, c), 5.0);           // beyond a corner
+    EXPECT_DOUBLE_EQ(distance_to_triangle({1.0, -2.0, 0.0}, a, b, c), 2.0);            // beside a side
+    EXPECT_DOUBLE_EQ(distance_to_triangle({2.0, 2.0, 1.0}, a, b, c), std::sqrt(3.0));  // beside the long one
     EXPECT_DOUBLE_EQ(distance_to_triangle({5.0, 0.0, 4.0}, a, b, c), 5.0);
 }
 
@@ -143,7 +146,8 @@ TEST(TriangleDistance, OfATriangle) {
 double distance(const Vec3& point, const TriangleMesh& mesh) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& t : mesh.triangles)
-        least = std::min(least, distance_to_triangle(point, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
+        least =
+            std::min(least, distance_to_triangle(point, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
     return least;
 }
 
@@ -175,7 +179,8 @@ TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), torus_asset(1.0, 0.3), {1, 2, 3})};
     RenderScene looks = make_render_scene(scene);
-    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), Camera(scene.camera, 320, 180)), 0u) << "few triangles";
+    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), Camera(scene.camera, 320, 180)), 0u)
+        << "few triangles";
     looks.mesh_triangles = most_whole_triangles + 1;
     const RenderBody& look = looks.bodies[0];
     const Camera view(scene.camera, scene.output.width, scene.output.height);
@@ -183,14 +188,15 @@ TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     double worst = 0.0;
     std::size_t coarsest = 0;
     for (int trial = 0; trial < 20000; ++trial) {
-        const Vec3 center = view.ray(random.between(0.0, 320.0), random.between(0.0, 180.0)) * std::exp(random.between(0.0, 6.0));
+        const Vec3 center =
+            view.ray(random.between(0.0, 320.0), random.between(0.0, 180.0)) * std::exp(random.between(0.0, 6.0));
         const std::size_t level = level_in_view(look, looks, center, view);
         coarsest = std::max(coarsest, level);
         if (level == 0) continue;
         const Vec3 point = center + random.turn(0.1) * Vec3::UnitX() * look.bound_radius;
         const Vec3 off = random.turn(0.1) * Vec3::UnitX() * deviation_of_level(look, level);
         const double pixels = (view.pixel(point + off) - view.pixel(point)).norm();
-        EXPECT_LE(pixels, most_detail_error * 1.05);   // the deviation itself moves it nearer
+        EXPECT_LE(pixels, most_detail_error * 1.05);  // the deviation itself moves it nearer
         worst = std::max(worst, pixels);
     }
     EXPECT_GT(worst, 0.15) << "finer than needed";

@@ -1,10 +1,10 @@
 // Culled bodies are really hidden: checked by rays.
 #include "example_scenes.h"
 
-#include "render/render_scene_builder.h"
-#include "render/damage/plane_dirty_regions.h"
-#include "render/scene/plane_axes.h"
 #include "render/culling/occlusion_culling.h"
+#include "render/damage/plane_dirty_regions.h"
+#include "render/render_scene_builder.h"
+#include "render/scene/plane_axes.h"
 
 #include <gtest/gtest.h>
 
@@ -83,15 +83,18 @@ TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnO
         for (const int x : {i, i + 1})
             for (const int y : {j, j + 1})
                 if (x >= 0 && y >= 0 && x < window.width && y < window.height)
-                    least = std::min<int>(least, darkening.atlas().texels[std::size_t(window.y + y) * OcclusionAtlas::width +
-                                                                          std::size_t(window.x + x)]);
+                    least = std::min<int>(
+                        least,
+                        darkening.atlas()
+                            .texels[std::size_t(window.y + y) * OcclusionAtlas::width + std::size_t(window.x + x)]);
         return least;
     };
     DirtyTiles everything(heap.view);
     everything.mark_all();
     const std::vector<Rectangle> areas = find_touched_areas(
-        planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view), heap.view,
-        stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, darkening.atlas(), heap.snapshot, everything);
+        planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view),
+        heap.view, stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, darkening.atlas(),
+        heap.snapshot, everything);
     std::vector<int> times(1280 * 720, 0);
     for (const Rectangle& area : areas)
         for (int y = area.y; y < area.y + area.height; ++y)

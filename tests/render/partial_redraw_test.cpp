@@ -3,8 +3,8 @@
 #include "example_scenes.h"
 #include "random.h"
 
-#include "render/scene/pose_filter.h"
 #include "render/damage/dirty_tiles.h"
+#include "render/scene/pose_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +17,15 @@ enum class Ground { plane, large_body };
 SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
     Random random(seed);
     SceneDescription scene = empty_scene();
-    scene.output.width = 232;   // not a multiple of the tile size
+    scene.output.width = 232;  // not a multiple of the tile size
     scene.output.height = 152;
     scene.output.samples = seed % 2 == 0 ? 4 : 1;
     scene.camera.eye = Vec3(random.between(-3.0, 3.0), random.between(0.5, 5.0), random.between(5.0, 9.0));
     scene.camera.target = Vec3(0.0, 0.8, 0.0);
     scene.light.direction = Vec3(random.between(-1.0, 1.0), -random.between(0.15, 1.0), random.between(-1.0, 0.6));
-    scene.light.shadows = seed % 4 != 2;   // without shadows, changes of AO are not hidden
+    scene.light.shadows = seed % 4 != 2;  // without shadows, changes of AO are not hidden
     scene.bodies.push_back(ground_plane({176, 180, 184}, seed % 3 == 0 ? Pattern::checker : Pattern::grid));
-    if (ground == Ground::large_body) {   // larger than the near shadow map
+    if (ground == Ground::large_body) {  // larger than the near shadow map
         const double size = std::pow(10.0, random.between(1.2, 2.5));
         scene.bodies[0] = seed % 3 == 0   ? box_body(Vec3(0.0, -1.0, 0.0), Vec3(size, 2.0, size), {176, 180, 184})
                           : seed % 3 == 1 ? mesh_body(Vec3::Zero(), sheet_asset(size, 5), {176, 180, 184})
@@ -44,27 +44,25 @@ SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
         scene.bodies.back().surface.metallic = i == 3 ? 1.0 : 0.0;
         if (i == 4) scene.bodies.back().surface.pattern = Pattern::checker;
     }
-    for (int i = 0; i < 3; ++i) scene.bodies.push_back(ball_body(Vec3::Zero(), random.between(0.15, 0.6), random.color()));
+    for (int i = 0; i < 3; ++i)
+        scene.bodies.push_back(ball_body(Vec3::Zero(), random.between(0.15, 0.6), random.color()));
     if (seed % 5 < 2) scene.bodies.push_back(mesh_body(Vec3::Zero(), torus_asset(0.5, 0.2), random.color()));
-    if (seed % 10 == 8)
-        scene.cords.push_back({2, Vec3(0.1, 0.2, 0.0), Vec3(0.5, 3.0, 0.0), 0.03, {60, 60, 60}});
+    if (seed % 10 == 8) scene.cords.push_back({2, Vec3(0.1, 0.2, 0.0), Vec3(0.5, 3.0, 0.0), 0.03, {60, 60, 60}});
     return scene;
 }
 
-bool is_ground(const SceneDescription& scene, std::size_t body) {
-    return scene.bodies[body].type == BodyType::fixed;
-}
+bool is_ground(const SceneDescription& scene, std::size_t body) { return scene.bodies[body].type == BodyType::fixed; }
 
 void place(const SceneDescription& scene, Random& random, Snapshot& snapshot) {
-    const double spread = random.between(0.6, 3.0);   // close together they occlude each other
+    const double spread = random.between(0.6, 3.0);  // close together they occlude each other
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
         if (is_ground(scene, i)) continue;
         snapshot.bodies[i].origin =
             Vec3(random.between(-spread, spread), random.between(-0.1, spread), random.between(-spread, spread));
-        if (random.chance(0.1)) snapshot.bodies[i].origin *= 6.0;   // outside the view, its shadow perhaps inside
+        if (random.chance(0.1)) snapshot.bodies[i].origin *= 6.0;  // outside the view, its shadow perhaps inside
         if (random.chance(0.05)) snapshot.bodies[i].origin = scene.camera.eye + random.vector(1.0);
         snapshot.bodies[i].orientation = random.turn();
-        if (random.chance(0.3)) {   // on the ground
+        if (random.chance(0.3)) {  // on the ground
             snapshot.bodies[i].orientation = Quat::Identity();
             if (const auto* box = std::get_if<BoxShape>(&scene.bodies[i].shape))
                 snapshot.bodies[i].origin.y() = 0.5 * box->size.y();
@@ -175,7 +173,8 @@ TEST(PartialRedraw, EarlierFramesHaveNoInfluence) {
     Snapshot snapshot = first_snapshot(scene);
     for (const auto& [wide, deep] : {std::pair{1.5, 0.4}, {0.4, 1.5}, {1.5, 1.5}, {2.5, 0.4}, {0.4, 2.5}, {2.5, 2.5}}) {
         for (int i = 0; i < 4; ++i)
-            snapshot.bodies[std::size_t(i + 1)].origin = Vec3(i % 2 == 0 ? wide : -wide, 0.3, i / 2 == 0 ? deep : -deep);
+            snapshot.bodies[std::size_t(i + 1)].origin =
+                Vec3(i % 2 == 0 ? wide : -wide, 0.3, i / 2 == 0 ? deep : -deep);
         used.render(snapshot, frame);
         Renderer(scene, {}).render(snapshot, truth);
         EXPECT_EQ(different_pixels(frame, truth), 0u) << wide << " by " << deep;
@@ -190,8 +189,7 @@ TEST(PartialRedraw, ThinSidesHaveTheirOwnOcclusion) {
     scene.output.height = 152;
     scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
     Random random(3);
-    for (int i = 0; i < 90; ++i)
-        scene.bodies.push_back(box_body(Vec3::Zero(), Vec3(0.1, 0.004, 0.4), {200, 160, 140}));
+    for (int i = 0; i < 90; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3(0.1, 0.004, 0.4), {200, 160, 140}));
     Renderer used(scene, {});
     Image frame, truth;
     Snapshot snapshot = first_snapshot(scene);
@@ -234,7 +232,7 @@ TEST(PartialRedraw, ReplacesAnImageOfAnotherSizeAndUpdatesOneThatFits) {
 }
 
 TEST(DirtyTiles, MarksTheTilesOfAHull) {
-    const SceneDescription scene = empty_scene();   // 320 x 180: 20 x 12 tiles
+    const SceneDescription scene = empty_scene();  // 320 x 180: 20 x 12 tiles
     const Camera view(scene.camera, 320, 180);
     DirtyTiles marks(view);
     EXPECT_TRUE(marks.none());
@@ -242,10 +240,10 @@ TEST(DirtyTiles, MarksTheTilesOfAHull) {
     const std::array<Vec3, 3> triangle = {at(40.0, 40.0), at(120.0, 40.0), at(40.0, 120.0)};
     marks.mark_hull(triangle);
     EXPECT_TRUE(marks.at(2, 2));
-    EXPECT_TRUE(marks.at(7, 2));    // the corner on the right
+    EXPECT_TRUE(marks.at(7, 2));  // the corner on the right
     EXPECT_TRUE(marks.at(2, 7));
     EXPECT_TRUE(marks.at(4, 4));
-    EXPECT_FALSE(marks.at(7, 5));   // beyond the long side
+    EXPECT_FALSE(marks.at(7, 5));  // beyond the long side
     EXPECT_FALSE(marks.at(8, 2));
     EXPECT_FALSE(marks.at(1, 1));
     EXPECT_FALSE(marks.all());

@@ -51,9 +51,10 @@ TEST(PoseFilter, MeasuresRotationsByTheFarthestPoint) {
         PoseFilter poses(scene);
         Snapshot snapshot = first_snapshot(scene);
         poses.follow(snapshot);
-        const double length = (far ? 1.01 : 0.99) * drawn_tolerance * pixel_at_box(scene) / reach;   // of dq = 2 sin(a / 4)
+        const double length =
+            (far ? 1.01 : 0.99) * drawn_tolerance * pixel_at_box(scene) / reach;  // of dq = 2 sin(a / 4)
         snapshot.bodies[1].orientation = Quat(Eigen::AngleAxisd(4.0 * std::asin(0.5 * length), Vec3::UnitY()));
-        snapshot.bodies[1].orientation.coeffs() *= -1.0;   // the same rotation
+        snapshot.bodies[1].orientation.coeffs() *= -1.0;  // the same rotation
         EXPECT_EQ(poses.follow(snapshot), far);
     }
 }

@@ -86,7 +86,7 @@ TEST(Renderer, DrawsAllPartsOfABody) {
     const Quat quarter(Eigen::AngleAxisd(0.5 * EIGEN_PI, Vec3::UnitZ()));
     CompoundPart left, right;
     left.shape = SphereShape{0.5};
-    left.position = Vec3(0.0, 1.5, 0.0);   // rotated by the body: to the left
+    left.position = Vec3(0.0, 1.5, 0.0);  // rotated by the body: to the left
     right.shape = BoxShape{Vec3(0.6, 1.0, 1.0)};
     right.position = Vec3(0.0, -1.5, 0.0);
     right.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()));

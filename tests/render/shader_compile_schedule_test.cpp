@@ -76,7 +76,7 @@ TEST_F(Turns, ADeadProcessIsNotWaitedForWithoutEnd) {
         shared_->turns.run({&part, 1});
     }
     waitpid(id, nullptr, 0);
-    shared_->turns.run(counted());   // comes back
+    shared_->turns.run(counted());  // comes back
     EXPECT_EQ(shared_->runs[0], 0);
     EXPECT_EQ(shared_->runs[1], 1);
 }

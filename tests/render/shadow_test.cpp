@@ -45,7 +45,7 @@ double linear(const Image& image, int x, int y) { return srgb_to_linear(image.at
 
 struct Edges {
     int pixels = 0;
-    double rms = 0.0;   // error of the share in shadow
+    double rms = 0.0;  // error of the share in shadow
 };
 
 /// Pixels of the ground that are partly in shadow: their exact share, and the share in the image.
@@ -60,14 +60,16 @@ Edges shadow_edges(int width, int height, bool on_box) {
     EXPECT_LT(dark, 0.6);
     Edges edges;
     double squares = 0.0;
-    constexpr int rays = 12;   // per side of the pixel
+    constexpr int rays = 12;  // per side of the pixel
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             int count = 0, of_body = 0;
             for (int i = 0; i < rays * rays; ++i) {
                 const Vec3 ray = view.ray(x + (i % rays + 0.5) / rays, y + (i / rays + 0.5) / rays);
-                if (ray.y() > -1e-3 || hits(scene.bodies[1], view.eye(), ray)) ++of_body;
-                else if (hits(scene.bodies[1], view.eye() - ray * (view.eye().y() / ray.y()), -scene.light.direction)) ++count;
+                if (ray.y() > -1e-3 || hits(scene.bodies[1], view.eye(), ray))
+                    ++of_body;
+                else if (hits(scene.bodies[1], view.eye() - ray * (view.eye().y() / ray.y()), -scene.light.direction))
+                    ++count;
             }
             if (of_body > 0 || count == 0 || count == rays * rays) continue;
             const double said = (1.0 - linear(image, x, y) / linear(open, x, y)) / (1.0 - dark);

@@ -42,7 +42,7 @@ TEST(ThinGeometry, HaveTheirCoverageOfEachColumn) {
             const double angle = degrees * M_PI / 180.0;
             scene.bodies.push_back(rod(Vec3(0.003, 0.011, 0.0), 200.0 * pixel, width * pixel, angle));
             const Image image = drawn(scene);
-            double dark = 255.0;   // the rod's own brightness
+            double dark = 255.0;  // the rod's own brightness
             SceneDescription near = scene;
             near.bodies[1] = rod(Vec3::Zero(), 200.0 * pixel, 40.0 * pixel, 0.0);
             dark = brightness(drawn(near), {image.width / 2, image.height / 2});
@@ -98,8 +98,10 @@ TEST(ThinGeometry, PartialRedrawHasTheBytesOfAFullRedraw) {
         scene.bodies = {ground_plane({190, 190, 190}, seed % 2 == 0 ? Pattern::grid : Pattern::plain)};
         for (int i = 0; i < 12; ++i) {
             const double width = std::pow(10.0, random.between(-2.5, -1.2));
-            scene.bodies.push_back(i % 4 == 3 ? box_body(Vec3::Zero(), Vec3(0.5, 0.4, 0.6), random.color())
-                                              : box_body(Vec3::Zero(), Vec3(random.between(0.0, 3.0) + width, width, width), random.color()));
+            scene.bodies.push_back(
+                i % 4 == 3
+                    ? box_body(Vec3::Zero(), Vec3(0.5, 0.4, 0.6), random.color())
+                    : box_body(Vec3::Zero(), Vec3(random.between(0.0, 3.0) + width, width, width), random.color()));
             scene.bodies.back().position = random.vector(2.0, 0.8, 2.0) + Vec3(0.0, 1.0, 0.0);
             scene.bodies.back().rotation = random.turn();
         }

@@ -1,7 +1,7 @@
 // Grids and scatters: places of the copies, and their dependence on the seed only.
-#include "scene/load.h"
-#include "scene/keys/random.h"
 #include "scene/description/shape_bounds.h"
+#include "scene/keys/random.h"
+#include "scene/load.h"
 
 #include <gtest/gtest.h>
 
@@ -36,9 +36,9 @@ TEST(Grid, IsCenteredAndGrowsUpward) {
         bodies("position = [10, 20, 30]\ngrid = { count = [3, 2, 2], spacing = [2, 5, 4] }\nname = \"crate\"");
     ASSERT_EQ(list.size(), 12u);
     EXPECT_EQ(list[0].position, Vec3(8, 20, 28));
-    EXPECT_EQ(list[1].position, Vec3(10, 20, 28));   // x runs fastest
-    EXPECT_EQ(list[3].position, Vec3(8, 20, 32));    // then z
-    EXPECT_EQ(list[6].position, Vec3(8, 25, 28));    // layer by layer
+    EXPECT_EQ(list[1].position, Vec3(10, 20, 28));  // x runs fastest
+    EXPECT_EQ(list[3].position, Vec3(8, 20, 32));   // then z
+    EXPECT_EQ(list[6].position, Vec3(8, 25, 28));   // layer by layer
     EXPECT_EQ(list[11].position, Vec3(12, 25, 32));
     EXPECT_EQ(list[0].name, "crate.0");
     EXPECT_EQ(list[11].name, "crate.11");
@@ -69,7 +69,7 @@ TEST(Grid, JitterAndTiltStayWithinTheirBounds) {
         EXPECT_NEAR(list[i].rotation.norm(), 1.0, 1e-15);
     }
     EXPECT_TRUE((most.array() <= jitter.array() + 1e-12).all());
-    EXPECT_TRUE((most.array() >= 0.95 * jitter.array()).all());   // and the bounds are reached
+    EXPECT_TRUE((most.array() >= 0.95 * jitter.array()).all());  // and the bounds are reached
     EXPECT_LT((sum / 1000.0).norm(), 0.02);
     EXPECT_LE(most_tilt, 15.0 + 1e-9);
     EXPECT_GT(most_tilt, 14.0);
@@ -139,7 +139,7 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             "position = [5, 10, 0]\nscatter = { count = 300, size = [8, 6, 4], clearance = 0.05 }\nscale = [0.5, 1]", 3,
             shape);
         ASSERT_EQ(list.size(), 300u);
-        std::vector<BoundingSphere> spheres;   // world frame
+        std::vector<BoundingSphere> spheres;  // world frame
         for (const BodyDescription& b : list) {
             const Vec3 offset = b.position - Vec3(5, 10, 0);
             EXPECT_LE(std::fabs(offset.x()), 4.0);
@@ -156,7 +156,7 @@ TEST(Scatter, StaysInItsBoxAndApart) {
             }
         }
         EXPECT_GE(nearest, 0.05) << shape;
-        EXPECT_LT(nearest, 0.2) << shape;   // as near as allowed, not farther
+        EXPECT_LT(nearest, 0.2) << shape;  // as near as allowed, not farther
     }
 }
 
@@ -177,7 +177,7 @@ TEST(Scatter, TheSameSeedGivesTheSameBytesAndAnotherGivesOthers) {
     EXPECT_NE(numbers(bodies(lines, 1)), numbers(bodies(lines, 2)));
 }
 
-TEST(Random, IsTheSameEverywhere) {   // mt19937_64 and the mixing are specified to the bit
+TEST(Random, IsTheSameEverywhere) {  // mt19937_64 and the mixing are specified to the bit
     Random random(1, 0, Random::Purpose::place);
     EXPECT_EQ(random.unit(), 0.73236295993950207);
     EXPECT_EQ(random.unit(), 0.40196350523301438);

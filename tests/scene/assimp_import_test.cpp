@@ -24,27 +24,32 @@ std::string collada(const std::string& nodes) {
     return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
            "<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh>"
            "<source id=\"p\"><float_array id=\"a\" count=\"12\">0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>"
-           "<accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
+           "<accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" "
+           "type=\"float\"/>"
            "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
            "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>"
            "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>"
            "<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>"
-           "<library_visual_scenes><visual_scene id=\"s\">" + nodes + "</visual_scene></library_visual_scenes>"
+           "<library_visual_scenes><visual_scene id=\"s\">" +
+           nodes +
+           "</visual_scene></library_visual_scenes>"
            "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 }
 
 TEST_F(AssimpImport, ACubeOfOff) {
-    const LoadedMesh mesh = load_mesh(write("cube.off",
-        "OFF\n8 6 12\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n"
-        "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
+    const LoadedMesh mesh =
+        load_mesh(write("cube.off",
+                        "OFF\n8 6 12\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n"
+                        "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
     EXPECT_EQ(mesh.asset->surface.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
 }
 
 TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
     const std::string use = "<instance_geometry url=\"#g\"/></node>";
-    const auto file = write("two.dae", collada("<node id=\"one\">" + use +
-                                               "<node id=\"two\"><translate>0 5 0</translate><scale>2 2 2</scale>" + use));
+    const auto file = write(
+        "two.dae",
+        collada("<node id=\"one\">" + use + "<node id=\"two\"><translate>0 5 0</translate><scale>2 2 2</scale>" + use));
     const auto objects = load_mesh_objects(file);
     ASSERT_EQ(objects.size(), 2u);
     EXPECT_NEAR(objects[0].closedness.signed_volume, 1.0 / 6.0, 1e-15);
@@ -53,9 +58,10 @@ TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
 }
 
 TEST_F(AssimpImport, NoOtherFileIsOpened) {
-    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);   // opening it would wait
-    const std::string scene = "<?xml version=\"1.0\"?><irr_scene><node type=\"mesh\"><attributes>"
-                              "<string name=\"Mesh\" value=\"fifo.obj\"/></attributes></node></irr_scene>";
+    ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);  // opening it would wait
+    const std::string scene =
+        "<?xml version=\"1.0\"?><irr_scene><node type=\"mesh\"><attributes>"
+        "<string name=\"Mesh\" value=\"fifo.obj\"/></attributes></node></irr_scene>";
     EXPECT_NE(error_of("scene.irr", scene), "no error");
 }
 
@@ -66,7 +72,7 @@ TEST_F(AssimpImport, MoreThanItHolds) {
 
 TEST_F(AssimpImport, ACrashIsAnError) {
     std::string nodes, ends;
-    for (int i = 0; i < 200'000; ++i) {   // its reader of nodes is recursive
+    for (int i = 0; i < 200'000; ++i) {  // its reader of nodes is recursive
         nodes += "<node>";
         ends += "</node>";
     }

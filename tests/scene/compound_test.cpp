@@ -1,9 +1,9 @@
 // Compounds in scene files: results, and errors with their positions.
 #include "core/error.h"
 #include "mesh_files.h"
+#include "scene/description/shape_bounds.h"
 #include "scene/load.h"
 #include "scene/mesh/mesh_loader.h"
-#include "scene/description/shape_bounds.h"
 
 #include <algorithm>
 
@@ -24,7 +24,8 @@ protected:
         const std::string before = marked.substr(0, mark);
         const auto line = 3 + std::count(before.begin(), before.end(), '\n');
         const std::size_t column = mark - (before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1) + 1;
-        const std::string place = (folder() / "scene.toml").string() + ":" + std::to_string(line) + ":" + std::to_string(column) + ": error: ";
+        const std::string place = (folder() / "scene.toml").string() + ":" + std::to_string(line) + ":" +
+                                  std::to_string(column) + ": error: ";
         std::string error = "no error";
         try {
             parsed(before + marked.substr(mark + 1));
@@ -61,7 +62,8 @@ shape = { type = "compound", parts = [
 }
 
 TEST_F(Compounds, NestedCompoundsAreFlattened) {
-    const SceneDescription scene = parsed(R"(shape = { type = "compound", parts = [ { position = [0, 0, 1], rotation = { axis = [0, 0, 1], angle = 90 }, density = 2.0, shape = { type = "compound", parts = [
+    const SceneDescription scene = parsed(
+        R"(shape = { type = "compound", parts = [ { position = [0, 0, 1], rotation = { axis = [0, 0, 1], angle = 90 }, density = 2.0, shape = { type = "compound", parts = [
     { shape = { type = "box", size = [1, 1, 1] }, position = [1, 0, 0] },
     { shape = { type = "box", size = [1, 1, 1] }, position = [2, 0, 0], density = 3.0 } ] } } ] })");
     const auto& list = parts(scene);
@@ -124,16 +126,21 @@ TEST_F(Compounds, MistakesAreErrorsAtTheirPlace) {
     expect_error(head + "[ @{ } ] }", "a part needs \"shape\" (not given)");
     expect_error(head + "[ { shape = { type = @\"plane\" } } ] }", "\"plane\" is endless and cannot be part of a body");
     expect_error(head + "[ { shape = { type = \"box\", size = [1, @0, 1] } } ] }", "size must be");
-    expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 }, @postion = [0, 0, 0] } ] }", "did you mean \"position\"?");
-    expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 } },\n { shape = { type = \"sphere\", radius = 1 }, position = @[0, 0] } ] }", "position must be");
+    expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 }, @postion = [0, 0, 0] } ] }",
+                 "did you mean \"position\"?");
+    expect_error(head +
+                     "[ { shape = { type = \"sphere\", radius = 1 } },\n { shape = { type = \"sphere\", radius = 1 }, "
+                     "position = @[0, 0] } ] }",
+                 "position must be");
     expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 }, density = @0.0 } ] }", "density must be");
     expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 }, rotation = @[1, 1, 0, 0] } ] }", "rotation");
     expect_error("shape = { type = \"mesh\", file = \"cube.obj\", parts = @\"groups\" }", "parts");
-    expect_error("shape = { type = \"mesh\", file = @\"open.obj\", parts = \"objects\" }", "(object 2) is an open mesh: 4 of its edges");
+    expect_error("shape = { type = \"mesh\", file = @\"open.obj\", parts = \"objects\" }",
+                 "(object 2) is an open mesh: 4 of its edges");
     expect_error("shape = { type = \"mesh\", file = @\"none.obj\", parts = \"objects\" }", "does not exist");
     std::string many = head + "@[ ";
     for (int i = 0; i < 513; ++i) many += "{ shape = { type = \"sphere\", radius = 1 } }, ";
-    expect_error(many.replace(many.find('@'), 1, "") .insert(head.size(), "@") + "] }", "the limit of a body is 512");
+    expect_error(many.replace(many.find('@'), 1, "").insert(head.size(), "@") + "] }", "the limit of a body is 512");
 }
 
 }  // namespace

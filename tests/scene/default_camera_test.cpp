@@ -1,6 +1,6 @@
 #include "scene/camera/default_camera.h"
-#include "scene/load.h"
 #include "scene/description/shape_bounds.h"
+#include "scene/load.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(DefaultCamera, FillsThePictureAtAnyScale) {
 }
 
 TEST(DefaultCamera, LeavesAsMuchRoomAboveAsBelow) {
-    SceneDescription scene;   // a long row: its width determines the distance, with space above and below
+    SceneDescription scene;  // a long row: its width determines the distance, with space above and below
     for (int i = -20; i <= 20; ++i) scene.bodies.push_back(box_at(Vec3(i, 0.5, -0.3 * i), {1, 1, 1}));
     const CameraDescription camera = default_camera(scene, {});
     double top = -1e9, bottom = 1e9, left = 1e9, right = -1e9;
@@ -89,7 +89,7 @@ TEST(DefaultCamera, LooksDownAtTheScene) {
     scene.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1})};
     const CameraDescription camera = default_camera(scene, {});
     EXPECT_GT(camera.eye.y(), camera.target.y());
-    EXPECT_GT(camera.eye.z(), camera.target.z());   // from the front
+    EXPECT_GT(camera.eye.z(), camera.target.z());  // from the front
     EXPECT_LT((camera.eye - camera.target).norm(), 10.0);
 }
 
@@ -132,7 +132,7 @@ TEST(DefaultCamera, ShowsTheTrajectoryOfAThrownBody) {
 }
 
 TEST(DefaultCamera, TrajectoriesEndAtOtherBodiesAndByFriction) {
-    SceneDescription stopped;   // by a pile in its path, 6 m ahead
+    SceneDescription stopped;  // by a pile in its path, 6 m ahead
     stopped.bodies = {ground(), box_at({0, 0.5, 0}, {1, 1, 1}), box_at({6, 1, 0}, {2, 2, 2})};
     const double near = default_camera(stopped, {}).eye.norm();
     stopped.bodies[1].velocity = Vec3(10.0, 0.0, 0.0);
@@ -140,13 +140,13 @@ TEST(DefaultCamera, TrajectoriesEndAtOtherBodiesAndByFriction) {
     stopped.bodies.pop_back();
     EXPECT_GT(default_camera(stopped, {}, 5.0).eye.norm(), 3.0 * near);
 
-    SceneDescription rubbed = stopped;   // v^2 / (2 mu g) = 5.1 m
+    SceneDescription rubbed = stopped;  // v^2 / (2 mu g) = 5.1 m
     for (BodyDescription& body : rubbed.bodies) body.friction = 1.0, body.restitution = 0.0;
     const CameraDescription camera = default_camera(rubbed, {}, 5.0);
     EXPECT_LT(std::fabs(in_picture(rubbed, camera, {5.1, 0.5, 0}).x()), 1.0);
     EXPECT_GT(std::fabs(in_picture(rubbed, camera, {10.0, 0.5, 0}).x()), 1.0);
 
-    SceneDescription walled = stopped;   // back from a fixed wall 4 m ahead
+    SceneDescription walled = stopped;  // back from a fixed wall 4 m ahead
     walled.bodies.push_back(box_at({4, 1, 0}, {0.2, 2, 4}, BodyType::fixed));
     EXPECT_GT(std::fabs(in_picture(walled, default_camera(walled, {}, 5.0), {25.0, 0.5, 0}).x()), 1.0);
 }
@@ -173,7 +173,7 @@ TEST(DefaultCamera, DoesNotDependOnTheCommandLinesDuration) {
 
 /// True if the line of sight from the eye to the point passes over the rim of a bin of this half width and height.
 bool over_the_rim(const Vec3& eye, const Vec3& point, double half, double height) {
-    const double rises = (height - point.y()) / (eye.y() - point.y());   // part of the way up to the eye
+    const double rises = (height - point.y()) / (eye.y() - point.y());  // part of the way up to the eye
     const Vec3 at = point + rises * (eye - point);
     return std::fabs(at.x()) < half && std::fabs(at.z()) < half;
 }
@@ -181,19 +181,20 @@ bool over_the_rim(const Vec3& eye, const Vec3& point, double half, double height
 // Bodies that fall into a bin, made of boxes or of one mesh, are visible at rest.
 TEST(DefaultCamera, LooksIntoContainers) {
     SceneDescription bin;
-    bin.bodies = {ground(), box_at({2, 1, 0}, {0.2, 2, 4}, BodyType::fixed), box_at({-2, 1, 0}, {0.2, 2, 4}, BodyType::fixed),
-                  box_at({0, 1, 2}, {4, 2, 0.2}, BodyType::fixed), box_at({0, 1, -2}, {4, 2, 0.2}, BodyType::fixed)};
+    bin.bodies = {ground(), box_at({2, 1, 0}, {0.2, 2, 4}, BodyType::fixed),
+                  box_at({-2, 1, 0}, {0.2, 2, 4}, BodyType::fixed), box_at({0, 1, 2}, {4, 2, 0.2}, BodyType::fixed),
+                  box_at({0, 1, -2}, {4, 2, 0.2}, BodyType::fixed)};
     for (const double x : {-1.0, 0.0, 1.0})
         for (const double z : {-1.0, 0.0, 1.0}) bin.bodies.push_back(box_at({x, 5.0, z}, Vec3::Constant(0.5)));
     EXPECT_TRUE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
 
     const Vec3 before = default_camera(bin, {}).eye;
     for (BodyDescription& body : bin.bodies)
-        if (body.type == BodyType::fixed) body.surface.visible = false;   // nothing hides the bodies
+        if (body.type == BodyType::fixed) body.surface.visible = false;  // nothing hides the bodies
     EXPECT_FALSE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
     EXPECT_LT(default_camera(bin, {}).eye.y() / default_camera(bin, {}).eye.norm(), 0.8 * before.y() / before.norm());
 
-    auto tube = std::make_shared<MeshAsset>();   // four upright sides, open
+    auto tube = std::make_shared<MeshAsset>();  // four upright sides, open
     for (const double y : {0.0, 2.0})
         for (const auto& [x, z] : {std::pair(-2.0, -2.0), {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}})
             tube->surface.vertices.push_back({x, y, z});

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <cstring>
 #include <unistd.h>
+#include <cstring>
 #include <vector>
 
 namespace tumble {
@@ -33,14 +33,17 @@ struct Document {
     std::string more;
 
     std::string text() const {
-        return fmt::format(R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":{}}}],"nodes":{},"meshes":[{{"primitives":{}}}],
-"accessors":{},"bufferViews":{},"buffers":{}{}}})", roots, nodes, primitives, accessors, views, buffers, more);
+        return fmt::format(
+            R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":{}}}],"nodes":{},"meshes":[{{"primitives":{}}}],
+"accessors":{},"bufferViews":{},"buffers":{}{}}})",
+            roots, nodes, primitives, accessors, views, buffers, more);
     }
 };
 
 std::string glb(const std::string& json, const std::string& binary) {
     const auto number = [](std::size_t value) { return bytes_of(std::vector<std::uint32_t>{std::uint32_t(value)}); };
-    const std::string body = number(json.size()) + "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
+    const std::string body =
+        number(json.size()) + "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) + binary;
     return "glTF" + number(2) + number(12 + body.size()) + body;
 }
 
@@ -75,11 +78,13 @@ TEST_F(Gltf, BuffersAreFilesOfTheFolderDataUrisOrTheBinaryChunk) {
     std::filesystem::create_directory(folder() / "deep");
     std::filesystem::create_symlink("../data.bin", folder() / "deep" / "link.bin");
     write("my data.bin", tetrahedron());
-    for (const char* uri : {"deep/link.bin", "./deep/../data.bin", "my%20data.bin", "my data.bin"}) EXPECT_EQ(error_with_uri(uri), "no error") << uri;
+    for (const char* uri : {"deep/link.bin", "./deep/../data.bin", "my%20data.bin", "my data.bin"})
+        EXPECT_EQ(error_with_uri(uri), "no error") << uri;
 
-    Document two;   // one buffer each for positions and indices
+    Document two;  // one buffer each for positions and indices
     two.views = R"([{"buffer":0,"byteLength":48},{"buffer":1,"byteLength":24}])";
-    two.buffers = R"([{"byteLength":48,"uri":"data.bin"},{"byteLength":24,"uri":"data:application/gltf-buffer;base64,AAACAAEAAAABAAMAAAADAAIAAQACAAMA"}])";
+    two.buffers =
+        R"([{"byteLength":48,"uri":"data.bin"},{"byteLength":24,"uri":"data:application/gltf-buffer;base64,AAACAAEAAAABAAMAAAADAAIAAQACAAMA"}])";
     expect_tetrahedron(loaded(two));
 
     Document chunk;
@@ -90,7 +95,8 @@ TEST_F(Gltf, BuffersAreFilesOfTheFolderDataUrisOrTheBinaryChunk) {
 
 TEST_F(Gltf, NodesThatShowOneMeshAreEachAnObject) {
     Document document;
-    document.nodes = R"([{"children":[1,2]},{"mesh":0,"translation":[2,0,0]},{"mesh":0,"rotation":[0,1,0,0],"scale":[1,2,-1]}])";
+    document.nodes =
+        R"([{"children":[1,2]},{"mesh":0,"translation":[2,0,0]},{"mesh":0,"rotation":[0,1,0,0],"scale":[1,2,-1]}])";
     EXPECT_EQ(loaded(document).asset->surface.triangles.size(), 8u);
     const auto objects = load_mesh_objects(folder() / "a.gltf");
     ASSERT_EQ(objects.size(), 2u);
@@ -101,7 +107,8 @@ TEST_F(Gltf, NodesThatShowOneMeshAreEachAnObject) {
 }
 
 TEST_F(Gltf, StripsFansAndUnindexedTriangles) {
-    write("data.bin", bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) + bytes_of(std::vector<std::uint16_t>{0, 1, 3, 2}));
+    write("data.bin", bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) +
+                          bytes_of(std::vector<std::uint16_t>{0, 1, 3, 2}));
     const auto area = [&](const std::string& primitive) {
         Document document;
         document.primitives = "[" + primitive + "]";
@@ -117,32 +124,38 @@ TEST_F(Gltf, StripsFansAndUnindexedTriangles) {
         }
         return sum;
     };
-    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":5})"), Vec3(0, 0, 1));                // a strip
-    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"indices":1,"mode":6})"), Vec3(0, 0, 1));    // a fan
-    EXPECT_EQ(area(R"({"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));                       // the fourth is incomplete
-    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":1},{"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));   // lines
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":5})"), Vec3(0, 0, 1));              // a strip
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"indices":1,"mode":6})"), Vec3(0, 0, 1));  // a fan
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0}})"), Vec3(0, 0, 0.5));  // the fourth is incomplete
+    EXPECT_EQ(area(R"({"attributes":{"POSITION":0},"mode":1},{"attributes":{"POSITION":0}})"),
+              Vec3(0, 0, 0.5));  // lines
 }
 
 TEST_F(Gltf, SparseAccessorsChangeSomeElementsOfABufferOrOfZeros) {
-    write("sparse.bin", bytes_of(std::vector<std::uint8_t>{1, 3, 0, 0}) + bytes_of(std::vector<float>{2, 0, 0, 0, 0, 3}) +
-                            bytes_of(std::vector<std::uint8_t>{1, 2, 3, 0}) + bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
+    write("sparse.bin", bytes_of(std::vector<std::uint8_t>{1, 3, 0, 0}) +
+                            bytes_of(std::vector<float>{2, 0, 0, 0, 0, 3}) +
+                            bytes_of(std::vector<std::uint8_t>{1, 2, 3, 0}) +
+                            bytes_of(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
     Document document;
-    document.views = R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":1,"byteLength":68}])";
+    document.views =
+        R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":1,"byteLength":68}])";
     document.buffers = R"([{"byteLength":72,"uri":"data.bin"},{"byteLength":68,"uri":"sparse.bin"}])";
     const std::string indices = R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
     document.accessors = R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":2,
-        "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":2,"byteOffset":4}}},)" + indices;
+        "indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":2,"byteOffset":4}}},)" +
+                         indices;
     EXPECT_DOUBLE_EQ(loaded(document).closedness.signed_volume, 2.0 * 3.0 / 6.0);
     document.accessors = R"([{"componentType":5126,"count":4,"type":"VEC3","sparse":{"count":3,
-        "indices":{"bufferView":2,"byteOffset":28,"componentType":5121},"values":{"bufferView":2,"byteOffset":32}}},)" + indices;
+        "indices":{"bufferView":2,"byteOffset":28,"componentType":5121},"values":{"bufferView":2,"byteOffset":32}}},)" +
+                         indices;
     expect_tetrahedron(loaded(document));
 }
 
-TEST_F(Gltf, WholeNumbersWithAStrideAreCoordinates) {   // KHR_mesh_quantization
+TEST_F(Gltf, WholeNumbersWithAStrideAreCoordinates) {  // KHR_mesh_quantization
     std::vector<std::int16_t> numbers;
     for (std::size_t i = 0; i < 12; ++i) {
         numbers.push_back(std::int16_t(corners[i] * 32767));
-        if (i % 3 == 2) numbers.push_back(-1);   // padding
+        if (i % 3 == 2) numbers.push_back(-1);  // padding
     }
     write("data.bin", bytes_of(numbers) + bytes_of(faces));
     Document document;
@@ -162,11 +175,14 @@ TEST_F(Gltf, OtherFilesAreRegularOnesOfItsFolder) {
     std::filesystem::create_directory(folder() / "deep");
     ASSERT_EQ(mkfifo((folder() / "fifo.bin").c_str(), 0600), 0);
     const std::string neighbour = "../" + outside.path().filename().string() + "/secret.bin";
-    for (const std::string& uri : {neighbour, std::string("out.bin"), std::string("out/secret.bin"), "deep/../" + neighbour})
+    for (const std::string& uri :
+         {neighbour, std::string("out.bin"), std::string("out/secret.bin"), "deep/../" + neighbour})
         EXPECT_NE(error_with_uri(uri).find("which lies outside its folder"), std::string::npos) << error_with_uri(uri);
-    for (const std::string& uri : {(outside / "secret.bin").string(), std::string("/etc/passwd"), std::string("/dev/zero"), std::string(),
-                                   std::string("data.bin\\u0000x"), std::string("data.bin%00x")})
-        EXPECT_NE(error_with_uri(uri).find("which is not a file of its folder"), std::string::npos) << error_with_uri(uri);
+    for (const std::string& uri :
+         {(outside / "secret.bin").string(), std::string("/etc/passwd"), std::string("/dev/zero"), std::string(),
+          std::string("data.bin\\u0000x"), std::string("data.bin%00x")})
+        EXPECT_NE(error_with_uri(uri).find("which is not a file of its folder"), std::string::npos)
+            << error_with_uri(uri);
     for (const char* uri : {"fifo.bin", "deep", "."})
         EXPECT_NE(error_with_uri(uri).find("which is not a regular file"), std::string::npos) << error_with_uri(uri);
     EXPECT_NE(error_with_uri("none.bin").find("\"none.bin\", which does not exist"), std::string::npos);
@@ -187,21 +203,24 @@ TEST_F(Gltf, CountsAreCheckedBeforeAnythingIsMade) {
     const std::string indices = R"({"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}])";
     Document document;
     document.accessors = R"([{"componentType":5126,"count":100000000,"type":"VEC3","sparse":{"count":1,
-        "indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}},)" + indices;
+        "indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}},)" +
+                         indices;
     EXPECT_NE(error_of(document).find("an accessor of 100000000 elements in"), std::string::npos) << error_of(document);
     document.accessors = R"([{"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"},)" + indices;
     EXPECT_EQ(error_of(document), "has an accessor of 5 elements beyond its buffer view");
     for (const char* count : {"18446744073709551615", "6148914691236517206", "4294967297", "-1", "4.5", "\"4\""}) {
-        document.accessors = fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},)", count) + indices;
+        document.accessors =
+            fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":{},"type":"VEC3"}},)", count) + indices;
         EXPECT_EQ(error_of(document).substr(0, 4), "has ") << error_of(document);
     }
     document = {};
-    for (const char* view : {R"({"buffer":0,"byteOffset":18446744073709551615,"byteLength":48})", R"({"buffer":0,"byteLength":73})",
-                             R"({"buffer":0,"byteOffset":48,"byteLength":48})"}) {
+    for (const char* view : {R"({"buffer":0,"byteOffset":18446744073709551615,"byteLength":48})",
+                             R"({"buffer":0,"byteLength":73})", R"({"buffer":0,"byteOffset":48,"byteLength":48})"}) {
         document.views = fmt::format(R"([{},{{"buffer":0,"byteOffset":48,"byteLength":24}}])", view);
         EXPECT_EQ(error_of(document), "has a buffer view beyond its buffer of 72 bytes");
     }
-    document.views = R"([{"buffer":0,"byteLength":48,"byteStride":4294967295},{"buffer":0,"byteOffset":48,"byteLength":24}])";
+    document.views =
+        R"([{"buffer":0,"byteLength":48,"byteStride":4294967295},{"buffer":0,"byteOffset":48,"byteLength":24}])";
     EXPECT_NE(error_of(document).find("\"byteStride\" of 4294967295"), std::string::npos);
     document = {};
     document.buffers = R"([{"byteLength":4000000000,"uri":"data.bin"}])";
@@ -216,7 +235,8 @@ TEST_F(Gltf, CountsAreCheckedBeforeAnythingIsMade) {
 TEST_F(Gltf, NodesAreAForest) {
     Document document;
     document.nodes = "[";
-    for (int i = 1; i < 64; ++i) document.nodes += fmt::format(R"({{"children":[{},{}]}},)", i, i);   // twice as many per level
+    for (int i = 1; i < 64; ++i)
+        document.nodes += fmt::format(R"({{"children":[{},{}]}},)", i, i);  // twice as many per level
     document.nodes += R"({"mesh":0}])";
     EXPECT_EQ(error_of(document), "has node 1 twice in its tree of nodes");
     document.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])";
@@ -229,7 +249,7 @@ TEST_F(Gltf, NodesAreAForest) {
 }
 
 TEST_F(Gltf, DepthCostsNoStack) {
-    Document document;   // 200,000 nodes, each the child of the one before
+    Document document;  // 200,000 nodes, each the child of the one before
     document.nodes = "[";
     for (int i = 1; i < 200'000; ++i) document.nodes += fmt::format(R"({{"children":[{}]}},)", i);
     document.nodes += R"({"mesh":0}])";
@@ -245,8 +265,10 @@ TEST_F(Gltf, ManyNodesOfOneMeshAreCountedBeforeTheyAreMade) {
     const auto strip = [&](std::size_t corner_count) {
         write("data.bin", bytes_of(corners) + std::string(corner_count, '\0'));
         document.accessors = fmt::format(R"([{{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}},
-                                             {{"bufferView":1,"componentType":5121,"count":{},"type":"SCALAR"}}])", corner_count);
-        document.views = fmt::format(R"([{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":{}}}])", corner_count);
+                                             {{"bufferView":1,"componentType":5121,"count":{},"type":"SCALAR"}}])",
+                                         corner_count);
+        document.views = fmt::format(
+            R"([{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":{}}}])", corner_count);
         document.buffers = fmt::format(R"([{{"byteLength":{},"uri":"data.bin"}}])", 48 + corner_count);
         document.primitives = R"([{"attributes":{"POSITION":0},"indices":1,"mode":5}])";
     };
@@ -275,8 +297,10 @@ TEST_F(Gltf, OtherFilesAndVersionsAreRefused) {
     EXPECT_EQ(error_of("{\"asset\":{\"version\":\"3.0\"}}"), "is glTF 3.0, not 2.0");
     EXPECT_EQ(error_of("{\"asset\":{\"version\":\"2.0\"}}"), "names item 0 of \"scenes\", which holds 0");
     Document document;
-    document.primitives = R"([{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}])";
-    EXPECT_TRUE(error_of(document).starts_with("needs KHR_draco_mesh_compression, which cannot be read: export it without (assimp: "));
+    document.primitives =
+        R"([{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}])";
+    EXPECT_TRUE(error_of(document).starts_with(
+        "needs KHR_draco_mesh_compression, which cannot be read: export it without (assimp: "));
     document = {};
     document.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
     EXPECT_EQ(error_of(document), "needs EXT_meshopt_compression, which cannot be read: export it without");

@@ -34,7 +34,8 @@ protected:
 
 TEST_F(HostileMesh, OtherFilesAreRefused) {
     EXPECT_EQ(error_of(folder() / "none.obj"), "does not exist");
-    EXPECT_EQ(error_of(folder()), "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
+    EXPECT_EQ(error_of(folder()),
+              "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     std::filesystem::create_directory(folder() / "folder.obj");
     EXPECT_EQ(error_of(folder() / "folder.obj"), "is not a regular file");
     expect_error("a.obj", "", "is empty");
@@ -47,13 +48,16 @@ TEST_F(HostileMesh, OtherFilesAreRefused) {
 TEST_F(HostileMesh, AFifoOrADeviceIsNotWaitedOn) {
     ASSERT_EQ(mkfifo((folder() / "fifo.obj").c_str(), 0600), 0);
     std::filesystem::create_symlink("/dev/zero", folder() / "zero.ply");
-    for (const char* name : {"fifo.obj", "zero.ply"}) EXPECT_EQ(error_of(folder() / name), "is not a regular file") << name;
+    for (const char* name : {"fifo.obj", "zero.ply"})
+        EXPECT_EQ(error_of(folder() / name), "is not a regular file") << name;
 }
 
 TEST_F(HostileMesh, AnObjOpensNoOtherFile) {
     ASSERT_EQ(mkfifo((folder() / "fifo.mtl").c_str(), 0600), 0);
     for (const char* name : {"fifo.mtl", "/etc/passwd", "/dev/zero", "none.mtl"})
-        EXPECT_EQ(error_of(write("a.obj", fmt::format("mtllib {}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl root\nf 1 2 3\n", name))), "no error");
+        EXPECT_EQ(
+            error_of(write("a.obj", fmt::format("mtllib {}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl root\nf 1 2 3\n", name))),
+            "no error");
 }
 
 TEST_F(HostileMesh, Obj) {
@@ -65,7 +69,8 @@ TEST_F(HostileMesh, Obj) {
     expect_error("a.obj", points + "f 1 2 0\n", "a face with vertex 0 of 3");
     expect_error("a.obj", points + "f 1 2 3x\n", "a face with vertex 3x of 3");
     expect_error("a.obj", points + "f 1 2 99999999999999999999\n", "a face with vertex 99999999999999999999 of 3");
-    expect_error("a.obj", points + "f 1 2 " + std::string(100'000, '\033') + "\n", "vertex ????????????????????... of 3");
+    expect_error("a.obj", points + "f 1 2 " + std::string(100'000, '\033') + "\n",
+                 "vertex ????????????????????... of 3");
     expect_error("a.obj", points + "vn 0 0 1\nf 1//1 2//1 3//2\n", "a face with normal 2 of 1");
     expect_error("a.obj", "v 0 0 0\nv 1 0\n", "not a number, in line 2");
     expect_error("a.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite");
@@ -122,18 +127,23 @@ TEST_F(HostileMesh, Ply) {
     expect_error("a.ply",
                  start + "element vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
                  "no triangles");
-    expect_error("a.ply", start + "element nothing 18446744073709551615\nend_header\n", "no triangles");   // at once
+    expect_error("a.ply", start + "element nothing 18446744073709551615\nend_header\n", "no triangles");  // at once
 }
 
 TEST_F(HostileMesh, APlyWithMissingDataIsRefused) {
     const std::string start = "ply\nformat binary_little_endian 1.0\n";
     const std::string points = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
     const std::string nine(36, '\0');
-    expect_error("a.ply", start + points + "element face 4000000000\nproperty list uint int vertex_indices\nend_header\n" + nine, "ends early");
-    expect_error("a.ply", start + points + "element face 1\nproperty list uint int vertex_indices\nend_header\n" + nine + "\xff\xff\xff\xff",
+    expect_error("a.ply",
+                 start + points + "element face 4000000000\nproperty list uint int vertex_indices\nend_header\n" + nine,
+                 "ends early");
+    expect_error("a.ply",
+                 start + points + "element face 1\nproperty list uint int vertex_indices\nend_header\n" + nine +
+                     "\xff\xff\xff\xff",
                  "a list with a length of 4294967295");
     expect_error("a.ply", start + "element vertex -1\nproperty float x\nend_header\n", "an element without a count");
-    expect_error("a.ply", start + "element vertex 99999999999999999999\nproperty float x\nend_header\n", "an element without a count");
+    expect_error("a.ply", start + "element vertex 99999999999999999999\nproperty float x\nend_header\n",
+                 "an element without a count");
     std::string header = start;
     for (int i = 0; i < 10'000; ++i) header += "property int x\nelement a 0\n";
     expect_error("a.ply", start + "element a 0\n" + header + "end_header\n", "a header of more than 64 KiB");
@@ -142,9 +152,11 @@ TEST_F(HostileMesh, APlyWithMissingDataIsRefused) {
 TEST_F(HostileMesh, Stl) {
     expect_error("a.stl", "solid x\nendsolid x\n", "no triangles");
     expect_error("a.stl", "x", "no STL file");
-    expect_error("a.stl", std::string(84, '\xff'), "a binary one of 4294967295 facets would have 214748364834 bytes (it has 84)");
+    expect_error("a.stl", std::string(84, '\xff'),
+                 "a binary one of 4294967295 facets would have 214748364834 bytes (it has 84)");
     expect_error("a.stl", std::string(80, ' ') + std::string(4, '\0'), "no triangles");
-    expect_error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex a b c\n" + std::string(5000, 'y'),
+    expect_error("a.stl",
+                 "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex a b c\n" + std::string(5000, 'y'),
                  "not a number, in line 5");
     expect_error("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\nendsolid x\n",
                  "a facet of 1 corners");
@@ -155,10 +167,11 @@ TEST_F(HostileMesh, CoordinatesThatAreNotNumbers) {
     for (std::size_t place = 0; place < 9; ++place)
         for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::quiet_NaN(),
                                   std::numeric_limits<float>::infinity(), 2e30f}) {
-            std::array<float, 12> facet{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};   // normal, then three corners
+            std::array<float, 12> facet{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};  // normal, then three corners
             facet[3 + place] = wrong;
             std::string bytes(80, ' ');
-            bytes += std::string("\1\0\0\0", 4) + std::string(reinterpret_cast<const char*>(facet.data()), sizeof facet) + std::string(2, '\0');
+            bytes += std::string("\1\0\0\0", 4) +
+                     std::string(reinterpret_cast<const char*>(facet.data()), sizeof facet) + std::string(2, '\0');
             expect_error("a.stl", bytes, "holds a coordinate that is not a finite number");
         }
 }
@@ -174,8 +187,10 @@ TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {
         const std::string whole(std::istreambuf_iterator<char>(file), {});
         for (int i = 0; i < 40; ++i) {
             std::string text = whole;
-            if (i % 2) text.resize(random() % text.size());
-            else for (int k = 0; k < 3; ++k) text[random() % text.size()] = static_cast<char>(random());
+            if (i % 2)
+                text.resize(random() % text.size());
+            else
+                for (int k = 0; k < 3; ++k) text[random() % text.size()] = static_cast<char>(random());
             (error_of(write(fmt::format("{}{}", i, name), text)) == "no error" ? meshes : errors)++;
         }
     }

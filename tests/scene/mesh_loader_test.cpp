@@ -1,6 +1,6 @@
 // Results of valid mesh files: surfaces welded, closed and oriented outward, with plausible normals.
-#include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
+#include "mesh_files.h"
 #include "scene/mesh/mesh_normals.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ TEST_F(MeshLoader, ReadsEachKindOfFile) {
     EXPECT_EQ(load_mesh(asset("half_pipe.stl")).asset->surface.triangles.size(), 212u);
     EXPECT_EQ(load_mesh(asset("knot.ply")).asset->surface.triangles.size(), 4032u);
     EXPECT_EQ(load_mesh(asset("egg.gltf")).asset->surface.triangles.size(), 2976u);
-    EXPECT_EQ(load_mesh(asset("star.glb")).asset->surface.vertices.size(), 12u);   // welded from 60 corners
+    EXPECT_EQ(load_mesh(asset("star.glb")).asset->surface.vertices.size(), 12u);  // welded from 60 corners
 }
 
 TEST_F(MeshLoader, ATorusHasItsVolumeAndTheNormalsOfItsFile) {
@@ -68,7 +68,7 @@ TEST_F(MeshLoader, TheCradlesTrackIsWhereTheBallsSlide) {
     for (const Vec3& v : track.vertices) {
         EXPECT_NEAR(std::fabs(v.z()), 0.5, 1e-12);
         const double x = std::fabs(v.x()) - 1.0, radius = std::hypot(x, v.y() - 2.5);
-        EXPECT_GE(x, -1e-9);   // the floor is one flat face
+        EXPECT_GE(x, -1e-9);  // the floor is one flat face
         EXPECT_NEAR(radius, radius < 2.78 ? 2.75 : 2.81, 1e-6);
         if (radius < 2.78) ++upper;
         EXPECT_LE(std::atan2(x, 2.5 - v.y()), M_PI / 3.0 + 1e-6);
@@ -82,11 +82,11 @@ TEST_F(MeshLoader, ACubeIsExactAndHasHardEdges) {
     EXPECT_EQ(cube.asset->surface.vertices.size(), 8u);
     EXPECT_EQ(cube.asset->surface.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(cube.closedness.signed_volume, 8.0);
-    EXPECT_EQ(cube.asset->vertices.size(), 24u);   // three normals per corner
+    EXPECT_EQ(cube.asset->vertices.size(), 24u);  // three normals per corner
     expect_drawable(*cube.asset);
 }
 
-TEST_F(MeshLoader, DecimalsOfTheFileAreKeptExactly) {   // through assimp's floats
+TEST_F(MeshLoader, DecimalsOfTheFileAreKeptExactly) {  // through assimp's floats
     const auto mesh = load_mesh(write("a.obj", "v 0.1 0.2 0.3\nv 12.3456 0 0\nv 0 -0.0007 0\nf 1 2 3\n"));
     EXPECT_EQ(mesh.asset->surface.vertices[0], Vec3(0.1, 0.2, 0.3));
     EXPECT_EQ(mesh.asset->surface.vertices[1], Vec3(12.3456, 0, 0));
@@ -95,12 +95,12 @@ TEST_F(MeshLoader, DecimalsOfTheFileAreKeptExactly) {   // through assimp's floa
 
 TEST_F(MeshLoader, ARoundSurfaceWithoutNormalsIsSmooth) {
     const auto knot = load_mesh(asset("knot.ply"));
-    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->surface.vertices.size());   // one normal per point
+    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->surface.vertices.size());  // one normal per point
     const auto egg = load_mesh(asset("egg.gltf"));
     EXPECT_EQ(egg.asset->vertices.size(), egg.asset->surface.vertices.size());
     for (const MeshAsset::Vertex& v : egg.asset->vertices) {
         if (std::fabs(std::fabs(v.position[1]) - 0.5) > 1e-6) continue;
-        EXPECT_NEAR(std::fabs(v.normal[1]), 1.0, 1e-5);   // at the poles
+        EXPECT_NEAR(std::fabs(v.normal[1]), 1.0, 1e-5);  // at the poles
     }
 }
 
@@ -121,7 +121,7 @@ TEST_F(MeshLoader, AGemKeepsItsFlatFacets) {
 TEST_F(MeshLoader, StlFacetsOfARoundTubeAreSmoothed) {
     std::string stl = "solid tube\n";
     const auto corner = [](int k, double z) {
-        const double a = k * M_PI / 12.0;   // 24 sides: 15 degrees per edge
+        const double a = k * M_PI / 12.0;  // 24 sides: 15 degrees per edge
         return fmt::format("vertex {:.6f} {:.6f} {}\n", std::cos(a), std::sin(a), z);
     };
     for (int k = 0; k < 24; ++k) {
@@ -152,7 +152,8 @@ TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
     const std::array<std::string, 6> outward = {"1 4 3 2", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"};
     const std::array<std::string, 6> inward = {"2 3 4 1", "8 7 6 5", "5 6 2 1", "6 7 3 2", "7 8 4 3", "8 5 1 4"};
     for (unsigned which = 0; which < 63; ++which) {
-        std::string text = cube_points() + "v 9 0 0\nv 10 0 0\nv 9 1 0\nv 9 0 1\nf 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n";
+        std::string text =
+            cube_points() + "v 9 0 0\nv 10 0 0\nv 9 1 0\nv 9 0 1\nf 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n";
         for (unsigned face = 0; face < 6; ++face) text += "f " + (which >> face & 1 ? inward : outward)[face] + "\n";
         const auto mesh = load_mesh(write("a.obj", text));
         EXPECT_TRUE(mesh.closedness.closed()) << which;
@@ -164,7 +165,8 @@ TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
 // Of an open component the larger part decides.
 TEST_F(MeshLoader, OpenComponentsAreTurnedLikeMostOfTheirArea) {
     const std::string strip = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\n";
-    for (const auto& [faces, up] : {std::pair{"f 1 2 3 4\nf 2 5 6 3\nf 8 7 5 6\n", 1.0}, std::pair{"f 1 2 3 4\nf 3 6 5 2\nf 6 8 7 5\n", -1.0}}) {
+    for (const auto& [faces, up] :
+         {std::pair{"f 1 2 3 4\nf 2 5 6 3\nf 8 7 5 6\n", 1.0}, std::pair{"f 1 2 3 4\nf 3 6 5 2\nf 6 8 7 5\n", -1.0}}) {
         const auto mesh = load_mesh(write("strip.obj", strip + faces));
         EXPECT_EQ(mesh.closedness.crowded_edges, 0u) << faces;
         EXPECT_EQ(mesh.closedness.open_edges, 8u) << faces;
@@ -173,7 +175,7 @@ TEST_F(MeshLoader, OpenComponentsAreTurnedLikeMostOfTheirArea) {
 }
 
 TEST_F(MeshLoader, AOneSidedSurfaceIsUnchanged) {
-    std::string strip;   // a Moebius strip of 12 quads
+    std::string strip;  // a Moebius strip of 12 quads
     for (int k = 0; k < 12; ++k) {
         const double a = k * M_PI / 6.0, half = 0.5 * a;
         for (const double side : {-0.3, 0.3}) {
@@ -205,7 +207,7 @@ TEST_F(MeshLoader, PointsThatNoFaceUsesAndFacesWithoutAreaAreLeftOut) {
 TEST_F(MeshLoader, ASliverThatClosesAGapCountsForClosedness) {
     // The cube with a point at the center of edge 1-2, which one of its faces uses; the sliver 1, 2, 9 closes the gap.
     const auto mesh = load_mesh(write("a.obj", cube_points() + "v 0 -1 -1\nf 1 4 3 2\nf 5 6 7 8\nf 1 9 2 6 5\nf 1 2 9\n"
-                                               "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
+                                                               "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
     EXPECT_TRUE(mesh.closedness.closed());
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
     for (const auto& t : mesh.asset->surface.triangles) {
@@ -244,7 +246,8 @@ TEST_F(MeshLoader, AMirroredSheetKeepsItsFrontSide) {
             "nodes":[{{"mesh":0,"scale":{}}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
             "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
             "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":
-            "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})", scale);
+            "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
+                           scale);
     };
     for (const char* scale : {"[1,1,1]", "[1,-1,1]", "[-1,1,1]"}) {
         const auto mesh = load_mesh(write("sheet.gltf", sheet(scale)));

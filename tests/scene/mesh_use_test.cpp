@@ -61,8 +61,9 @@ TEST_F(MeshUse, FacesThatDisagreeAreTurned) {
 }
 
 TEST_F(MeshUse, FacesThatMeetByFoursAreNoSolid) {
-    write("hinge.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n"   // two tetrahedra on one edge
-                       "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
+    write("hinge.obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n"  // two tetrahedra on one edge
+          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
     EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"hinge.obj\" }").find("more than two triangles meet"),
               std::string::npos);
 }

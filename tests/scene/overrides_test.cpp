@@ -98,7 +98,7 @@ TEST(Overrides, ErrorsNameTheOption) {
     EXPECT_EQ(error([](auto& o) { o.samples = 3; }), "error: --samples: must be 1, 2 or 4 (given 3)");
     EXPECT_EQ(error([](auto& o) { o.integrator = "verlet"; }),
               "error: --integrator: must be one of \"symplectic-euler\", \"explicit-euler\", \"exact\", \"splitting\", "
-         "\"rk4\" (given \"verlet\")");
+              "\"rk4\" (given \"verlet\")");
     EXPECT_EQ(error([](auto& o) { o.impacts = "continuous"; }),
               "error: --impacts: must be one of \"stepped\", \"exact\" (given \"continuous\")");
     EXPECT_EQ(error([](auto& o) { o.impact_law = "both"; }),

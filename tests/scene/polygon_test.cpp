@@ -34,10 +34,10 @@ TEST(Polygon, ConvexOnesAndOnesWithDentsKeepTheirAreaInEveryPlane) {
         };
         expect_cut(placed({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
         expect_cut(placed({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}));
-        expect_cut(placed({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}));                          // an arrow head
+        expect_cut(placed({{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}}));  // an arrow head
         expect_cut(
             placed({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}));  // U
-        expect_cut(placed({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}));               // a corner on a side
+        expect_cut(placed({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}));  // a corner on a side
         std::vector<Vec3> star;
         for (int k = 0; k < 40; ++k) {
             const double r = k % 2 ? 0.3 : 1.0, a = k * M_PI / 20.0;
@@ -63,7 +63,9 @@ std::vector<std::array<std::uint32_t, 3>> cut_plainly(const std::vector<Vec3>& p
         bool ear = turn(p[t[0]], p[t[1]], p[t[2]]) > 0.0;
         for (std::size_t i = 2; i < n - 1; ++i) {
             const Vec3& q = p[left[(at + i) % n]];
-            if (turn(p[t[0]], p[t[1]], q) >= 0.0 && turn(p[t[1]], p[t[2]], q) >= 0.0 && turn(p[t[2]], p[t[0]], q) >= 0.0) ear = false;
+            if (turn(p[t[0]], p[t[1]], q) >= 0.0 && turn(p[t[1]], p[t[2]], q) >= 0.0 &&
+                turn(p[t[2]], p[t[0]], q) >= 0.0)
+                ear = false;
         }
         if (!ear && ++tried < n) {
             ++at;
@@ -85,16 +87,18 @@ TEST(Polygon, EarsEqualThoseOfTheSimpleMethod) {
         for (std::size_t i = 0; i < n; ++i) {
             const double angle = 2.0 * M_PI * double(i) / double(n), radius = i % 2 ? 0.2 + 0.8 * fraction() : 0.1;
             star.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
-            tangle.push_back({fraction(), fraction(), 0});                                             // crosses itself
-            lattice.push_back({double(random() % 5), double(random() % 5), 0});                        // points more than once
-            cluster.push_back({1e-3 * fraction(), 1e-3 * fraction(), 0});                              // all in one cell
-            fine.push_back({1.0 + std::ldexp(random() % 9, -46), 1.0 + std::ldexp(random() % 9, -46), 0});   // within rounding
+            tangle.push_back({fraction(), fraction(), 0});                       // crosses itself
+            lattice.push_back({double(random() % 5), double(random() % 5), 0});  // points more than once
+            cluster.push_back({1e-3 * fraction(), 1e-3 * fraction(), 0});        // all in one cell
+            fine.push_back(
+                {1.0 + std::ldexp(random() % 9, -46), 1.0 + std::ldexp(random() % 9, -46), 0});  // within rounding
         }
         for (auto* p : {&star, &tangle, &lattice, &cluster, &fine}) {
-            double area = 0.0;   // projected in the same way: clockwise polygons are seen from below
+            double area = 0.0;  // projected in the same way: clockwise polygons are seen from below
             for (std::size_t i = 0; i < p->size(); ++i) area += turn((*p)[0], (*p)[i], (*p)[(i + 1) % p->size()]);
-            if (area < 0.0) for (Vec3& v : *p) v.y() = -v.y();
-            if (area == 0.0) continue;   // no side is visible
+            if (area < 0.0)
+                for (Vec3& v : *p) v.y() = -v.y();
+            if (area == 0.0) continue;  // no side is visible
             EXPECT_EQ(cut_polygon(*p), cut_plainly(*p)) << n;
         }
     }
@@ -111,8 +115,8 @@ TEST(Polygon, DozensOfLargeOnesTakeASecond) {
 }
 
 TEST(Polygon, APolygonThatIsNotSimpleIsCutAsWell) {
-    EXPECT_EQ(cut_polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);   // a bow tie
-    EXPECT_EQ(cut_polygon(std::vector<Vec3>(6, Vec3(1, 2, 3))).size(), 4u);            // all in one point
+    EXPECT_EQ(cut_polygon({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);  // a bow tie
+    EXPECT_EQ(cut_polygon(std::vector<Vec3>(6, Vec3(1, 2, 3))).size(), 4u);           // all in one point
     EXPECT_TRUE(cut_polygon({{0, 0, 0}, {1, 0, 0}}).empty());
 }
 

@@ -77,19 +77,21 @@ TEST(SceneErrors, OfDepth) {
         {"format = 1\n" + repeated("a.", 15) + "a@." + repeated("a.", 300'000) + "a = 1", phrase},
         {"format = 1\n[" + repeated("a.", 15) + "a@." + repeated("a.", 300'000) + "a]", phrase},
         {"format = 1\n[[" + repeated("\"a\" . ", 15) + "'b'@.a]]", phrase},
-        {"# .................\ntitle = \"\"\"..................\n\"\"\"\nb = { " + repeated("a.", 15) + "a@.a = 1 }", phrase},
+        {"# .................\ntitle = \"\"\"..................\n\"\"\"\nb = { " + repeated("a.", 15) + "a@.a = 1 }",
+         phrase},
     });
     for (const std::string& open : {"["s, "{a=["s, "{a="s, "{"s + repeated("a.", 15) + "a="s})
         EXPECT_NE(error_of("format = 1\nx = " + repeated(open, 200'000)).find("error: "), std::string::npos) << open;
     const std::string key = repeated("a.", 15) + "a", end = repeated("}", 200);
     EXPECT_NE(error_of("format = 1\n" + key + " = " + repeated("{" + key + "=", 200) + "1" + end).find("unknown key"),
-              std::string::npos) << "as deep as the parser goes";
+              std::string::npos)
+        << "as deep as the parser goes";
 }
 
 TEST(SceneErrors, DotsInStringsAndCommentsAreNoDepth) {
     for (const std::string& title : {"\"....................\\\"....\""s, "'....................'"s,
-                                     "\"\"\"\n.....\\\"\"\".....\n...........\"\"\""s, "'''\n..........'..........\n'''"s,
-                                     "\"x\" # ...................."s})
+                                     "\"\"\"\n.....\\\"\"\".....\n...........\"\"\""s,
+                                     "'''\n..........'..........\n'''"s, "\"x\" # ...................."s})
         EXPECT_EQ(error_of("format = 1\ntitle = " + title + "\n"), "no error") << title;
 }
 
@@ -148,7 +150,8 @@ TEST(SceneErrors, OfTheSimulation) {
         {"format = 1\n[simulation]\nintegrator = @\"verlet\"",
          "integrator must be one of \"symplectic-euler\", \"explicit-euler\", \"exact\", \"splitting\", "
          "\"rk4\" (given \"verlet\")"},
-        {"format = 1\n[simulation]\nimpacts = @\"continuous\"", "impacts must be one of \"stepped\", \"exact\" (given \"continuous\")"},
+        {"format = 1\n[simulation]\nimpacts = @\"continuous\"",
+         "impacts must be one of \"stepped\", \"exact\" (given \"continuous\")"},
         {"format = 1\n[simulation]\nimpact_law = @\"newton\"",
          "impact_law must be one of \"propagating\", \"simultaneous\" (given \"newton\")"},
         {"format = 1\n[simulation]\nrotation = @\"euler\"", "rotation must be one of \"quaternion\", \"matrix\""},
@@ -179,14 +182,20 @@ TEST(SceneErrors, OfThePicture) {
         {"format = 1\n[camera]\norbit = @\"fast\"", "orbit must be a number"},
         {"format = 1\n[camera]\ninterpolation = @\"linear\"", "is for a camera with keyframes"},
         {"format = 1\n[camera]\nkeyframes = @[]", "must hold at least one keyframe"},
-        {"format = 1\n[camera]\nkeyframes = [{ time = 1 }, { time = @1 }]", "must come after the keyframe before, at 1 s"},
+        {"format = 1\n[camera]\nkeyframes = [{ time = 1 }, { time = @1 }]",
+         "must come after the keyframe before, at 1 s"},
         {"format = 1\n[camera]\nkeyframes = [{ time = 0, @position = [0, 0, 0] }]", "unknown key \"position\""},
-        {"format = 1\n[camera]\nkeyframes = [{ time = 0, eye = @[1, 1, 1], target = [1, 1, 1] }]", "must not be at the target"},
-        {"format = 1\n[camera]\nkeyframes = [{ time = 0, eye = @[0, 9, 0], target = [0, 0, 0] }]", "looks along its up direction"},
-        {"format = 1\n[camera]\nkeyframes = [{ time = 0, vertical_fov = @0 }]", "vertical_fov must be from 1 to 170 degrees"},
-        {"format = 1\n[camera]\nfollow = @\"bal\"\n[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 1 }",
+        {"format = 1\n[camera]\nkeyframes = [{ time = 0, eye = @[1, 1, 1], target = [1, 1, 1] }]",
+         "must not be at the target"},
+        {"format = 1\n[camera]\nkeyframes = [{ time = 0, eye = @[0, 9, 0], target = [0, 0, 0] }]",
+         "looks along its up direction"},
+        {"format = 1\n[camera]\nkeyframes = [{ time = 0, vertical_fov = @0 }]",
+         "vertical_fov must be from 1 to 170 degrees"},
+        {"format = 1\n[camera]\nfollow = @\"bal\"\n[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 1 "
+         "}",
          "\"bal\" is not the name of a body (did you mean \"ball\"?)"},
-        {"format = 1\n[camera]\nfollow = @\"wall\"\n[[body]]\nname = \"wall\"\ntype = \"fixed\"\nshape = { type = \"sphere\", radius = 1 }",
+        {"format = 1\n[camera]\nfollow = @\"wall\"\n[[body]]\nname = \"wall\"\ntype = \"fixed\"\nshape = { type = "
+         "\"sphere\", radius = 1 }",
          "must be a body that moves"},
         {"format = 1\n[camera]\neye = [@1e300, 0, 0]", "eye must be from -1000000000 to 1000000000 m (given 1e+300)"},
         {"format = 1\n[light]\ndirection = @[0, 0, 0]", "direction must not be zero"},
@@ -320,7 +329,7 @@ TEST(SceneErrors, ShowTheGivenTextInReadableLength) {
         error_of("format = 1\n[simulation]\nintegrator = 3\ngravity = \"" + std::string(500, 'x') + "\\n\"");
     EXPECT_LT(error.size(), 200u);
     EXPECT_EQ(error.find('\n'), std::string::npos);
-    EXPECT_EQ(error_of("format = 1\nx = fa\n").find('\n'), std::string::npos);   // toml++ quotes the line's end
+    EXPECT_EQ(error_of("format = 1\nx = fa\n").find('\n'), std::string::npos);  // toml++ quotes the line's end
 }
 
 TEST(SceneErrors, OfTheFile) {

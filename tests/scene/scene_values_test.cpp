@@ -156,7 +156,7 @@ TEST(SceneValues, BodiesTakeMissingKeysFromTheirMaterial) {
     EXPECT_NEAR(ball.rotation.z(), std::sqrt(0.5), 1e-15);
 
     const BodyDescription& box = scene.bodies[2];
-    EXPECT_EQ(box.name, "2");   // the index in the file
+    EXPECT_EQ(box.name, "2");  // the index in the file
     EXPECT_EQ(std::get<BoxShape>(box.shape).size, Vec3(1, 2, 3));
     EXPECT_EQ(box.density, 500.0);
     EXPECT_FALSE(box.mass.has_value());
@@ -166,8 +166,8 @@ TEST(SceneValues, BodiesTakeMissingKeysFromTheirMaterial) {
     EXPECT_EQ(box.surface.metallic, 0.25);
     EXPECT_EQ(box.surface.pattern, Pattern::grid);
     EXPECT_EQ(box.integrator, IntegratorKind::symplectic_euler);
-    EXPECT_FALSE(ball.integrator.has_value());   // the simulation's
-    EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);   // 0.7071 is close enough to be normalized
+    EXPECT_FALSE(ball.integrator.has_value());     // the simulation's
+    EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);  // 0.7071 is close enough to be normalized
 }
 
 TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnDefaults) {
@@ -191,7 +191,7 @@ TEST(SceneValues, KeyframesKeepMissingPartsOfThePose) {
     EXPECT_EQ(paddle.keyframes[0].rotation.coeffs(), Quat(0, 1, 0, 0).coeffs());
     EXPECT_EQ(paddle.keyframes[1].position, Vec3(1, 0, 0));
     EXPECT_EQ(paddle.keyframes[1].rotation.coeffs(), Quat::Identity().coeffs());
-    EXPECT_EQ(paddle.rotation.coeffs(), Quat(0, 1, 0, 0).coeffs());   // its pose is that of the first keyframe
+    EXPECT_EQ(paddle.rotation.coeffs(), Quat(0, 1, 0, 0).coeffs());  // its pose is that of the first keyframe
 }
 
 TEST(SceneValues, ForcesAndCordsFindTheirBodies) {
@@ -203,7 +203,7 @@ TEST(SceneValues, ForcesAndCordsFindTheirBodies) {
     EXPECT_TRUE(scene.forces[0].body_frame);
     EXPECT_EQ(scene.forces[0].start, 0.5);
     EXPECT_EQ(scene.forces[0].end, 1.5);
-    EXPECT_EQ(scene.forces[1].body, 2u);   // by its index
+    EXPECT_EQ(scene.forces[1].body, 2u);  // by its index
     EXPECT_FALSE(scene.forces[1].body_frame);
     EXPECT_EQ(scene.forces[1].end, std::numeric_limits<double>::infinity());
     ASSERT_EQ(scene.cords.size(), 1u);
@@ -243,7 +243,7 @@ TEST(SceneValues, ABodyWithoutMaterialHasTheDefaultsOfTheFormat) {
 
 TEST(SceneValues, AStepThatDividesTheFrameBecomesItsNumberOfSteps) {
     EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 0.0005\n[output]\nfps = 50").simulation.steps_per_frame, 40);
-    EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 0.016666667").simulation.steps_per_frame, 1);   // within 1e-9 s
+    EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 0.016666667").simulation.steps_per_frame, 1);  // within 1e-9 s
     EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 1e-6\n[output]\nfps = 1e6").simulation.steps_per_frame, 1);
 }
 
@@ -265,7 +265,8 @@ type = "fixed"
 name = "ball"
 shape = { type = "sphere", radius = 1 }
 position = [7, 8, 9]
-)").camera;
+)")
+                            .camera;
     EXPECT_TRUE(camera.moves());
     EXPECT_EQ(camera.orbit, -36.0);
     EXPECT_EQ(camera.follow, 1u);
@@ -283,7 +284,8 @@ position = [7, 8, 9]
 
 TEST(SceneValues, ACameraThatFollowsLooksAtItsBody) {
     const std::string scene =
-        "format = 1\n[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 1 }\nposition = [7, 8, 9]\n[camera]\n";
+        "format = 1\n[[body]]\nname = \"ball\"\nshape = { type = \"sphere\", radius = 1 }\nposition = [7, 8, "
+        "9]\n[camera]\n";
     EXPECT_FALSE(parse(scene).camera.moves());
     EXPECT_EQ(parse(scene + "follow = \"ball\"").camera.target, Vec3(7, 8, 9));
     EXPECT_EQ(parse(scene + "follow = \"ball\"\ntarget = [1, 1, 1]").camera.target, Vec3(1, 1, 1));
@@ -298,8 +300,8 @@ TEST(SceneValues, FrameCount) {
     };
     EXPECT_EQ(frames(0.0, 60.0), 1);
     EXPECT_EQ(frames(5.0, 60.0), 301);
-    EXPECT_EQ(frames(4.35, 100.0), 436);    // 434.99999999999994 means 435
-    EXPECT_EQ(frames(0.999, 60.0), 60);     // 59.94: the last frame is before the end
+    EXPECT_EQ(frames(4.35, 100.0), 436);  // 434.99999999999994 means 435
+    EXPECT_EQ(frames(0.999, 60.0), 60);   // 59.94: the last frame is before the end
     EXPECT_EQ(frames(1.0, 29.97), 30);
     EXPECT_EQ(frames(1.0, 1e6), 1000001);
     EXPECT_EQ(frames(100.0, 1e-3), 1);
@@ -309,7 +311,9 @@ TEST(SceneValues, FrameCount) {
 TEST(SceneValues, WholeTurnsAreNoRotation) {
     for (const char* angle : {"0", "360", "720", "-1440", "720000"}) {
         const auto body = parse(std::string("format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }\n"
-                                            "rotation = { axis = [1, 1, 0], angle = ") + angle + " }").bodies[0];
+                                            "rotation = { axis = [1, 1, 0], angle = ") +
+                                angle + " }")
+                              .bodies[0];
         EXPECT_EQ(body.rotation.coeffs(), Quat::Identity().coeffs()) << angle;
     }
 }

@@ -1,6 +1,6 @@
 // The projection onto the cone of nonapproaching velocities, checked by its optimality conditions.
-#include "random_shapes.h"
 #include "sim/impact/active_set.h"
+#include "random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,9 @@ void expect_optimal(const Problem& p, const std::vector<double>& lambda, double 
         const double value = p.demands[i].value + p.rows[p.demands[i].row].dot(d);
         EXPECT_GE(lambda[i], 0.0);
         EXPECT_GE(value, -tolerance);
-        if (lambda[i] > 1e-12) { EXPECT_LE(value, tolerance); }
+        if (lambda[i] > 1e-12) {
+            EXPECT_LE(value, tolerance);
+        }
     }
 }
 
@@ -94,7 +96,8 @@ TEST(ActiveSet, KeepsNoStateBetweenSolves) {
     ActiveSet used(p.rows, p.bodies);
     std::vector<double> lambda, fresh;
     for (std::size_t first = 0; first < 15; ++first) {
-        const std::vector<ActiveSet::Demand> part(p.demands.begin() + std::ptrdiff_t(first), p.demands.begin() + std::ptrdiff_t(first) + 5);
+        const std::vector<ActiveSet::Demand> part(p.demands.begin() + std::ptrdiff_t(first),
+                                                  p.demands.begin() + std::ptrdiff_t(first) + 5);
         used.solve(part, lambda);
         ActiveSet(p.rows, p.bodies).solve(part, fresh);
         EXPECT_EQ(lambda, fresh);
@@ -113,7 +116,7 @@ TEST(ActiveSet, SpreadsOverDependentRows) {
     }
     std::vector<double> lambda;
     ASSERT_TRUE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
-    const double expected = 0.25 * (1.0 + 0.49 + 0.16);   // of rows of length sqrt(1.65): 4 lambda / 1.65 = 1
+    const double expected = 0.25 * (1.0 + 0.49 + 0.16);  // of rows of length sqrt(1.65): 4 lambda / 1.65 = 1
     for (const double l : lambda) EXPECT_NEAR(l, expected, 1e-15);
     expect_optimal(p, lambda, 1e-15);
 }
@@ -131,7 +134,7 @@ TEST(ActiveSet, ReportsContradictoryDemands) {
     p.add(row, -2.0);
     std::vector<double> lambda;
     EXPECT_FALSE(ActiveSet(p.rows, p.bodies).solve(p.demands, lambda));
-    EXPECT_NEAR(p.demands[2].value + p.rows[2].dot(change(p, lambda)), 0.0, 1e-15);   // the compatible demand is met
+    EXPECT_NEAR(p.demands[2].value + p.rows[2].dot(change(p, lambda)), 0.0, 1e-15);  // the compatible demand is met
     for (const double l : lambda) EXPECT_LT(l, 10.0);
 }
 

@@ -58,7 +58,8 @@ void expect_near(const RigidState& s, const ReferenceBody& truth, double mass, d
     EXPECT_LT((s.position - truth.position()).norm(), allowed * (1.0 + truth.position().norm()));
     EXPECT_LT(truth.angle_to(s.orientation), allowed);
     EXPECT_LT((s.momentum / mass - truth.velocity()).norm(), allowed * (1.0 + truth.velocity().norm()));
-    EXPECT_LT((s.angular_momentum - truth.angular_momentum()).norm(), allowed * (1.0 + truth.angular_momentum().norm()));
+    EXPECT_LT((s.angular_momentum - truth.angular_momentum()).norm(),
+              allowed * (1.0 + truth.angular_momentum().norm()));
 }
 
 }  // namespace
@@ -105,7 +106,8 @@ TEST(AdvanceExactly, ThrownUpThroughAir) {
     for (const double t : {0.5 * top, 0.99 * top, top, 1.5 * top, 3.0 * top}) {
         const RigidState s = exactly(scene, 0.0, t);
         const double x = g * (t - top) / terminal;
-        EXPECT_NEAR(s.momentum.y() / 0.05, t < top ? -terminal * std::tan(x) : -terminal * std::tanh(x), 2e-12) << t / top;
+        EXPECT_NEAR(s.momentum.y() / 0.05, t < top ? -terminal * std::tan(x) : -terminal * std::tanh(x), 2e-12)
+            << t / top;
         const double way = terminal * terminal / g * (t < top ? -std::log(std::cos(x)) : std::log(std::cosh(x)));
         EXPECT_NEAR(s.position.y(), height - way, 2e-12) << t / top;
     }
@@ -121,7 +123,7 @@ TEST(AdvanceExactly, DragLeavesTheRotationInClosedForm) {
     EXPECT_EQ(s.orientation.coeffs(), free.orientation.coeffs());
     EXPECT_EQ(s.angular_momentum, free.angular_momentum);
     ReferenceBody truth = reference_of(scene);
-    truth.inertia = {1e9, 1e9, 1e9};   // as if it did not rotate: the center is independent of the rotation
+    truth.inertia = {1e9, 1e9, 1e9};  // as if it did not rotate: the center is independent of the rotation
     truth.advance(3.0, 60000);
     EXPECT_LT((s.position - truth.position()).norm(), 1e-12);
 }
@@ -147,7 +149,8 @@ TEST(AdvanceExactly, ConstantTorqueAboutAPrincipalAxis) {
     const double inertia = 3.0 * 2.0 / 12.0, t = 8.0;
     const RigidState s = exactly(scene, 0.0, t);
     EXPECT_NEAR(s.angular_momentum.z(), t, 1e-13);
-    EXPECT_LT(s.orientation.angularDistance(turn(Vec3::UnitZ(), std::remainder(0.5 * t * t / inertia, 2.0 * M_PI))), 1e-12);
+    EXPECT_LT(s.orientation.angularDistance(turn(Vec3::UnitZ(), std::remainder(0.5 * t * t / inertia, 2.0 * M_PI))),
+              1e-12);
 }
 
 // Forces begin and end anywhere within the span: the result is the sum over the spans between them.

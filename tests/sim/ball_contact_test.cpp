@@ -20,7 +20,8 @@ Vec3 nearest_point(const Polyhedron& shape, const Vec3& p) {
     };
     for (const auto& face : shape.faces)
         for (std::size_t k = 2; k < face.vertices.size(); ++k) {
-            const Vec3 t[3] = {shape.vertices[face.vertices[0]], shape.vertices[face.vertices[k - 1]], shape.vertices[face.vertices[k]]};
+            const Vec3 t[3] = {shape.vertices[face.vertices[0]], shape.vertices[face.vertices[k - 1]],
+                               shape.vertices[face.vertices[k]]};
             const Vec3 n = (t[1] - t[0]).cross(t[2] - t[0]).normalized(), foot = p - n.dot(p - t[0]) * n;
             bool inside = true;
             for (int i = 0; i < 3; ++i) {
@@ -46,7 +47,8 @@ TEST(BallOnPolyhedron, OutsideMatchesBruteForce) {
         const Vec3 nearest = nearest_point(*shape, center);
         const double separation = (center - nearest).norm() - radius;
         const Pose pose = random.pose(3.0);
-        const auto manifolds = collide_all(shape, pose, Ball{radius}, {pose.to_world(center), random.turn().toRotationMatrix()}, 0.05);
+        const auto manifolds =
+            collide_all(shape, pose, Ball{radius}, {pose.to_world(center), random.turn().toRotationMatrix()}, 0.05);
         if (std::abs(separation - 0.05) < 1e-12) continue;
         ASSERT_EQ(manifolds.size(), separation < 0.05 ? 1u : 0u) << separation;
         if (manifolds.empty()) continue;
@@ -93,7 +95,8 @@ TEST(BallOnPolyhedron, CenterOnTheSurface) {
             for (const Vec3& on : {mean(corners), Vec3(0.5 * (corners[0] + corners[1])), corners[0]})
                 for (const double off : {0.0, 1e-17, 1e-16, 1e-15, 1e-12, -1e-16}) {
                     const Vec3 center = on + off * face.normal;
-                    const auto found = collide_all(shape, pose, Ball{0.2}, {pose.to_world(center), Mat3::Identity()}, 0.0);
+                    const auto found =
+                        collide_all(shape, pose, Ball{0.2}, {pose.to_world(center), Mat3::Identity()}, 0.0);
                     ASSERT_EQ(found.size(), 1u);
                     ASSERT_NEAR(found[0].normal.norm(), 1.0, 1e-12);
                     EXPECT_NEAR(deepest(found), -0.2, 1e-11);
@@ -114,7 +117,8 @@ TEST(BallOnBall, DistanceNormalAndMiddle) {
     for (int trial = 0; trial < 200; ++trial) {
         const Vec3 p = random.vector(100.0), way = random.direction();
         const double ra = random(0.01, 2.0), rb = random(0.01, 2.0), gap = random(-0.01, 0.03);
-        const auto found = collide_all(Ball{ra}, {p, Mat3::Identity()}, Ball{rb}, {p + (ra + rb + gap) * way, Mat3::Identity()}, 0.02);
+        const auto found =
+            collide_all(Ball{ra}, {p, Mat3::Identity()}, Ball{rb}, {p + (ra + rb + gap) * way, Mat3::Identity()}, 0.02);
         ASSERT_EQ(found.size(), gap < 0.02 ? 1u : 0u);
         if (found.empty()) continue;
         EXPECT_NEAR(deepest(found), gap, 1e-12);
@@ -147,7 +151,7 @@ TEST(BallOnHalfSpace, RotatedAndMovedPlane) {
         const Pose pose = random.pose(10.0);
         const Vec3 on = pose.to_world(space.offset * space.normal + 4.0 * space.normal.unitOrthogonal());
         const Vec3 normal = pose.rotation * space.normal;
-        const double gap = random(-3.0, 0.019);   // deep: also with the center below
+        const double gap = random(-3.0, 0.019);  // deep: also with the center below
         const auto found = collide_all(space, pose, Ball{0.5}, {on + (0.5 + gap) * normal, Mat3::Identity()}, 0.02);
         ASSERT_EQ(found.size(), 1u);
         EXPECT_LT((found[0].normal - normal).norm(), 1e-14);

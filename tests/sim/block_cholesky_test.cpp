@@ -2,9 +2,9 @@
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/random_shapes.h"
 
+#include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
 using namespace tumble;
 using namespace tumble::testing;
@@ -43,7 +43,8 @@ void fill(BlockCholesky& blocks, const Eigen::MatrixXd& h, std::size_t bodies, c
     blocks.set_zero();
     for (std::size_t i = 0; i < bodies; ++i)
         for (int r = 0; r < 6; ++r)
-            for (int c = 0; c < 6; ++c) blocks.diagonal(i).row[r][c] = h(Eigen::Index(6 * i) + r, Eigen::Index(6 * i) + c);
+            for (int c = 0; c < 6; ++c)
+                blocks.diagonal(i).row[r][c] = h(Eigen::Index(6 * i) + r, Eigen::Index(6 * i) + c);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto of_rows = Eigen::Index(6 * (blocks.transposed(k) ? pairs[k].j : pairs[k].i));
         const auto of_columns = Eigen::Index(6 * (blocks.transposed(k) ? pairs[k].i : pairs[k].j));
@@ -52,7 +53,8 @@ void fill(BlockCholesky& blocks, const Eigen::MatrixXd& h, std::size_t bodies, c
     }
 }
 
-void expect_solves(BlockCholesky& blocks, const Eigen::MatrixXd& h, std::size_t bodies, const Pairs& pairs, Random& random) {
+void expect_solves(BlockCholesky& blocks, const Eigen::MatrixXd& h, std::size_t bodies, const Pairs& pairs,
+                   Random& random) {
     fill(blocks, h, bodies, pairs);
     ASSERT_TRUE(blocks.factor());
     std::vector<double> x(6 * bodies);
@@ -78,7 +80,7 @@ Pairs random_pairs(Random& random, std::size_t bodies, int count) {
 
 TEST(BlockCholesky, AgreesWithADenseFactorization) {
     Random random(1);
-    BlockCholesky blocks;   // shared by all graphs: an analysis must not affect the next
+    BlockCholesky blocks;  // shared by all graphs: an analysis must not affect the next
     for (int trial = 0; trial < trials(200); ++trial) {
         const std::size_t bodies = 2 + std::size_t(random.below(20));
         const Pairs pairs = random_pairs(random, bodies, random.below(int(3 * bodies)));

@@ -14,14 +14,16 @@ namespace {
 
 constexpr std::size_t most = 32;
 
-std::vector<std::vector<std::uint32_t>> blocks_of(const std::vector<std::vector<std::uint32_t>>& islands, const std::vector<Body>& bodies) {
+std::vector<std::vector<std::uint32_t>> blocks_of(const std::vector<std::vector<std::uint32_t>>& islands,
+                                                  const std::vector<Body>& bodies) {
     BodyBlocks blocks(most);
     blocks.add(islands.front(), bodies);
-    blocks.clear();   // removes all blocks
+    blocks.clear();  // removes all blocks
     for (const auto& island : islands) blocks.add(island, bodies);
     std::vector<std::vector<std::uint32_t>> found;
     for (std::size_t b = 0; b < blocks.size(); ++b)
-        found.emplace_back(blocks.order().begin() + std::ptrdiff_t(blocks.first(b)), blocks.order().begin() + std::ptrdiff_t(blocks.first(b + 1)));
+        found.emplace_back(blocks.order().begin() + std::ptrdiff_t(blocks.first(b)),
+                           blocks.order().begin() + std::ptrdiff_t(blocks.first(b + 1)));
     EXPECT_EQ(blocks.first(blocks.size()), blocks.order().size());
     return found;
 }
@@ -36,7 +38,8 @@ TEST(BodyBlocks, EveryBodyOnceInBlocksThatAreSmallEnough) {
         for (auto& island : islands)
             for (int i = random.below(2) ? 1 + random.below(200) : 1 + random.below(20); i > 0; --i) {
                 island.push_back(std::uint32_t(bodies.size()));
-                bodies.emplace_back().position = random.below(3) ? random.vector(5.0) : Vec3::Ones();   // some all in one place
+                bodies.emplace_back().position =
+                    random.below(3) ? random.vector(5.0) : Vec3::Ones();  // some all in one place
             }
         std::set<std::uint32_t> seen;
         for (const auto& block : blocks_of(islands, bodies)) {
@@ -50,10 +53,13 @@ TEST(BodyBlocks, EveryBodyOnceInBlocksThatAreSmallEnough) {
         const auto all = blocks_of(islands, bodies);
         for (const auto& island : islands) {
             if (island.size() <= most) {
-                EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& b) { return std::includes(b.begin(), b.end(), island.begin(), island.end()); }));
+                EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const auto& b) {
+                    return std::includes(b.begin(), b.end(), island.begin(), island.end());
+                }));
                 continue;
             }
-            for (const auto& block : blocks_of({island}, bodies)) EXPECT_NE(std::find(all.begin(), all.end(), block), all.end());
+            for (const auto& block : blocks_of({island}, bodies))
+                EXPECT_NE(std::find(all.begin(), all.end(), block), all.end());
         }
     }
 }

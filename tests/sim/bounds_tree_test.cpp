@@ -1,6 +1,6 @@
 // The tree finds exactly what a loop over all items finds.
-#include "random_shapes.h"
 #include "sim/geometry/bounds_tree.h"
+#include "random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -64,10 +64,10 @@ TEST(BoundsTree, DegenerateBoxes) {
         nested.push_back({Vec3::Constant(-i), Vec3::Constant(i)});
     }
     for (int i = 0; i < 50; ++i) queries.push_back(random_box(random, 3.0, 1.0));
-    queries.push_back({Vec3::Ones(), Vec3::Ones()});                       // touches a corner: overlap
-    queries.push_back({Vec3::Constant(1.0 + 1e-15), Vec3::Constant(2.0)});   // beyond it by one digit: no overlap
-    queries.push_back({Vec3(3.0, -1.0, -1.0), Vec3(3.0, 1.0, 1.0)});         // through the boundary between boxes
-    queries.push_back(Bounds{});                                           // empty
+    queries.push_back({Vec3::Ones(), Vec3::Ones()});                        // touches a corner: overlap
+    queries.push_back({Vec3::Constant(1.0 + 1e-15), Vec3::Constant(2.0)});  // beyond it by one digit: no overlap
+    queries.push_back({Vec3(3.0, -1.0, -1.0), Vec3(3.0, 1.0, 1.0)});        // through the boundary between boxes
+    queries.push_back(Bounds{});                                            // empty
     for (const auto& items : {alike, points, line, nested}) expect_like_brute_force(items, queries);
 }
 

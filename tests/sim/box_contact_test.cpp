@@ -1,6 +1,6 @@
 // Boxes on boxes and on the ground, in typical poses: aligned, rotated, edge on edge, degenerate.
-#include "random_shapes.h"
 #include "core/rotation.h"
+#include "random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ double contact_area(const Manifold& m) {
         return std::atan2(s.dot(a - center), t.dot(a - center)) < std::atan2(s.dot(b - center), t.dot(b - center));
     });
     double area = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) area += 0.5 * m.normal.dot((p[i] - center).cross(p[(i + 1) % p.size()] - center));
+    for (std::size_t i = 0; i < p.size(); ++i)
+        area += 0.5 * m.normal.dot((p[i] - center).cross(p[(i + 1) % p.size()] - center));
     return area;
 }
 
@@ -39,9 +40,11 @@ struct BoxKind {
     const char* name;
     PolyhedronRef (*make)(const Vec3&);
 };
-const BoxKind kinds[] = {{"box", box_of}, {"plain", plain_box}, {"hull", [](const Vec3& size) -> PolyhedronRef {
-    return std::make_shared<const Polyhedron>(make_hull(make_box(size).vertices, Vec3::Zero()));
-}}};
+const BoxKind kinds[] = {
+    {"box", box_of}, {"plain", plain_box}, {"hull", [](const Vec3& size) -> PolyhedronRef {
+                                                return std::make_shared<const Polyhedron>(
+                                                    make_hull(make_box(size).vertices, Vec3::Zero()));
+                                            }}};
 
 }  // namespace
 
@@ -102,7 +105,7 @@ TEST(BoxOnBox, RotatedByFortyFiveDegrees) {
 TEST(BoxOnBox, CrossedEdgesTouchAtOnePoint) {
     for (const BoxKind& kind : kinds) {
         const auto box = kind.make({2.0, 2.0, 2.0});
-        const double top = std::numbers::sqrt2;   // of an edge on top
+        const double top = std::numbers::sqrt2;  // of an edge on top
         for (const double gap : {-0.05, -1e-4, 0.01}) {
             const Pose below{Vec3::Zero(), turned(Vec3::UnitX(), std::numbers::pi / 4)};
             const Pose above{{0.1, 2.0 * top + gap, 0.2}, turned(Vec3::UnitZ(), std::numbers::pi / 4)};
@@ -121,7 +124,8 @@ TEST(BoxOnBox, AsBoxAndAsHullAgree) {
     Random random(31);
     int found = 0;
     for (int trial = 0; trial < 1000; ++trial) {
-        const Vec3 size_a(random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)), size_b(random(0.2, 2.0), random(0.2, 2.0), 1.0);
+        const Vec3 size_a(random(0.2, 2.0), random(0.2, 2.0), random(0.2, 2.0)),
+            size_b(random(0.2, 2.0), random(0.2, 2.0), 1.0);
         const Pose a = random.pose(0.7), b = random.pose(0.7);
         const auto quick = collide_all(box_of(size_a), a, box_of(size_b), b, 0.02);
         const auto plain = collide_all(plain_box(size_a), a, plain_box(size_b), b, 0.02);
@@ -158,7 +162,7 @@ TEST(BoxOnBox, FeaturesStayTheSameUnderSmallMotion) {
             changed += features(now) != features(before);
         }
     }
-    EXPECT_LE(changed, total / 100);   // a corner right on an edge may come and go
+    EXPECT_LE(changed, total / 100);  // a corner right on an edge may come and go
 }
 
 // Only ties: corner on corner, corner on edge, edge along edge, face edges exactly over each other.
@@ -170,13 +174,13 @@ TEST(BoxOnBox, DegenerateTouchesAreFiniteAndShallow) {
         Mat3 below, above;
         Vec3 at;
     };
-    const Case cases[] = {{on_corner, on_corner, {0.0, 2.0 * diagonal, 0.0}},                      // corner on corner
-                          {on_edge, on_corner, {0.0, std::numbers::sqrt2 + diagonal, 0.0}},        // corner on edge
-                          {on_edge, on_edge, {0.0, 2.0 * std::numbers::sqrt2, 0.0}},               // edge along edge
-                          {Mat3::Identity(), on_edge, {0.0, 1.0 + std::numbers::sqrt2, 0.0}},      // edge on face
-                          {Mat3::Identity(), on_corner, {0.0, 1.0 + diagonal, 0.0}},               // corner on face
-                          {Mat3::Identity(), Mat3::Identity(), {2.0, 2.0, 0.0}},                   // edges side by side
-                          {Mat3::Identity(), Mat3::Identity(), {2.0, 2.0, 2.0}}};                  // corners side by side
+    const Case cases[] = {{on_corner, on_corner, {0.0, 2.0 * diagonal, 0.0}},                  // corner on corner
+                          {on_edge, on_corner, {0.0, std::numbers::sqrt2 + diagonal, 0.0}},    // corner on edge
+                          {on_edge, on_edge, {0.0, 2.0 * std::numbers::sqrt2, 0.0}},           // edge along edge
+                          {Mat3::Identity(), on_edge, {0.0, 1.0 + std::numbers::sqrt2, 0.0}},  // edge on face
+                          {Mat3::Identity(), on_corner, {0.0, 1.0 + diagonal, 0.0}},           // corner on face
+                          {Mat3::Identity(), Mat3::Identity(), {2.0, 2.0, 0.0}},               // edges side by side
+                          {Mat3::Identity(), Mat3::Identity(), {2.0, 2.0, 2.0}}};              // corners side by side
     for (const BoxKind& kind : kinds) {
         const auto box = kind.make({2.0, 2.0, 2.0});
         for (const Case& c : cases)
@@ -191,7 +195,8 @@ TEST(BoxOnBox, DegenerateTouchesAreFiniteAndShallow) {
                     EXPECT_GT(m.normal.dot(c.at), 0.0);
                     for (int i = 0; i < m.count; ++i) {
                         EXPECT_TRUE(m.points[std::size_t(i)].position.allFinite());
-                        EXPECT_GE(m.points[std::size_t(i)].separation, gap - 1e-9) << kind.name << " " << c.at.transpose();
+                        EXPECT_GE(m.points[std::size_t(i)].separation, gap - 1e-9)
+                            << kind.name << " " << c.at.transpose();
                     }
                 }
             }
@@ -207,7 +212,7 @@ TEST(BoxOnGround, FlatEdgeAndCorner) {
         EXPECT_EQ(flat[0].count, 4);
         EXPECT_NEAR(contact_area(flat[0]), 3.0, 1e-12);
         EXPECT_NEAR(deepest(flat), -0.05, 1e-12);
-        EXPECT_NEAR(flat[0].points[0].position.y(), 0.225, 1e-12);   // halfway between the surfaces
+        EXPECT_NEAR(flat[0].points[0].position.y(), 0.225, 1e-12);  // halfway between the surfaces
         const auto edge = collide_all(ground, {}, box, {{0.0, 1.2, 0.0}, turned(Vec3::UnitZ(), 0.4)}, 0.01);
         ASSERT_EQ(edge.size(), 1u);
         EXPECT_EQ(edge[0].count, 2);
@@ -229,12 +234,14 @@ TEST(HullOnGround, ManyCornersAreSpannedByFour) {
         const auto prism = std::make_shared<const Polyhedron>(make_hull(points, Vec3::Zero()));
         ASSERT_EQ(prism->faces.size(), std::size_t(sides) + 2);
         const double whole = 0.5 * sides * std::sin(2.0 * std::numbers::pi / sides);
-        const auto found = collide_all(HalfSpace{Vec3::UnitY(), 0.0}, {}, prism, {{3.0, 0.49, -2.0}, Mat3::Identity()}, 0.01);
+        const auto found =
+            collide_all(HalfSpace{Vec3::UnitY(), 0.0}, {}, prism, {{3.0, 0.49, -2.0}, Mat3::Identity()}, 0.01);
         ASSERT_EQ(found.size(), 1u);
         EXPECT_EQ(found[0].count, 4);
         EXPECT_GT(contact_area(found[0]), 0.6 * whole) << sides;
         // The center of mass lies over the contact: the hull stands.
-        const auto on_box = collide_all(box_of({4.0, 1.0, 4.0}), {}, prism, {{0.3, 0.99, -0.2}, Mat3::Identity()}, 0.01);
+        const auto on_box =
+            collide_all(box_of({4.0, 1.0, 4.0}), {}, prism, {{0.3, 0.99, -0.2}, Mat3::Identity()}, 0.01);
         ASSERT_EQ(on_box.size(), 1u);
         EXPECT_EQ(on_box[0].count, 4);
         EXPECT_GT(contact_area(on_box[0]), 0.6 * whole) << sides;
@@ -261,7 +268,7 @@ TEST(BoxOnBox, SameAsAnyPolyhedron) {
         if (found.empty()) continue;
         ++touching;
         const Manifold &m = found[0], &e = expected[0];
-        if ((m.normal - e.normal).norm() > 1e-9 || m.count != e.count) {   // two axes that overlap equally, to rounding
+        if ((m.normal - e.normal).norm() > 1e-9 || m.count != e.count) {  // two axes that overlap equally, to rounding
             ++others;
             continue;
         }

@@ -1,6 +1,6 @@
 // Pairs of the broad phase against all pairs, over random motion, with sleeping, fixed and kinematic bodies.
-#include "random_shapes.h"
 #include "sim/detection/broad_phase.h"
+#include "random_shapes.h"
 #include "sim/detection/narrow_phase.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +21,13 @@ Body body_of(Random& random, int kind) {
         body.collider = HalfSpace{random.direction(), random(-4.0, -2.0)};
     } else if (kind < 4) {
         body.type = BodyType::fixed;
-        body.collider = kind == 1 ? CollisionShape(Ball{random(0.2, 2.0)}) : box_of(random.vector(2.0).cwiseAbs() + Vec3::Constant(0.1));
+        body.collider = kind == 1 ? CollisionShape(Ball{random(0.2, 2.0)})
+                                  : box_of(random.vector(2.0).cwiseAbs() + Vec3::Constant(0.1));
     } else {
-        if (kind % 3 == 0) body.collider = Ball{random(0.1, 0.5)};
-        else body.collider = box_of(random.vector(0.8).cwiseAbs() + Vec3::Constant(0.05));
+        if (kind % 3 == 0)
+            body.collider = Ball{random(0.1, 0.5)};
+        else
+            body.collider = box_of(random.vector(0.8).cwiseAbs() + Vec3::Constant(0.05));
         if (kind % 11 == 5) {
             body.type = BodyType::kinematic;
             body.track = std::make_shared<KeyframeTrack>(std::vector<Keyframe>{{}}, Interpolation::linear);
@@ -52,7 +55,8 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
         for (int step = 0; step < trials(120); ++step) {
             for (Body& body : bodies) {
                 if (!body.moves() || body.asleep) continue;
-                body.velocity = 0.98 * body.velocity + random.vector(step % 40 == 0 ? 40.0 : 2.0);   // with an occasional kick
+                body.velocity =
+                    0.98 * body.velocity + random.vector(step % 40 == 0 ? 40.0 : 2.0);  // with an occasional kick
                 body.angular_velocity = random.vector(20.0);
             }
             const std::vector<BroadPhase::Pair> pairs = broad_phase.update(bodies, h);
@@ -70,9 +74,11 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
                     const bool idle = (!a.moves() || a.asleep) && (!b.moves() || b.asleep);
                     EXPECT_FALSE(listed && idle);
                     if (listed || idle) continue;
-                    if (std::holds_alternative<HalfSpace>(a.collider) || std::holds_alternative<HalfSpace>(b.collider)) {
+                    if (std::holds_alternative<HalfSpace>(a.collider) ||
+                        std::holds_alternative<HalfSpace>(b.collider)) {
                         std::vector<Manifold> out;
-                        collide(a.collider, a.pose(), b.collider, b.pose(), 0.02 * (a.moves() ? a.radius : b.radius), scratch, out);
+                        collide(a.collider, a.pose(), b.collider, b.pose(), 0.02 * (a.moves() ? a.radius : b.radius),
+                                scratch, out);
                         EXPECT_TRUE(out.empty()) << i << " " << j;
                     } else {
                         EXPECT_FALSE(within(a, b)) << i << " " << j << " step " << step;
@@ -90,7 +96,7 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
             }
         }
         EXPECT_GT(most, 20u);
-        EXPECT_LT(most, 900u);   // of 1770: some are excluded
+        EXPECT_LT(most, 900u);  // of 1770: some are excluded
     }
 }
 
@@ -150,7 +156,7 @@ TEST(NarrowPhase, ThreadsChangeNothing) {
     BroadPhase broad_phase;
     const auto pairs = broad_phase.update(bodies, h);
     ASSERT_GT(pairs.size(), 200u);
-    std::vector<Manifold> of_round[3];   // refreshed manifolds of the same poses differ in the last digits
+    std::vector<Manifold> of_round[3];  // refreshed manifolds of the same poses differ in the last digits
     for (const int threads : {1, 2, 4}) {
         ThreadPool pool(threads);
         NarrowPhase narrow_phase(threads);

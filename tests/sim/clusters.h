@@ -31,7 +31,8 @@ inline Body random_body(Random& random, BodyType type, double lightest, double h
 }
 
 /// A touching manifold of `count` points about the middle of the two bodies, normal from a to b.
-inline Manifold random_manifold(Random& random, const std::vector<Body>& bodies, std::uint32_t a, std::uint32_t b, int count) {
+inline Manifold random_manifold(Random& random, const std::vector<Body>& bodies, std::uint32_t a, std::uint32_t b,
+                                int count) {
     Manifold m;
     m.a = a;
     m.b = b;

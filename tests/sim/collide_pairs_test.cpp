@@ -79,7 +79,8 @@ TEST(Pairs, SwappedArgumentsReverseTheNormal) {
                 EXPECT_NEAR(deepest(ab), deepest(ba), preference);
             }
         } else {
-            expect_same(ab, ba, -1.0, 1e-12, [](const Vec3& p) { return p; }, Mat3::Identity());
+            expect_same(
+                ab, ba, -1.0, 1e-12, [](const Vec3& p) { return p; }, Mat3::Identity());
         }
     });
     EXPECT_GT(found, 500);
@@ -91,7 +92,8 @@ TEST(Pairs, RigidMotionMovesTheManifold) {
         const auto here = collide_all(a.collider, pose_a, b.collider, pose_b, margin);
         const Pose motion = random.pose(3.0);
         const auto there = collide_all(a.collider, after(motion, pose_a), b.collider, after(motion, pose_b), margin);
-        expect_same(here, there, 1.0, 1e-9, [&](const Vec3& p) { return motion.to_world(p); }, motion.rotation);
+        expect_same(
+            here, there, 1.0, 1e-9, [&](const Vec3& p) { return motion.to_world(p); }, motion.rotation);
     });
 }
 
@@ -102,7 +104,8 @@ TEST(Pairs, FarFromTheOriginNothingChanges) {
         const Vec3 shift(1e4, -1e4, 1e4);
         const auto there = collide_all(a.collider, {pose_a.position + shift, pose_a.rotation}, b.collider,
                                        {pose_b.position + shift, pose_b.rotation}, margin);
-        expect_same(here, there, 1.0, 1e-7, [&](const Vec3& p) { return Vec3(p + shift); }, Mat3::Identity());
+        expect_same(
+            here, there, 1.0, 1e-7, [&](const Vec3& p) { return Vec3(p + shift); }, Mat3::Identity());
     });
 }
 
@@ -125,7 +128,8 @@ TEST(Pairs, DistantPairsGiveNoManifold) {
     Random random(26);
     for_pairs(27, 10, [&](const NamedShape& a, const Pose& pose_a, const NamedShape& b, const Pose& pose_b) {
         // A movable shape well outside, not inside of a half-space.
-        const double reach = (a.movable ? bounding_radius(a.collider) : 4.0) + (b.movable ? bounding_radius(b.collider) : 4.0);
+        const double reach =
+            (a.movable ? bounding_radius(a.collider) : 4.0) + (b.movable ? bounding_radius(b.collider) : 4.0);
         Vec3 way = random.direction();
         if (const auto* s = std::get_if<HalfSpace>(&a.collider)) way = pose_a.rotation * s->normal;
         if (const auto* s = std::get_if<HalfSpace>(&b.collider)) way = -(pose_b.rotation * s->normal);

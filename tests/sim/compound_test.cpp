@@ -1,7 +1,7 @@
 // Compounds: mass by the parallel axis theorem, contacts part by part, the first impact over all pairs of parts.
 #include "random_shapes.h"
-#include "sim/dynamics/body_builder.h"
 #include "sim/ccd/time_of_impact.h"
+#include "sim/dynamics/body_builder.h"
 #include "support/bodies.h"
 #include "support/compounds.h"
 
@@ -35,8 +35,11 @@ CompoundShape random_compound(Random& random) {
     const int count = 2 + random.below(4);
     for (int i = 0; i < count; ++i) {
         const Vec3 at = random.vector(0.5);
-        if (i % 2 == 0) parts.push_back(part(BoxShape{Vec3(random(0.1, 0.6), random(0.1, 0.6), random(0.1, 0.6))}, at, Quat(random.turn())));
-        else parts.push_back(part(SphereShape{random(0.1, 0.3)}, at));
+        if (i % 2 == 0)
+            parts.push_back(
+                part(BoxShape{Vec3(random(0.1, 0.6), random(0.1, 0.6), random(0.1, 0.6))}, at, Quat(random.turn())));
+        else
+            parts.push_back(part(SphereShape{random(0.1, 0.3)}, at));
     }
     return compound_of(std::move(parts));
 }
@@ -54,7 +57,8 @@ TEST(CompoundMass, ABoxOfEightBoxesIsTheBox) {
 
 // The same L as a large box less a small one.
 TEST(CompoundMass, AnLBlock) {
-    const Body ell = built(compound_of({part(BoxShape{Vec3(0.9, 0.3, 0.3)}, {0.0, 0.0, 0.0}), part(BoxShape{Vec3(0.3, 0.6, 0.3)}, {0.3, 0.45, 0.0})}));
+    const Body ell = built(compound_of(
+        {part(BoxShape{Vec3(0.9, 0.3, 0.3)}, {0.0, 0.0, 0.0}), part(BoxShape{Vec3(0.3, 0.6, 0.3)}, {0.3, 0.45, 0.0})}));
     const double large = 0.9 * 0.9 * 0.3 * 1000.0, small = 0.6 * 0.6 * 0.3 * 1000.0, mass = large - small;
     const Vec3 large_at(0.0, 0.3, 0.0), small_at(-0.15, 0.45, 0.0);
     const Vec3 center = (large * large_at - small * small_at) / mass;
@@ -66,8 +70,9 @@ TEST(CompoundMass, AnLBlock) {
         own.diagonal() = m / 12.0 * Vec3(s.y() + s.z(), s.z() + s.x(), s.x() + s.y());
         return Mat3(own + m * (d.squaredNorm() * Mat3::Identity() - d * d.transpose()));
     };
-    expect_inertia(ell, about_center({0.9, 0.9, 0.3}, large, large_at) - about_center({0.6, 0.6, 0.3}, small, small_at), 1e-14);
-    EXPECT_GT(std::abs(ell.inertia_body(0, 1)), 1.0);   // an L's axes differ from those of its frame
+    expect_inertia(ell, about_center({0.9, 0.9, 0.3}, large, large_at) - about_center({0.6, 0.6, 0.3}, small, small_at),
+                   1e-14);
+    EXPECT_GT(std::abs(ell.inertia_body(0, 1)), 1.0);  // an L's axes differ from those of its frame
 }
 
 TEST(CompoundMass, ADumbbellOfTwoDensities) {
@@ -106,7 +111,8 @@ TEST(CompoundMass, PartsMayBeRotatedAndOverlap) {
 // A mesh part's center of mass need not be its origin.
 TEST(CompoundMass, MeshParts) {
     const auto cube = asset_of(box_mesh({1.0, 0.0, 0.0}, {2.0, 1.0, 1.0}));
-    const Body body = built(compound_of({part(MeshShape{cube}, {-1.0, 0.0, 0.0}), part(MeshShape{cube}, Vec3::Zero())}));
+    const Body body =
+        built(compound_of({part(MeshShape{cube}, {-1.0, 0.0, 0.0}), part(MeshShape{cube}, Vec3::Zero())}));
     const Body box = built(BoxShape{Vec3(2.0, 1.0, 1.0)});
     EXPECT_LT((body.center_of_mass - Vec3(1.0, 0.5, 0.5)).norm(), 1e-15);
     expect_inertia(body, box.inertia_body, 1e-14);
@@ -122,31 +128,39 @@ TEST(CompoundContact, IsTheUnionOverItsParts) {
     std::ptrdiff_t touching_found = 0, touching_expected = 0;
     for (int trial = 0; trial < 400; ++trial) {
         const Body a = built(random_compound(random));
-        const Body others[] = {built(random_compound(random)), built(BoxShape{Vec3(0.5, 0.3, 0.8)}), built(SphereShape{0.4})};
-        std::vector<CollisionShape> colliders{HalfSpace{random.direction(), random(-0.5, 0.5)}, surface_of(grid_mesh(4, 1.0, 0.2))};
+        const Body others[] = {built(random_compound(random)), built(BoxShape{Vec3(0.5, 0.3, 0.8)}),
+                               built(SphereShape{0.4})};
+        std::vector<CollisionShape> colliders{HalfSpace{random.direction(), random(-0.5, 0.5)},
+                                              surface_of(grid_mesh(4, 1.0, 0.2))};
         for (const Body& other : others) colliders.push_back(other.collider);
         const Pose pose_a = random.pose(0.5), pose_b = random.pose(0.5);
         for (const CollisionShape& b : colliders) {
             for (const bool swapped : {false, true}) {
                 std::vector<Manifold> found, expected;
-                if (swapped) collide(b, pose_b, a.collider, pose_a, 0.05, scratch, found);
-                else collide(a.collider, pose_a, b, pose_b, 0.05, scratch, found);
+                if (swapped)
+                    collide(b, pose_b, a.collider, pose_a, 0.05, scratch, found);
+                else
+                    collide(a.collider, pose_a, b, pose_b, 0.05, scratch, found);
                 for (const Compound::Part& p : compound_in(a).parts) {
                     std::vector<std::pair<CollisionShape, Pose>> pieces{{b, pose_b}};
                     if (const auto* whole = std::get_if<std::shared_ptr<const Compound>>(&b)) {
                         pieces.clear();
-                        for (const Compound::Part& q : (*whole)->parts) pieces.push_back({q.collider, part_pose(pose_b, q)});
+                        for (const Compound::Part& q : (*whole)->parts)
+                            pieces.push_back({q.collider, part_pose(pose_b, q)});
                     }
                     for (const auto& [shape, pose] : pieces) {
-                        if (swapped) collide(shape, pose, p.collider, part_pose(pose_a, p), 0.05, scratch, expected);
-                        else collide(p.collider, part_pose(pose_a, p), shape, pose, 0.05, scratch, expected);
+                        if (swapped)
+                            collide(shape, pose, p.collider, part_pose(pose_a, p), 0.05, scratch, expected);
+                        else
+                            collide(p.collider, part_pose(pose_a, p), shape, pose, 0.05, scratch, expected);
                     }
                 }
                 // Points nearer than the margin along an axis may be farther apart than it: both results may then skip
                 // them.
                 const auto touching = [](const std::vector<Manifold>& list) {
                     return std::count_if(list.begin(), list.end(), [](const Manifold& m) {
-                        return std::any_of(m.points.begin(), m.points.begin() + m.count, [](const ContactPoint& p) { return p.separation < 0.0; });
+                        return std::any_of(m.points.begin(), m.points.begin() + m.count,
+                                           [](const ContactPoint& p) { return p.separation < 0.0; });
                     });
                 };
                 ASSERT_LE(found.size(), expected.size());
@@ -176,7 +190,9 @@ TEST(CompoundContact, IsTheUnionOverItsParts) {
 
 // At any depth: a body deep in a plane after a fast step is not mistaken for a contact at its own internal edge.
 TEST(CompoundContact, OverlappingPartsAreHeldAtAnyDepth) {
-    const Body body = built(compound_of({part(SphereShape{0.3}, {0.0, 0.1, 0.0}), part(SphereShape{0.3}, {0.0, -0.1, 0.0}), part(BoxShape{{0.4, 0.4, 0.4}}, Vec3::Zero())}));
+    const Body body =
+        built(compound_of({part(SphereShape{0.3}, {0.0, 0.1, 0.0}), part(SphereShape{0.3}, {0.0, -0.1, 0.0}),
+                           part(BoxShape{{0.4, 0.4, 0.4}}, Vec3::Zero())}));
     CollisionScratch scratch;
     for (const double depth : {1e-6, 0.01, 0.1, 0.3, 0.6, 1.2}) {
         std::vector<Manifold> found;
@@ -194,7 +210,8 @@ namespace {
 struct Flying {
     Body body;
     Trajectory path;
-    explicit Flying(const Body& b, const Vec3& acceleration = {0.0, -9.81, 0.0}) : body(b), path(Trajectory::flight(b, acceleration)) {}
+    explicit Flying(const Body& b, const Vec3& acceleration = {0.0, -9.81, 0.0})
+        : body(b), path(Trajectory::flight(b, acceleration)) {}
     Traveller traveller() const { return {&body, &path, 0.0}; }
 };
 
@@ -213,13 +230,17 @@ TEST(CompoundImpact, ABoxOfEightBoxesHitsWhenTheBoxDoes) {
     ImpactSearch search;
     const Vec3 size(1.0, 0.6, 0.2);
     Body grid = standing(surface_of(grid_mesh(3, 4.0, 0.1))), ground = standing(HalfSpace{Vec3::UnitY(), 0.0});
-    const Flying obstacles[] = {Flying(ground, Vec3::Zero()), Flying(grid, Vec3::Zero()), Flying(free_ball(0.5, 1.0, {0.0, 0.5, 0.0}, Vec3::Zero())),
-                                Flying(free_box({0.8, 0.8, 0.8}, 1.0, {0.0, 0.5, 0.0}, Vec3::Zero(), random.turn(), random.vector(2.0)))};
+    const Flying obstacles[] = {
+        Flying(ground, Vec3::Zero()), Flying(grid, Vec3::Zero()),
+        Flying(free_ball(0.5, 1.0, {0.0, 0.5, 0.0}, Vec3::Zero())),
+        Flying(free_box({0.8, 0.8, 0.8}, 1.0, {0.0, 0.5, 0.0}, Vec3::Zero(), random.turn(), random.vector(2.0)))};
     int hits = 0;
     for (int trial = 0; trial < 60; ++trial) {
-        const Vec3 at(random(-0.5, 0.5), random(2.0, 3.0), random(-0.5, 0.5)), v(0.0, random(-8.0, -4.0), 0.0), w = random.vector(trial % 2 ? 5.0 : 50.0);
+        const Vec3 at(random(-0.5, 0.5), random(2.0, 3.0), random(-0.5, 0.5)), v(0.0, random(-8.0, -4.0), 0.0),
+            w = random.vector(trial % 2 ? 5.0 : 50.0);
         const Quat q(random.turn());
-        const Flying whole(free_body(BoxShape{size}, 1.0, at, v, q, w)), parts(free_body(box_of_eight(size), 1.0, at, v, q, w));
+        const Flying whole(free_body(BoxShape{size}, 1.0, at, v, q, w)),
+            parts(free_body(box_of_eight(size), 1.0, at, v, q, w));
         for (const Flying& obstacle : obstacles) {
             const TimeOfImpact first = search.find(obstacle.traveller(), whole.traveller(), 2.0);
             const TimeOfImpact second = search.find(parts.traveller(), obstacle.traveller(), 2.0);
@@ -235,7 +256,9 @@ TEST(CompoundImpact, ABoxOfEightBoxesHitsWhenTheBoxDoes) {
 // Through the hole of a link, where a hull would be hit.
 TEST(CompoundImpact, ABallFliesThroughALink) {
     ImpactSearch search;
-    const Flying link(free_body(square_link(1.0, 0.2), 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), {0.0, 0.0, 3.0}), Vec3::Zero());
+    const Flying link(
+        free_body(square_link(1.0, 0.2), 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), {0.0, 0.0, 3.0}),
+        Vec3::Zero());
     const auto time = [&](double radius, double x) {
         const Flying ball(free_ball(radius, 1.0, {x, 0.0, 2.0}, {0.0, 0.0, -4.0}), Vec3::Zero());
         return search.find(link.traveller(), ball.traveller(), 1.0);

@@ -17,7 +17,11 @@ struct Polygon {
     Vec3 normal, first, second, origin;
     std::vector<Vec3> corners;
 
-    explicit Polygon(Random& random) : normal(random.vector(1.0).normalized()), first(normal.unitOrthogonal()), second(normal.cross(first)), origin(random.vector(1000.0)) {}
+    explicit Polygon(Random& random)
+        : normal(random.vector(1.0).normalized()),
+          first(normal.unitOrthogonal()),
+          second(normal.cross(first)),
+          origin(random.vector(1000.0)) {}
     void add(double x, double y) { corners.push_back(origin + x * first + y * second); }
     Manifold manifold() const {
         std::vector<ContactPoint> points, left_out;
@@ -36,7 +40,8 @@ TEST(ContactArea, OfRectangles) {
     Random random(3);
     for (const double b : {1.0, 0.5, 0.25, 0.1, 0.01}) {
         const double a = 1.0, d = std::hypot(a, b);
-        const double expected = d / 6.0 + b * b / (12.0 * a) * std::log((a + d) / b) + a * a / (12.0 * b) * std::log((b + d) / a);
+        const double expected =
+            d / 6.0 + b * b / (12.0 * a) * std::log((a + d) / b) + a * a / (12.0 * b) * std::log((b + d) / a);
         for (const double sense : {1.0, -1.0}) {
             Polygon p(random);
             p.add(0.0, 0.0);
@@ -67,7 +72,7 @@ TEST(ContactArea, OfDiscsIsTwoThirdsOfTheRadius) {
         const ContactArea again = contact_area(m);
         EXPECT_LT((again.centroid - p.origin).norm(), 1e-6) << corners;
         EXPECT_NEAR(again.mean_distance, area.mean_distance, 1e-6);
-        EXPECT_NEAR(m.spread, area.mean_distance, 1e-6);   // all points lie on the circle
+        EXPECT_NEAR(m.spread, area.mean_distance, 1e-6);  // all points lie on the circle
     }
 }
 

@@ -14,7 +14,7 @@ bool takes_part(const Body& body) { return body.dynamic() && !body.asleep && !bo
 bool apart(const Body& body) { return body.dynamic() && (body.asleep || body.flying); }
 
 struct Flood {
-    std::vector<int> label;          // by body; -1: of no island
+    std::vector<int> label;  // by body; -1: of no island
     std::vector<int> manifold_label;
 };
 
@@ -36,7 +36,8 @@ Flood flood(const std::vector<Manifold>& manifolds, const std::vector<Body>& bod
     }
     for (std::size_t k = 0; k < manifolds.size(); ++k)
         if (counts(manifolds[k]))
-            f.manifold_label[k] = takes_part(bodies[manifolds[k].a]) ? f.label[manifolds[k].a] : f.label[manifolds[k].b];
+            f.manifold_label[k] =
+                takes_part(bodies[manifolds[k].a]) ? f.label[manifolds[k].a] : f.label[manifolds[k].b];
     return f;
 }
 
@@ -45,7 +46,7 @@ Flood flood(const std::vector<Manifold>& manifolds, const std::vector<Body>& bod
 TEST(ContactIslands, AgreeWithAFloodFill) {
     Random random(5);
     constexpr std::size_t n = 40;
-    ContactIslands islands(n);   // shared by all rounds: an earlier round must not affect a later one
+    ContactIslands islands(n);  // shared by all rounds: an earlier round must not affect a later one
     for (int trial = 0; trial < trials(2000); ++trial) {
         std::vector<Body> bodies(n);
         std::vector<std::uint32_t> awake;
@@ -59,7 +60,8 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
         std::vector<Manifold> manifolds;
         for (int k = random.below(50); k > 0; --k) {
             const auto a = std::uint32_t(random.below(n)), b = std::uint32_t(random.below(n));
-            if (a != b && (bodies[a].dynamic() || bodies[b].dynamic())) manifolds.push_back(touch(std::min(a, b), std::max(a, b)));
+            if (a != b && (bodies[a].dynamic() || bodies[b].dynamic()))
+                manifolds.push_back(touch(std::min(a, b), std::max(a, b)));
         }
         islands.find(body_pairs(manifolds), bodies, awake);
         const Flood expected = flood(manifolds, bodies);
@@ -69,7 +71,7 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
             const auto members = islands.bodies(k);
             ASSERT_FALSE(members.empty());
             const int label = int(members[0]);
-            ASSERT_GT(label, last);   // islands are ordered by their lowest body
+            ASSERT_GT(label, last);  // islands are ordered by their lowest body
             last = label;
             for (std::size_t i = 0; i < members.size(); ++i) {
                 ASSERT_EQ(expected.label[members[i]], label);
@@ -81,9 +83,11 @@ TEST(ContactIslands, AgreeWithAFloodFill) {
             in_islands += members.size();
             manifolds_in_islands += islands.manifolds(k).size();
         }
-        ASSERT_EQ(in_islands, std::size_t(std::count_if(expected.label.begin(), expected.label.end(), [](int l) { return l >= 0; })));
-        ASSERT_EQ(manifolds_in_islands, std::size_t(std::count_if(expected.manifold_label.begin(), expected.manifold_label.end(),
-                                                                  [](int l) { return l >= 0; })));
+        ASSERT_EQ(in_islands, std::size_t(std::count_if(expected.label.begin(), expected.label.end(),
+                                                        [](int l) { return l >= 0; })));
+        ASSERT_EQ(manifolds_in_islands,
+                  std::size_t(std::count_if(expected.manifold_label.begin(), expected.manifold_label.end(),
+                                            [](int l) { return l >= 0; })));
     }
 }
 
@@ -92,7 +96,8 @@ TEST(ContactIslands, FixedAndKinematicBodiesConnectNothing) {
     bodies[0].type = BodyType::fixed;
     bodies[1].type = BodyType::kinematic;
     ContactIslands islands(4);
-    islands.find(body_pairs({touch(0, 2), touch(0, 3), touch(1, 2), touch(1, 3)}), bodies, std::vector<std::uint32_t>{2, 3});
+    islands.find(body_pairs({touch(0, 2), touch(0, 3), touch(1, 2), touch(1, 3)}), bodies,
+                 std::vector<std::uint32_t>{2, 3});
     ASSERT_EQ(islands.size(), 2u);
     EXPECT_EQ(islands.manifolds(0).size(), 2u);
     EXPECT_EQ(islands.manifolds(1).size(), 2u);

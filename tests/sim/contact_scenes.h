@@ -2,11 +2,11 @@
 // the impulses are accessible.
 #pragma once
 
-#include "sim/dynamics/body_builder.h"
-#include "sim/detection/broad_phase.h"
 #include "sim/contact/contact_solver.h"
-#include "sim/dynamics/integrator.h"
+#include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/dynamics/integrator.h"
 #include "sim/impact/settings.h"
 #include "support/scenes.h"
 
@@ -31,10 +31,16 @@ public:
     /// kept: keeps islands, and the solvers' data for them, while the same pairs touch.
     enum class Islands { kept, found_anew };
 
-    explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island, int threads = 1,
-                         Islands find = Islands::kept)
-        : find_(find), gravity_(scene.simulation.gravity), h_(scene.step()), pool_(threads), narrow_phase_(threads), islands_(scene.bodies.size()),
-          solver_(scene.bodies.size(), choice), awake_() {
+    explicit SolverScene(const SceneDescription& scene, ContactSolver::Choice choice = ContactSolver::Choice::by_island,
+                         int threads = 1, Islands find = Islands::kept)
+        : find_(find),
+          gravity_(scene.simulation.gravity),
+          h_(scene.step()),
+          pool_(threads),
+          narrow_phase_(threads),
+          islands_(scene.bodies.size()),
+          solver_(scene.bodies.size(), choice),
+          awake_() {
         bodies = build_bodies(scene);
         for (std::uint32_t i = 0; i < bodies.size(); ++i)
             if (bodies[i].dynamic()) awake_.push_back(i);
@@ -42,7 +48,8 @@ public:
 
     void step() {
         manifolds = &narrow_phase_.find(broad_phase_.update(bodies, h_), bodies, h_, pool_);
-        if (find_ == Islands::found_anew || narrow_phase_.changes() != seen_) islands_.find(narrow_phase_.touching(), bodies, awake_);
+        if (find_ == Islands::found_anew || narrow_phase_.changes() != seen_)
+            islands_.find(narrow_phase_.touching(), bodies, awake_);
         seen_ = narrow_phase_.changes();
         std::vector<BodyVelocity> before(bodies.size());
         for (const std::uint32_t i : awake_) {
@@ -56,8 +63,8 @@ public:
         solver_.solve({bodies, *manifolds, before, {h_, threshold}}, islands_, pool_);
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];
-            advance_pose(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity, h_,
-                         RotationForm::quaternion);
+            advance_pose(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity,
+                         h_, RotationForm::quaternion);
             body.push_velocity.setZero();
             body.push_angular_velocity.setZero();
             body.derive();
@@ -90,7 +97,7 @@ public:
     std::uint64_t island_changes() const { return islands_.changes(); }
 
     std::vector<Body> bodies;
-    std::vector<Manifold>* manifolds = nullptr;   // of the last step
+    std::vector<Manifold>* manifolds = nullptr;  // of the last step
 
 private:
     Islands find_;

@@ -51,7 +51,8 @@ TEST(ContactSolver, AStackCarriesItsLoad) {
                 double carried = 0.0;
                 for (std::uint32_t i = 10; i > 0; --i) {
                     carried += *scene.bodies[i].mass;
-                    EXPECT_NEAR(solver.load(i - 1, i) / (carried * g * solver.h()), 1.0, 1e-3) << name(choice) << " " << steps << " " << i;
+                    EXPECT_NEAR(solver.load(i - 1, i) / (carried * g * solver.h()), 1.0, 1e-3)
+                        << name(choice) << " " << steps << " " << i;
                 }
             }
         }
@@ -94,7 +95,7 @@ TEST(ContactSolver, ImpulsesAreEqualAndOpposite) {
             }
             EXPECT_LE((linear - linear_0).norm(), 1e-12);
             EXPECT_LE((angular - angular_0).norm(), 1e-11);
-            EXPECT_GT(impulses, 1.0);   // they did meet
+            EXPECT_GT(impulses, 1.0);  // they did meet
         }
     }
 }
@@ -111,13 +112,15 @@ TEST(ContactSolver, ASlidingPlateKeepsItsDirection) {
                 SolverScene solver(with_friction(scene, 0.3), choice);
                 solver.run(1.0);
                 const Body& body = solver.bodies[1];
-                EXPECT_LE((body.velocity - (4.0 - 0.3 * g) * way).norm(), 1e-4) << name(choice) << " " << steps << " " << angle;
+                EXPECT_LE((body.velocity - (4.0 - 0.3 * g) * way).norm(), 1e-4)
+                    << name(choice) << " " << steps << " " << angle;
                 EXPECT_LE(body.angular_velocity.norm(), 5e-4) << name(choice) << " " << steps << " " << angle;
                 EXPECT_NEAR(solver.friction(0, 1), 0.3 * 2.0 * g, 1e-3 * 2.0 * g);
                 // As in symplectic Euler: the sum of the velocities after each step.
                 const double n = std::round(1.0 / solver.h()), along = 4.0 - 0.3 * g * 0.5 * (1.0 + 1.0 / n);
                 const Vec3 moved(body.position.x(), 0.0, body.position.z());
-                EXPECT_LE((moved - along * way).norm(), steps == 1 && choice == Choice::soft ? 5e-2 : 1e-2) << name(choice) << " " << steps << " " << angle;
+                EXPECT_LE((moved - along * way).norm(), steps == 1 && choice == Choice::soft ? 5e-2 : 1e-2)
+                    << name(choice) << " " << steps << " " << angle;
                 EXPECT_LE((moved - moved.dot(way) * way).norm(), 1e-4) << name(choice) << " " << steps << " " << angle;
             }
 }
@@ -147,7 +150,8 @@ TEST(ContactSolver, FloatingBodiesKeepTheirAngularMomentum) {
             scene.simulation.contact_solver = choice;
             for (int i = 0; i < 2 + trial % 3; ++i) {
                 const Vec3 at = 1.5 * (i + 1.0) * random.direction();
-                BodyDescription& body = add_box(scene, {random(0.4, 1.0), random(0.4, 1.0), random(0.4, 1.0)}, at, random(0.5, 3.0));
+                BodyDescription& body =
+                    add_box(scene, {random(0.4, 1.0), random(0.4, 1.0), random(0.4, 1.0)}, at, random(0.5, 3.0));
                 body.rotation = random.turn();
                 body.velocity = -2.0 * at + random.vector(0.3);
                 body.angular_velocity = random.vector(1.0);
@@ -161,7 +165,8 @@ TEST(ContactSolver, FloatingBodiesKeepTheirAngularMomentum) {
             }
             kept += lost <= 1e-4 * start.norm();
         }
-        EXPECT_GE(kept, choice == Choice::soft ? 20 : 36) << name(choice);   // 22 and 39 measured; 0 and 9 without the compensation
+        EXPECT_GE(kept, choice == Choice::soft ? 20 : 36)
+            << name(choice);  // 22 and 39 measured; 0 and 9 without the compensation
     }
 }
 
@@ -188,7 +193,8 @@ TEST(ContactSolver, ThreadsChangeNothing) {
 TEST(ContactSolver, KeptDataEqualsDataFoundAnew) {
     SceneDescription scene = ground_scene(0.0, 0.5, 1);
     for (int i = 0; i < 300; ++i)
-        add_box(scene, {0.5, 0.5, 0.5}, {(i / 6 % 10) + 0.03 * (i % 6) * (i / 60), 0.26 + 0.52 * (i % 6), 1.0 * (i / 60)});
+        add_box(scene, {0.5, 0.5, 0.5},
+                {(i / 6 % 10) + 0.03 * (i % 6) * (i / 60), 0.26 + 0.52 * (i % 6), 1.0 * (i / 60)});
     for (const int threads : {1, 2}) {
         SolverScene kept(with_friction(scene, 0.5), Choice::soft, threads);
         SolverScene found(with_friction(scene, 0.5), Choice::soft, threads, SolverScene::Islands::found_anew);

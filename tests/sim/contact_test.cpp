@@ -68,8 +68,9 @@ TEST(MakeContacts, RowsHaveTheBracketOfEquation20) {
 TEST(MakeContacts, KeepsTheManifoldsOrder) {
     Random random(112);
     const std::vector<Body> bodies = some_bodies(random, 4);
-    const std::vector<Manifold> manifolds{manifold(0, 1, 0, {5, 6, 7, 8}), manifold(0, 2, 3, {1}), manifold(2, 3, 9, {4, 2})};
-    std::vector<Contact> contacts(3);   // of the last step: they are removed
+    const std::vector<Manifold> manifolds{manifold(0, 1, 0, {5, 6, 7, 8}), manifold(0, 2, 3, {1}),
+                                          manifold(2, 3, 9, {4, 2})};
+    std::vector<Contact> contacts(3);  // of the last step: they are removed
     make_contacts(manifolds, bodies, contacts);
     ASSERT_EQ(contacts.size(), 7u);
     for (const Manifold& m : manifolds) add_contacts(m, bodies, contacts);
@@ -79,8 +80,9 @@ TEST(MakeContacts, KeepsTheManifoldsOrder) {
         for (const Manifold& m : manifolds)
             for (int i = 0; i < m.count; ++i) {
                 const Contact& c = contacts[next++];
-                EXPECT_EQ(std::tuple(c.a, c.b, c.part, c.feature), std::tuple(m.a, m.b, m.part, m.points[std::size_t(i)].feature));
-                EXPECT_EQ(c.impact, 0.0);   // of that step alone
+                EXPECT_EQ(std::tuple(c.a, c.b, c.part, c.feature),
+                          std::tuple(m.a, m.b, m.part, m.points[std::size_t(i)].feature));
+                EXPECT_EQ(c.impact, 0.0);  // of that step alone
                 EXPECT_EQ(c.bounce_velocity, 0.0);
             }
 }
@@ -97,14 +99,14 @@ TEST(CarryOver, ByFeatureThenByPlace) {
     before.friction[0] = 1.0;
     before.friction[1] = 2.0;
     before.twist = 3.0;
-    now.points[0].position = Vec3(1.0, 0.0, 0.0);   // the old place of feature 6: its own feature counts all the same
+    now.points[0].position = Vec3(1.0, 0.0, 0.0);  // the old place of feature 6: its own feature counts all the same
     now.points[2].position = Vec3(2.1, 0.0, 0.0);
     now.points[3].position = Vec3(1.0, 0.0, 0.6);
     carry_over(before, 0.5, now);
-    EXPECT_EQ(now.points[0].impulse, 13.0 + 11.0);   // and that of feature 6, which is gone
+    EXPECT_EQ(now.points[0].impulse, 13.0 + 11.0);  // and that of feature 6, which is gone
     EXPECT_EQ(now.points[1].impulse, 10.0);
     EXPECT_EQ(now.points[2].impulse, 12.0);
-    EXPECT_EQ(now.points[3].impulse, 0.0);   // no old point near
+    EXPECT_EQ(now.points[3].impulse, 0.0);  // no old point near
     EXPECT_EQ(now.tangent, Vec3::UnitX());
     EXPECT_EQ(now.friction[0], 1.0);
     EXPECT_EQ(now.friction[1], 2.0);

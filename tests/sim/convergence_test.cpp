@@ -18,8 +18,9 @@ namespace {
 // An asymmetric body, free or under gravity, drag and a force at a point that rotates with it.
 struct Problem {
     double mass = 2.0;
-    Vec3 inertia{0.2, 0.5, 0.6}, gravity = Vec3::Zero(), wind = Vec3::Zero(), point = Vec3::Zero(), force = Vec3::Zero();
-    double drag = 0.0;   // N s^2 / m^2
+    Vec3 inertia{0.2, 0.5, 0.6}, gravity = Vec3::Zero(), wind = Vec3::Zero(), point = Vec3::Zero(),
+                                 force = Vec3::Zero();
+    double drag = 0.0;  // N s^2 / m^2
     RigidState start;
 
     Problem() {
@@ -106,7 +107,7 @@ struct Named {
     const char* name;
     Method run;
     double order;
-    int steps;   // for one second, in the asymptotic range and far above rounding
+    int steps;  // for one second, in the asymptotic range and far above rounding
 };
 
 std::vector<Named> ladder() {
@@ -144,7 +145,7 @@ TEST(Convergence, FreeRotationHasTheOrderOfTheMethod) {
     for (const Named& m : ladder()) {
         const Error coarse = error_of(p, truth, m.run, m.steps), fine = error_of(p, truth, m.run, 2 * m.steps);
         expect_order("angle", coarse.angle, fine.angle, m);
-        EXPECT_LT(fine.position, 1e-12) << m.name;   // rounding of thousands of steps
+        EXPECT_LT(fine.position, 1e-12) << m.name;  // rounding of thousands of steps
     }
 }
 
@@ -204,7 +205,7 @@ TEST(Convergence, ExtrapolationHardlyLosesEnergy) {
 // Run forward, reverse the momenta, run as far again: back at the start, up to rounding. No other integrator does.
 TEST(Convergence, SplittingRunsBack) {
     Problem p = Problem::driven();
-    p.drag = 0.0;   // which is not reversible
+    p.drag = 0.0;  // which is not reversible
     const auto distance = [&](const Method& run) {
         RigidState s = p.start;
         run(p, s, 0.01, 1000);

@@ -1,7 +1,7 @@
 // The dynamic tree against a test of every box, while boxes are added, moved and removed; the event queue against
 // sorting.
-#include "random_shapes.h"
 #include "sim/geometry/dynamic_tree.h"
+#include "random_shapes.h"
 #include "sim/event_driven/event_queue.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,7 @@ TEST(EventQueue, GivesTheEarliestAndTheLowestBody) {
 
 TEST(EventTime, KeepsItsDigitsFarFromTheStart) {
     const StepClock clock{60.0, 16};
-    const EventTime a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};   // after a thousand hours
+    const EventTime a{3'456'000'000, 1e-4}, b{3'456'000'001, 3e-4};  // after a thousand hours
     EXPECT_NEAR(clock.between(a, b), 1.0 / 960.0 + 2e-4, 1e-18);
     EXPECT_LT(a, b);
 }

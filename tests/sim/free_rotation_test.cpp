@@ -17,7 +17,7 @@ __extension__ using Wide = __float128;
 struct Flight {
     Vec3 inertia;
     Quat orientation = Quat::Identity();
-    Vec3 angular_momentum;   // world
+    Vec3 angular_momentum;  // world
 
     static Flight spinning(const Vec3& inertia, const Vec3& body_omega, const Quat& orientation = Quat::Identity()) {
         return {inertia, orientation, orientation * inertia.cwiseProduct(body_omega)};
@@ -41,9 +41,10 @@ double angle(const Quat& a, const Quat& b) { return 2.0 * (a.conjugate() * b).ve
 long double twice_energy(const Flight& f, const Quat& q) {
     const long double w = q.w(), x = q.x(), y = q.y(), z = q.z(), n = w * w + x * x + y * y + z * z;
     const long double a = f.angular_momentum.x(), b = f.angular_momentum.y(), c = f.angular_momentum.z();
-    const long double m[3] = {((w * w + x * x - y * y - z * z) * a + 2 * (x * y + w * z) * b + 2 * (x * z - w * y) * c) / n,
-                              (2 * (x * y - w * z) * a + (w * w - x * x + y * y - z * z) * b + 2 * (y * z + w * x) * c) / n,
-                              (2 * (x * z + w * y) * a + 2 * (y * z - w * x) * b + (w * w - x * x - y * y + z * z) * c) / n};
+    const long double m[3] = {
+        ((w * w + x * x - y * y - z * z) * a + 2 * (x * y + w * z) * b + 2 * (x * z - w * y) * c) / n,
+        (2 * (x * y - w * z) * a + (w * w - x * x + y * y - z * z) * b + 2 * (y * z + w * x) * c) / n,
+        (2 * (x * z + w * y) * a + 2 * (y * z - w * x) * b + (w * w - x * x - y * y + z * z) * c) / n};
     long double sum = 0;
     for (int i = 0; i < 3; ++i) sum += m[i] * m[i] / f.inertia[i];
     return sum;
@@ -56,11 +57,20 @@ Vec3 random_inertia(Random& random, int kind) {
     Vec3 size(random(0.1, 1.1), random(0.1, 1.1), random(0.1, 1.1));
     const double little = std::ldexp(random(0.5, 1.0), -random.below(52));
     switch (kind % 6) {
-        case 1: size = Vec3::Ones(); break;                                       // sphere
-        case 2: size = Vec3(1.0, 1.0 + little, 1.0 + random(-1.0, 1.0) * little); break;   // near a sphere
-        case 3: size[1] = size[0]; break;                                         // symmetric
-        case 4: size[1] = size[0] * (1.0 + little); break;                        // nearly
-        default: break;
+        case 1:
+            size = Vec3::Ones();
+            break;  // sphere
+        case 2:
+            size = Vec3(1.0, 1.0 + little, 1.0 + random(-1.0, 1.0) * little);
+            break;  // near a sphere
+        case 3:
+            size[1] = size[0];
+            break;  // symmetric
+        case 4:
+            size[1] = size[0] * (1.0 + little);
+            break;  // nearly
+        default:
+            break;
     }
     const Vec3 inertia = box_inertia(size.x(), size.y(), size.z());
     const int turn = random.below(3);
@@ -73,14 +83,21 @@ Vec3 random_momentum(Random& random, const Vec3& inertia, int kind) {
     std::array<int, 3> o{0, 1, 2};
     std::sort(o.begin(), o.end(), [&](int a, int b) { return inertia[a] < inertia[b]; });
     switch (kind % 5) {
-        case 1: {   // near the separatrix: 2 T Imid = |L|^2
-            const double a = (inertia[o[1]] - inertia[o[0]]) / inertia[o[0]], c = (inertia[o[2]] - inertia[o[1]]) / inertia[o[2]];
-            m[o[0]] = std::sqrt(c), m[o[2]] = std::sqrt(a) * (1.0 + little), m[o[1]] = random(-2.0, 2.0) * std::sqrt(a + c);
+        case 1: {  // near the separatrix: 2 T Imid = |L|^2
+            const double a = (inertia[o[1]] - inertia[o[0]]) / inertia[o[0]],
+                         c = (inertia[o[2]] - inertia[o[1]]) / inertia[o[2]];
+            m[o[0]] = std::sqrt(c), m[o[2]] = std::sqrt(a) * (1.0 + little),
+            m[o[1]] = random(-2.0, 2.0) * std::sqrt(a + c);
             break;
         }
-        case 2: m = little * m + Vec3::Unit(random.below(3)); break;   // near an axis
-        case 3: m = (random(0, 1) < 0.5 ? 1.0 : -1.0) * Vec3::Unit(random.below(3)); break;   // about an axis
-        default: break;
+        case 2:
+            m = little * m + Vec3::Unit(random.below(3));
+            break;  // near an axis
+        case 3:
+            m = (random(0, 1) < 0.5 ? 1.0 : -1.0) * Vec3::Unit(random.below(3));
+            break;  // about an axis
+        default:
+            break;
     }
     return m.norm() > 0.0 ? Vec3(m.normalized()) : Vec3(Vec3::UnitX());
 }
@@ -90,7 +107,7 @@ Flight random_flight(Random& random, int kind) {
     f.inertia = random_inertia(random, kind);
     f.orientation = kind % 7 == 0 ? Quat::Identity() : random.turn();
     const Vec3 m = random_momentum(random, f.inertia, kind / 6);
-    f.angular_momentum = f.orientation * Vec3(m / m.cwiseQuotient(f.inertia).norm());   // 1 rad/s
+    f.angular_momentum = f.orientation * Vec3(m / m.cwiseQuotient(f.inertia).norm());  // 1 rad/s
     return f;
 }
 
@@ -108,7 +125,9 @@ TEST(FreeRotationReference, SameInExtendedAndQuadruplePrecision) {
 
 // Bounds are a few times the measured errors.
 TEST(FreeRotation, OrientationAfterTenSeconds) {
-    const auto error = [](const Vec3& inertia, const Vec3& omega) { return Flight::spinning(inertia, omega).error(10.0); };
+    const auto error = [](const Vec3& inertia, const Vec3& omega) {
+        return Flight::spinning(inertia, omega).error(10.0);
+    };
     const Vec3 box = box_inertia(1.0, 0.6, 0.2);
     EXPECT_LT(error(box, {0.01, 5.0, 0.01}), 4e-14);
     EXPECT_LT(error({1.0, 2.0, 3.0}, {1.0, 1.0, 1.0}), 5e-15);
@@ -118,7 +137,7 @@ TEST(FreeRotation, OrientationAfterTenSeconds) {
     EXPECT_LT(error({2.0, 2.0 * (1.0 + 1e-12), 1.2}, {0.3, -1.0, 2.0}), 1e-14);
     EXPECT_LT(error({2.0, 2.0, 2.0}, {0.3, -1.0, 2.0}), 1e-14);
     EXPECT_LT(error({2.0, 2.0 * (1.0 + 1e-15), 2.0 * (1.0 - 1e-15)}, {0.3, -1.0, 2.0}), 1e-14);
-    EXPECT_LT(error({0.5, 0.5 + 1e-6, 1.0}, {0.5, 1.0, 3.0}), 2e-14);   // plate
+    EXPECT_LT(error({0.5, 0.5 + 1e-6, 1.0}, {0.5, 1.0, 3.0}), 2e-14);  // plate
     EXPECT_LT(error({0.3, 0.7, 1.0}, {0.5, 1.0, 3.0}), 2e-14);
     EXPECT_LT(error({1.0, 1.0, 1e-6}, {1e-9, -2e-9, 3e-9}), 1e-15);  // hardly rotating
     EXPECT_LT(error({1.0, 2.0, 3.0}, {1e-9, 2e-9, -1e-9}), 1e-15);
@@ -137,13 +156,13 @@ TEST(FreeRotation, Needles) {
 
 TEST(FreeRotation, FastSpins) {
     const Flight f = Flight::spinning(box_inertia(1.0, 0.6, 0.2), 1e4 * Vec3(0.3, 0.7, 0.2));
-    EXPECT_LT(f.error(0.05), 1e-12);   // a phase of 500 rad
+    EXPECT_LT(f.error(0.05), 1e-12);  // a phase of 500 rad
 }
 
 TEST(FreeRotation, ExactSeparatrix) {
     // m0^2 (I1 - I0)/I0 = m2^2 (I2 - I1)/I2 with I = (2, 3, 6): both are m^2/2.
-    for (const Vec3& m : {Vec3(1, 2, 1), Vec3(-1, 2, 1), Vec3(1, -2, 1), Vec3(1, 2, -1), Vec3(-1, -3, -1), Vec3(1, 0, 1),
-                          Vec3(1e-3, 5, 1e-3), Vec3(-1e-6, -5, 1e-6)}) {
+    for (const Vec3& m : {Vec3(1, 2, 1), Vec3(-1, 2, 1), Vec3(1, -2, 1), Vec3(1, 2, -1), Vec3(-1, -3, -1),
+                          Vec3(1, 0, 1), Vec3(1e-3, 5, 1e-3), Vec3(-1e-6, -5, 1e-6)}) {
         for (const double t : {0.1, 1.0, 10.0, -10.0}) {
             const Flight f{Vec3(2.0, 3.0, 6.0), Quat::Identity(), m};
             EXPECT_LT(f.error(t), 2e-13) << m.transpose() << ", " << t;
@@ -162,8 +181,8 @@ TEST(FreeRotation, RandomFlights) {
     for (int i = 0; i < trials(2000); ++i) {
         const Flight f = random_flight(random, i);
         const double t = random(-6.0, 6.0);
-        EXPECT_LT(f.error(t), 1e-13 * (1.0 + std::fabs(t))) << i << ": " << f.inertia.transpose() << "; m "
-                                                            << f.body_momentum(f.orientation).transpose();
+        EXPECT_LT(f.error(t), 1e-13 * (1.0 + std::fabs(t)))
+            << i << ": " << f.inertia.transpose() << "; m " << f.body_momentum(f.orientation).transpose();
     }
 }
 
@@ -222,7 +241,8 @@ TEST(FreeRotation, ReturnsAfterItsPeriod) {
     const struct {
         Vec3 omega, half_way;
         double period;
-    } cases[] = {{{0.01, 5.0, 0.0}, {0.01, -5.0, 0.0}, 10.5321102482}, {{1.0, 1.0, 1.0}, {-1.0, -1.0, 1.0}, 6.4227030842}};
+    } cases[] = {{{0.01, 5.0, 0.0}, {0.01, -5.0, 0.0}, 10.5321102482},
+                 {{1.0, 1.0, 1.0}, {-1.0, -1.0, 1.0}, 6.4227030842}};
     for (const auto& c : cases) {
         const Flight f = Flight::spinning({1.0, 2.0, 3.0}, c.omega);
         const FreeRotation closed = f.closed();
@@ -263,7 +283,8 @@ TEST(FreeRotation, SteadySpins) {
         const double rate = std::ldexp(random(-1.0, 1.0), random.below(50) - 36), t = random(-100.0, 100.0);
         f.angular_momentum = rate * f.inertia[i % 3] * axis;
         const SinCos half = sincos(0.5 * rate * t);
-        const Quat expected = Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()) * f.orientation;
+        const Quat expected =
+            Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()) * f.orientation;
         EXPECT_LT(angle(f.closed().at(t), expected), 1e-15 * (1.0 + std::fabs(rate * t))) << i;
     }
     // Fast, for an hour: 3.6e7 rad, correct to the rounding of that phase.

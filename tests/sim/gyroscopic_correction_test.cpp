@@ -2,9 +2,9 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 #include "clusters.h"
+#include "sim/dynamics/integrator.h"
 #include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
-#include "sim/dynamics/integrator.h"
 #include "sim/world.h"
 #include "support/scenes.h"
 
@@ -24,7 +24,8 @@ void spin_at(Body& body, const Vec3& omega) {
 Body spinning_body(Random& random, double turn, double h) {
     Body body = random_body(random, BodyType::dynamic, 1.0, 2.0);
     const double thin = std::pow(10.0, random(-2.6, -0.1));
-    body.principal_inertia = body.mass * (random.below(2) ? Vec3(thin, 1.0, 1.0 - 0.5 * thin) : Vec3(1.0, 0.9 - 0.5 * thin, 0.6));
+    body.principal_inertia =
+        body.mass * (random.below(2) ? Vec3(thin, 1.0, 1.0 - 0.5 * thin) : Vec3(1.0, 0.9 - 0.5 * thin, 0.6));
     body.principal_axes = random.turn();
     const Mat3 axes = body.principal_axes.toRotationMatrix();
     body.inertia_body = axes * body.principal_inertia.asDiagonal() * axes.transpose();
@@ -45,7 +46,8 @@ TEST(MeanAngularVelocity, EndsWithTheOrientationOfFreeRotation) {
         for (const double turn : {0.001, 0.01, 0.09, 0.11, 0.3, 0.69})
             for (int trial = 0; trial < 100; ++trial) {
                 Body body = spinning_body(random, turn, h);
-                const FreeRotation rotation(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
+                const FreeRotation rotation(body.principal_inertia, body.principal_axes, body.orientation,
+                                            body.angular_momentum);
                 const double before = spin(body);
                 const Vec3 omega = mean_angular_velocity(body, h, form);
                 advance_pose(body, Vec3::Zero(), omega, h, form);
@@ -71,7 +73,9 @@ TEST(MeanAngularVelocity, SteadySpinsRotateByTheirAngle) {
                     body.inertia_body = 0.4 * body.mass * Mat3::Identity();
                     body.inverse_inertia_body = 2.5 / body.mass * Mat3::Identity();
                 }
-                const Vec3 omega = turn / h * (axis == 3 ? random.direction() : Vec3((body.orientation * body.principal_axes) * Vec3::Unit(axis)));
+                const Vec3 omega = turn / h *
+                                   (axis == 3 ? random.direction()
+                                              : Vec3((body.orientation * body.principal_axes) * Vec3::Unit(axis)));
                 spin_at(body, omega);
                 const Quat exact = Eigen::AngleAxisd(turn, omega.normalized()) * body.orientation;
                 advance_pose(body, Vec3::Zero(), mean_angular_velocity(body, h, form), h, form);

@@ -105,7 +105,8 @@ TEST(Rod, GainsNothing) {
         s.add_floor();
         const double angle = random(0.05, 1.5), half = 0.5;
         const Vec3 arm(-half * std::cos(angle), -half * std::sin(angle), 0.0);
-        s.set_spin(s.add(BodyType::dynamic, 1.0, Vec3(1e-4, 1.0, 1.0) / 12.0, -arm, Vec3(random(-5, 5), random(-3, 0), random(-1, 1))),
+        s.set_spin(s.add(BodyType::dynamic, 1.0, Vec3(1e-4, 1.0, 1.0) / 12.0, -arm,
+                         Vec3(random(-5, 5), random(-3, 0), random(-1, 1))),
                    random.vector(8.0));
         s.touch(0, 1, Vec3::UnitY(), {Vec3::Zero()});
         const double before = s.kinetic();

@@ -106,7 +106,7 @@ TEST(Bernoulli, OnTheFloor) {
         EXPECT_NEAR(s.bodies[2].velocity.y(), s.bodies[3].velocity.y(), 1e-14);
         EXPECT_NEAR(s.bodies[1].velocity.x(), 0.0, 1e-14);
         EXPECT_GT(s.bodies[2].velocity.x(), 0.1);
-        if (law == ImpactLaw::simultaneous) {   // j at the two upper contacts, the floor holds: 5/2 j = 2 sqrt(3)/2, ...
+        if (law == ImpactLaw::simultaneous) {  // j at the two upper contacts, the floor holds: 5/2 j = 2 sqrt(3)/2, ...
             const double j = 2.0 * std::sqrt(0.75) / (2.0 * 0.75 + 0.25);
             EXPECT_NEAR(s.bodies[1].velocity.y(), -1.0 + 2.0 * std::sqrt(0.75) * j, 1e-13);
             EXPECT_NEAR(s.bodies[2].velocity.x(), 0.5 * j, 1e-13);
@@ -126,7 +126,7 @@ TEST(FlatBox, LandsWithoutSpin) {
             s.resolve(law);
             EXPECT_LT((s.bodies[1].velocity - Vec3(0.3, 2.0 * e, 0.1)).norm(), 1e-14);
             EXPECT_LT(s.spin(), 1e-14);
-            for (const Contact& c : s.contacts) EXPECT_NEAR(c.impact, (1.0 + e), 1e-14);   // a quarter each
+            for (const Contact& c : s.contacts) EXPECT_NEAR(c.impact, (1.0 + e), 1e-14);  // a quarter each
         }
 }
 
@@ -156,8 +156,10 @@ TEST(Column, LightOnHeavy) {
             s.touch_balls(1, 2);
             s.resolve(law);
             const double m = 1.0 / (1.0 + heavy);
-            if (law == ImpactLaw::propagating) expect_speeds(s, 1, {0.0, 1.0 - 4.0 * m, 3.0 - 4.0 * m});
-            else expect_speeds(s, 1, {0.0, 1.0, 1.0});
+            if (law == ImpactLaw::propagating)
+                expect_speeds(s, 1, {0.0, 1.0 - 4.0 * m, 3.0 - 4.0 * m});
+            else
+                expect_speeds(s, 1, {0.0, 1.0, 1.0});
             EXPECT_NEAR(s.kinetic(), 0.5 * (1.0 + heavy), 1e-14 * heavy);
         }
     }
@@ -209,16 +211,14 @@ TEST(Large, WallsAndStacksRiseAsTheyFell) {
         for (ImpactScene s : {box_stack(12, 1.0), ball_wall(7, 1.0)}) {
             const double before = s.kinetic();
             s.resolve(law);
-            for (const Body& b : s.bodies)
-                EXPECT_LT((b.velocity - Vec3(0, b.dynamic() ? 1.0 : 0.0, 0)).norm(), 1e-12);
+            for (const Body& b : s.bodies) EXPECT_LT((b.velocity - Vec3(0, b.dynamic() ? 1.0 : 0.0, 0)).norm(), 1e-12);
             EXPECT_LT(s.spin(), 1e-12);
             EXPECT_NEAR(s.kinetic() / before, 1.0, 2e-14);
         }
     }
     for (ImpactScene s : {box_stack(12, 0.5), ball_wall(7, 0.5)}) {
         s.resolve(ImpactLaw::simultaneous);
-        for (const Body& b : s.bodies)
-            EXPECT_LT((b.velocity - Vec3(0, b.dynamic() ? 0.5 : 0.0, 0)).norm(), 1e-12);
+        for (const Body& b : s.bodies) EXPECT_LT((b.velocity - Vec3(0, b.dynamic() ? 0.5 : 0.0, 0)).norm(), 1e-12);
     }
 }
 
@@ -229,7 +229,7 @@ TEST(Inelastic, IsTheProjection) {
         ImpactScene s = random_impact(random, 1.0, 0.0, 0.0), t = s;
         s.resolve(ImpactLaw::propagating);
         t.resolve(ImpactLaw::simultaneous);
-        double work = 0.0;   // sum of j v_rel+: zero, because a contact with j > 0 stays closed
+        double work = 0.0;  // sum of j v_rel+: zero, because a contact with j > 0 stays closed
         for (const Contact& c : s.contacts) work += c.impact * relative_velocity(c, s.bodies[c.a], s.bodies[c.b]);
         EXPECT_NEAR(work, 0.0, 1e-12);
         EXPECT_LT(s.approach(), 1e-12);
@@ -337,7 +337,8 @@ TEST(Random, NeedlesAndPlates) {
             b.rotation = b.orientation.toRotationMatrix();
             s.set_spin(body, random.vector(1.0));
             std::vector<Vec3> points;
-            for (int i = 0; i < 2; ++i) points.push_back(b.position + b.rotation * size.cwiseProduct(random.vector(0.5)));
+            for (int i = 0; i < 2; ++i)
+                points.push_back(b.position + b.rotation * size.cwiseProduct(random.vector(0.5)));
             s.touch(0, body, Vec3::UnitY(), points);
             const double before = s.kinetic();
             s.resolve(law);

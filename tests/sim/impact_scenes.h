@@ -39,13 +39,14 @@ struct ImpactScene {
     }
     std::uint32_t add_box(double mass, const Vec3& size, const Vec3& position, const Vec3& velocity) {
         const Vec3 s = size.cwiseAbs2();
-        return add(BodyType::dynamic, mass, mass / 12.0 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()), position, velocity);
+        return add(BodyType::dynamic, mass, mass / 12.0 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()), position,
+                   velocity);
     }
     void set_spin(std::uint32_t body, const Vec3& spin) {
         Body& b = bodies[body];
         b.angular_momentum = b.rotation * b.inertia_body * (b.rotation.transpose() * spin);
         b.derive();
-        b.angular_velocity = spin;   // derive() loses six digits of a needle's spin
+        b.angular_velocity = spin;  // derive() loses six digits of a needle's spin
     }
     void touch(std::uint32_t a, std::uint32_t b, const Vec3& normal, const std::vector<Vec3>& points) {
         Manifold m;
@@ -148,7 +149,8 @@ inline ImpactScene billiard_rack(double restitution) {
     s.add_ball(1.0, Vec3::Zero(), Vec3::UnitY());
     const auto at = [](int row, int k) { return std::uint32_t(1 + row * (row + 1) / 2 + k); };
     for (int row = 0; row < 5; ++row)
-        for (int k = 0; k <= row; ++k) s.add_ball(1.0, Vec3(k - 0.5 * row, 1.0 + std::sqrt(0.75) * row, 0), Vec3::Zero());
+        for (int k = 0; k <= row; ++k)
+            s.add_ball(1.0, Vec3(k - 0.5 * row, 1.0 + std::sqrt(0.75) * row, 0), Vec3::Zero());
     s.touch_balls(0, 1);
     for (int row = 0; row < 5; ++row)
         for (int k = 0; k <= row; ++k) {
@@ -174,8 +176,10 @@ inline ImpactScene random_impact(Random& random, double decades, double e_low, d
         Body& b = s.bodies[body];
         b.orientation = random.turn();
         b.rotation = b.orientation.toRotationMatrix();
-        if (b.dynamic()) s.set_spin(body, random.vector(1.0));
-        else b.velocity.setZero();
+        if (b.dynamic())
+            s.set_spin(body, random.vector(1.0));
+        else
+            b.velocity.setZero();
     }
     const int contacts = 1 + random.below(3 * bodies);
     for (int i = 0; i < contacts; ++i) {
@@ -183,8 +187,10 @@ inline ImpactScene random_impact(Random& random, double decades, double e_low, d
         if (a == b || (!s.bodies[a].dynamic() && !s.bodies[b].dynamic())) continue;
         const Vec3 point = 0.5 * (s.bodies[a].position + s.bodies[b].position) + random.vector(0.5);
         const Vec3 normal = random.vector(1.0).normalized();
-        if (random.below(4) == 0) s.touch(a, b, normal, {point, point});
-        else s.touch(a, b, normal, {point});
+        if (random.below(4) == 0)
+            s.touch(a, b, normal, {point, point});
+        else
+            s.touch(a, b, normal, {point});
     }
     return s;
 }

@@ -14,7 +14,7 @@ namespace {
 struct Cluster {
     std::vector<Body> bodies;
     std::vector<Contact> contacts;
-    bool free = true;   // no fixed body takes part
+    bool free = true;  // no fixed body takes part
 };
 
 // A tree of contacts, some closed to rings, in random poses.
@@ -31,7 +31,8 @@ Cluster random_cluster(Random& random, int count, bool with_fixed, double heavie
         const auto to = std::uint32_t(random.below(int(i)));
         manifolds.push_back(random_manifold(random, c.bodies, to, i, 1 + random.below(4)));
     }
-    std::stable_sort(manifolds.begin(), manifolds.end(), [](const Manifold& l, const Manifold& r) { return l.a < r.a; });
+    std::stable_sort(manifolds.begin(), manifolds.end(),
+                     [](const Manifold& l, const Manifold& r) { return l.a < r.a; });
     make_contacts(manifolds, c.bodies, c.contacts);
     return c;
 }
@@ -42,11 +43,12 @@ int collide_cluster(Cluster& c, double threshold) {
     for (const Island& island : islands_of(c.contacts, c.bodies))
         passes = std::max(passes, resolve_impacts(island, c.contacts, c.bodies, {.threshold = threshold}));
     for (const Contact& contact : c.contacts)
-        if (contact.impact > 0.0) add_impulse(contact, contact.impact * contact.normal, c.bodies[contact.a], c.bodies[contact.b]);
+        if (contact.impact > 0.0)
+            add_impulse(contact, contact.impact * contact.normal, c.bodies[contact.a], c.bodies[contact.b]);
     for (Body& b : c.bodies) {
         if (!b.dynamic()) continue;
         const Vec3 velocity = b.velocity, spin = b.angular_velocity;
-        b.derive();   // velocities and momenta agree
+        b.derive();  // velocities and momenta agree
         EXPECT_LT((velocity - b.velocity).norm(), 1e-9);
         EXPECT_LT((spin - b.angular_velocity).norm(), 1e-9);
     }
@@ -55,7 +57,8 @@ int collide_cluster(Cluster& c, double threshold) {
 
 double fastest_approach(const Cluster& c) {
     double fastest = 0.0;
-    for (const Contact& k : c.contacts) fastest = std::max(fastest, -relative_velocity(k, c.bodies[k.a], c.bodies[k.b]));
+    for (const Contact& k : c.contacts)
+        fastest = std::max(fastest, -relative_velocity(k, c.bodies[k.a], c.bodies[k.b]));
     return fastest;
 }
 
@@ -129,7 +132,7 @@ TEST(Impacts, SlowApproachesAreSkippedInLargeClusters) {
         EXPECT_EQ(resolve_impacts(all, s.contacts, s.bodies, {.threshold = 0.1, .slow = 0.01}), 1);
         for (std::uint32_t i = 0; i < pairs; ++i) {
             const bool few = pairs <= tuning::pass_contacts;
-            const double bracket = 1.0 + 1.0 / 2.0;   // of eq. 20; the slow ones stop
+            const double bracket = 1.0 + 1.0 / 2.0;  // of eq. 20; the slow ones stop
             EXPECT_NEAR(s.contacts[i].impact, i == 3 ? 1.5 / bracket : few ? 1e-3 / bracket : 0.0, 1e-14) << i;
         }
     }

@@ -1,6 +1,6 @@
 // One body's step: rotations stay rotations, both forms agree, both Euler methods are their formulas.
-#include "random_shapes.h"
 #include "sim/dynamics/integrator.h"
+#include "random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(QuaternionOf, AgreesWithTheMatrix) {
     Random random(102);
     for (int trial = 0; trial < 2000; ++trial) {
         Quat q = random.turn();
-        if (trial % 3 == 0) q = Quat(1e-9 * random(-1, 1), 1.0, 1e-9, random(-1, 1)).normalized();   // half turns
+        if (trial % 3 == 0) q = Quat(1e-9 * random(-1, 1), 1.0, 1e-9, random(-1, 1)).normalized();  // half turns
         const Mat3 m = q.toRotationMatrix();
         const Quat back = quaternion_of(m);
         EXPECT_NEAR(back.norm(), 1.0, 1e-15);
@@ -47,7 +47,7 @@ TEST(QuaternionOf, AgreesWithTheMatrix) {
 TEST(AdvancePose, RotatesByItsStatedAngles) {
     Random random(103);
     for (int trial = 0; trial < 200; ++trial) {
-        const double angle = trial % 2 ? random(0.0, 0.3) : random(0.0, 3.0);   // also absurdly fast spins
+        const double angle = trial % 2 ? random(0.0, 0.3) : random(0.0, 3.0);  // also absurdly fast spins
         const Vec3 axis = random.direction();
         for (const RotationForm form : {RotationForm::quaternion, RotationForm::matrix}) {
             Body body;

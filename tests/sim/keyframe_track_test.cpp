@@ -1,7 +1,7 @@
 // Paths of kinematic bodies: they pass through their keys, their velocities are the derivatives of their poses, and
 // unusual key lists (one, two, equal, half turns, nonuniform times) are valid.
-#include "random_shapes.h"
 #include "sim/math/keyframe_track.h"
+#include "random_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::vector<Keyframe> random_keys(Random& random, int n) {
     double time = random(-1.0, 1.0);
     for (int i = 0; i < n; ++i) {
         keys.push_back({time, random.vector(2.0), random.turn()});
-        time += i % 3 == 0 ? random(0.01, 0.05) : random(0.5, 2.0);   // nonuniform
+        time += i % 3 == 0 ? random(0.01, 0.05) : random(0.5, 2.0);  // nonuniform
     }
     return keys;
 }
@@ -73,7 +73,8 @@ TEST(KeyframeTrack, SmoothPathsHaveNoKinks) {
         const KeyframeTrack track(keys, Interpolation::smooth);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const double eps = 1e-9;
-            const auto before = track.at(keys[i].time - eps), now = track.at(keys[i].time), later = track.at(keys[i].time + eps);
+            const auto before = track.at(keys[i].time - eps), now = track.at(keys[i].time),
+                       later = track.at(keys[i].time + eps);
             for (const auto& m : {before, later}) {
                 EXPECT_LT((m.velocity - now.velocity).norm(), 1e-3);
                 EXPECT_LT((m.angular_velocity - now.angular_velocity).norm(), 1e-3) << "key " << i;
@@ -92,12 +93,13 @@ TEST(KeyframeTrack, HalfTurns) {
                 std::vector<Keyframe> keys;
                 for (int i = 0; i < 5; ++i) keys.push_back({double(i), Vec3::Zero(), about(axis, (pi + slack) * i)});
                 const KeyframeTrack track(keys, kind);
-                for (int i = 0; i < 5; ++i) EXPECT_LT(angle_between(track.at(i).rotation, keys[std::size_t(i)].rotation), 1e-7);
+                for (int i = 0; i < 5; ++i)
+                    EXPECT_LT(angle_between(track.at(i).rotation, keys[std::size_t(i)].rotation), 1e-7);
                 for (double t = 0.05; t < 4.0; t += 0.1) {
                     const auto m = track.at(t);
                     EXPECT_TRUE(m.rotation.coeffs().allFinite() && m.angular_velocity.allFinite());
                     EXPECT_LT(m.angular_velocity.norm(), 4.0 * pi);
-                    EXPECT_LT(m.angular_velocity.cross(axis.normalized()).norm(), 1e-6);   // about the axis alone
+                    EXPECT_LT(m.angular_velocity.cross(axis.normalized()).norm(), 1e-6);  // about the axis alone
                 }
                 if (kind == Interpolation::linear) {
                     EXPECT_NEAR(track.at(0.5).angular_velocity.norm(), pi, 1e-8);
@@ -120,7 +122,8 @@ TEST(KeyframeTrack, SteadyRotationStaysSteady) {
 TEST(KeyframeTrack, NothingOvershoots) {
     const Vec3 up = Vec3(0.0, 0.6, 0.8);
     std::vector<Keyframe> keys;
-    for (const auto& [time, height] : {std::pair{0.0, 0.0}, {3.0, 0.0}, {3.2, 5.0}, {7.0, 5.0}, {7.5, 4.0}, {11.0, 4.5}})
+    for (const auto& [time, height] :
+         {std::pair{0.0, 0.0}, {3.0, 0.0}, {3.2, 5.0}, {7.0, 5.0}, {7.5, 4.0}, {11.0, 4.5}})
         keys.push_back({time, height * up, about(up, 0.3 * height)});
     const KeyframeTrack track(keys, Interpolation::smooth);
     for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -155,7 +158,7 @@ TEST(KeyframeTrack, TwoKeysStartAndStopAtRestOrMoveEvenly) {
         EXPECT_EQ(track->at(0.0).position, first.position);
         EXPECT_EQ(track->at(9.0).position, last.position);
     }
-    EXPECT_NEAR(smooth.at(2.0).velocity.x(), 1.5 * 2.0, 1e-13);   // u^2 (3 - 2u) has slope 3/2 in the middle
+    EXPECT_NEAR(smooth.at(2.0).velocity.x(), 1.5 * 2.0, 1e-13);  // u^2 (3 - 2u) has slope 3/2 in the middle
     EXPECT_NEAR(linear.at(1.1).velocity.x(), 2.0, 1e-13);
     EXPECT_NEAR(linear.at(2.9).angular_velocity.z(), 0.5, 1e-13);
 }

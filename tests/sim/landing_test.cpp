@@ -1,9 +1,9 @@
 // End of bouncing: the acceleration at contacts and the bodies that they hold, independent of the order of bodies and
 // contacts.
 #include "random_shapes.h"
+#include "sim/ccd/trajectory.h"
 #include "sim/contact/direct/settings.h"
 #include "sim/event_driven/contact_transition.h"
-#include "sim/ccd/trajectory.h"
 #include "sim/geometry/settings.h"
 #include "support/bodies.h"
 
@@ -78,7 +78,8 @@ Body ground() {
 }
 
 Body random_box(Random& random) {
-    return free_box({random(0.3, 1.0), random(0.3, 1.0), random(0.3, 1.0)}, random(0.5, 3.0), Vec3::Zero(), random.vector(2.0), random.turn(), random.vector(4.0));
+    return free_box({random(0.3, 1.0), random(0.3, 1.0), random(0.3, 1.0)}, random(0.5, 3.0), Vec3::Zero(),
+                    random.vector(2.0), random.turn(), random.vector(4.0));
 }
 
 // Moves the body along the manifold's normal until the two just touch, in one point.
@@ -111,7 +112,7 @@ TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
         EXPECT_NEAR(pressing(a, b), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial;
         EXPECT_NEAR(pressing(b, a), *measured, 1e-4 * (10.0 + std::abs(*measured))) << trial << ", reversed";
     }
-    for (const int kind : corners) EXPECT_GE(kind, trials(20));   // crossing edges, and corners of either body
+    for (const int kind : corners) EXPECT_GE(kind, trials(20));  // crossing edges, and corners of either body
     EXPECT_GE(all, trials(150));
 }
 
@@ -120,7 +121,8 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
     Random random(12);
     int all = 0;
     for (int trial = 0; trial < trials(400); ++trial) {
-        Body a = trial % 4 == 0 ? free_ball(random(0.1, 0.4), 1.0, Vec3::Zero(), random.vector(2.0)) : random_box(random);
+        Body a =
+            trial % 4 == 0 ? free_ball(random(0.1, 0.4), 1.0, Vec3::Zero(), random.vector(2.0)) : random_box(random);
         a.angular_momentum = a.inertia_body * random.vector(trial % 4 == 0 ? 4.0 : 1.0);
         a.derive();
         Body b = free_ball(random(0.1, 0.4), 1.0, 1.5 * random.direction(), random.vector(2.0));
@@ -128,7 +130,9 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
         const auto measured = gap_acceleration(a, b);
         if (!measured) continue;
         const auto on = [&](double t) { return one_point(at_time(a, t), at_time(b, t), 1e-3); };
-        if (on(-1e-4)->on_ball != on(1e-4)->on_ball || on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0)) continue;
+        if (on(-1e-4)->on_ball != on(1e-4)->on_ball ||
+            on(-1e-4)->curve().straight.isZero(0.0) != on(1e-4)->curve().straight.isZero(0.0))
+            continue;
         ++all;
         EXPECT_NEAR(pressing(a, b), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial;
         EXPECT_NEAR(pressing(b, a), *measured, 1e-3 * (10.0 + std::abs(*measured))) << trial << ", reversed";
@@ -141,7 +145,9 @@ TEST(MarkHeld, DoesNotDependOnTheOrderOfContacts) {
     Random random(5);
     for (int trial = 0; trial < trials(400); ++trial) {
         std::vector<Body> bodies{ground()};
-        for (int i = 0; i < 6; ++i) bodies.push_back(free_box({0.5, 0.4, 0.3}, 1.0, random.vector(1.0), random.vector(0.02), random.turn(), random.vector(2.0)));
+        for (int i = 0; i < 6; ++i)
+            bodies.push_back(free_box({0.5, 0.4, 0.3}, 1.0, random.vector(1.0), random.vector(0.02), random.turn(),
+                                      random.vector(2.0)));
         std::vector<Contact> contacts;
         for (int k = 0; k < 9; ++k) {
             Contact c;
@@ -165,7 +171,8 @@ TEST(MarkHeld, DoesNotDependOnTheOrderOfContacts) {
 // Resting contact leaves overlaps below a fraction of the radius: a body that an impact makes part there is free,
 // whatever the last digit. Deeper overlaps hold a body, to be pushed out.
 TEST(MarkHeld, ReleasesRestingBodiesThatPart) {
-    std::vector<Body> bodies{ground(), free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, {0.0, 0.5, 0.0}, Quat::Identity(), Vec3::Zero())};
+    std::vector<Body> bodies{
+        ground(), free_box({0.5, 0.4, 0.3}, 1.0, {0.0, 0.2, 0.0}, {0.0, 0.5, 0.0}, Quat::Identity(), Vec3::Zero())};
     Contact c;
     c.a = 0;
     c.b = 1;

@@ -21,7 +21,8 @@ LoadEstimate pile(const std::vector<double>& masses, const std::vector<Manifold>
     std::iota(all.begin(), all.end(), 0u);
     LoadEstimates loads(bodies.size());
     // A second evaluation gives the same: the first keeps no state.
-    const LoadEstimate first = loads.find(bodies, manifolds, members, all), second = loads.find(bodies, manifolds, members, all);
+    const LoadEstimate first = loads.find(bodies, manifolds, members, all),
+                       second = loads.find(bodies, manifolds, members, all);
     EXPECT_EQ(first.ratio, second.ratio);
     EXPECT_EQ(first.levels, second.levels);
     return first;

@@ -39,7 +39,8 @@ struct Found {
 double largest_gap(const std::vector<Manifold>& manifolds) {
     std::vector<double> angles;
     for (const Manifold& m : manifolds)
-        for (int i = 0; i < m.count; ++i) angles.push_back(std::atan2(m.points[std::size_t(i)].position.z(), m.points[std::size_t(i)].position.x()));
+        for (int i = 0; i < m.count; ++i)
+            angles.push_back(std::atan2(m.points[std::size_t(i)].position.z(), m.points[std::size_t(i)].position.x()));
     std::sort(angles.begin(), angles.end());
     double gap = angles.front() + 2.0 * std::numbers::pi - angles.back();
     for (std::size_t i = 1; i < angles.size(); ++i) gap = std::max(gap, angles[i] - angles[i - 1]);
@@ -127,7 +128,8 @@ TEST(Growth, ReplacesANeighborWhereThereIsNoRoom) {
 TEST(Growth, PointsDoNotGatherOnOneSide) {
     const auto tilted = [](double towards) {
         std::vector<ContactPoint> points = polygon(64, 0.0);
-        for (ContactPoint& p : points) p.separation -= 1e-2 * p.position.dot(Vec3(std::cos(towards), 0.0, std::sin(towards)));
+        for (ContactPoint& p : points)
+            p.separation -= 1e-2 * p.position.dot(Vec3(std::cos(towards), 0.0, std::sin(towards)));
         return points;
     };
     std::vector<Manifold> both{Found(polygon(64, 0.0)).first};
@@ -159,5 +161,6 @@ TEST(Growth, OtherFacesStartAnew) {
     Found now(points);
     const Manifold before = now.first;
     EXPECT_EQ(grow(std::span(&level.first, 1), 1.0, now.first, now.left_out).count, 0);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(now.first.points[std::size_t(i)].feature, before.points[std::size_t(i)].feature);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(now.first.points[std::size_t(i)].feature, before.points[std::size_t(i)].feature);
 }

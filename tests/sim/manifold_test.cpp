@@ -9,7 +9,7 @@ using namespace tumble::testing;
 
 namespace {
 Mat3 turn_about_y(double angle) { return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix(); }
-}
+}  // namespace
 
 // A plate of any proportions on a half-space and on a box, with so large a margin that its upper corners are candidates
 // too: its four lower corners, at any rotation about the normal.
@@ -27,7 +27,8 @@ TEST(Manifold, APlateStandsOnItsFourCorners) {
                     ASSERT_EQ(manifolds.size(), 1u);
                     ASSERT_EQ(manifolds[0].count, 4) << width << " " << thick << " " << box;
                     for (int corner = 0; corner < 4; ++corner) {
-                        const Vec3 at = pose.to_world(0.5 * Vec3(corner & 1 ? 1.0 : -1.0, -thick, corner & 2 ? width : -width));
+                        const Vec3 at =
+                            pose.to_world(0.5 * Vec3(corner & 1 ? 1.0 : -1.0, -thick, corner & 2 ? width : -width));
                         double nearest = 1e9;
                         for (int i = 0; i < 4; ++i) {
                             nearest = std::min(nearest, (manifolds[0].points[std::size_t(i)].position - at).norm());
@@ -54,7 +55,8 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
         std::vector<ContactPoint> left_out;
         keep_best_points(points, m, left_out);
         ASSERT_EQ(m.count, 4);
-        for (int k = 0; k < 64; ++k) {   // in every direction a point extends farther than cos 72 degrees: a corner of a pentagon
+        for (int k = 0; k < 64;
+             ++k) {  // in every direction a point extends farther than cos 72 degrees: a corner of a pentagon
             const Vec3 way(std::cos(0.1 * k), 0.0, std::sin(0.1 * k));
             double most = 0.0;
             for (int i = 0; i < 4; ++i) most = std::max(most, way.dot(m.points[std::size_t(i)].position));
@@ -77,7 +79,8 @@ TEST(Manifold, LoadedPointsAreKept) {
             p.separation = i < bearing ? random(-2e-3, -1e-4) : random(5e-3, 3e-2);
             points.push_back(p);
         }
-        for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[std::size_t(random.below(int(i)))]);
+        for (std::size_t i = points.size(); i > 1; --i)
+            std::swap(points[i - 1], points[std::size_t(random.below(int(i)))]);
         Manifold m;
         m.normal = Vec3::UnitY();
         std::vector<ContactPoint> left_out;

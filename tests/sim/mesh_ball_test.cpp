@@ -97,9 +97,9 @@ TEST(BallOnSurface, FlatFloorHasOneNormalAtAnyResolution) {
         const auto floor = surface_of(grid_mesh(n, 2.0, 0.0));
         for (int trial = 0; trial < 200; ++trial) {
             Vec3 at(random(-1.5, 1.5), 0.3 + random(-0.002, 0.02), random(-1.5, 1.5));
-            if (trial % 4 == 0) at.x() = 4.0 * random.below(n + 1) / n - 2.0;             // over internal edges
-            if (trial % 8 == 0) at.z() = 4.0 * random.below(n + 1) / n - 2.0;             // over corners
-            if (trial % 16 == 1) at.z() = at.x();                                         // over diagonals, for some
+            if (trial % 4 == 0) at.x() = 4.0 * random.below(n + 1) / n - 2.0;  // over internal edges
+            if (trial % 8 == 0) at.z() = 4.0 * random.below(n + 1) / n - 2.0;  // over corners
+            if (trial % 16 == 1) at.z() = at.x();                              // over diagonals, for some
             const auto found = collide_all(floor, {}, Ball{0.3}, {at, Mat3::Identity()}, 0.05);
             ASSERT_FALSE(found.empty());
             for (const Manifold& m : found) {
@@ -148,7 +148,8 @@ TEST(BallOnSurface, ClosedPushesOutOnlyOpenBothWays) {
     const auto outside_face = collide_all(closed, {}, Ball{0.3}, {{0.1, 1.25, 0.2}, Mat3::Identity()}, 0.0);
     ASSERT_EQ(outside_face.size(), 1u);
     EXPECT_LT((outside_face[0].normal - Vec3::UnitY()).norm(), 1e-12);
-    EXPECT_TRUE(collide_all(closed, {}, Ball{0.3}, {{0.1, 0.95, 0.2}, Mat3::Identity()}, 0.0).empty());   // one side only
+    EXPECT_TRUE(
+        collide_all(closed, {}, Ball{0.3}, {{0.1, 0.95, 0.2}, Mat3::Identity()}, 0.0).empty());  // one side only
     // At an edge and at a corner of the closed box: the direction from it.
     for (const Vec3& way : {Vec3(1.0, 1.0, 0.0), Vec3(1.0, 1.0, 1.0), Vec3(1.0, 0.2, 0.0), Vec3(0.3, 1.0, 0.1)}) {
         const Vec3 on(1.0, 1.0, way.z() > 0.0 ? 1.0 : 0.3);
@@ -167,7 +168,8 @@ TEST(BallOnSurface, CenterOnTheSurfaceIsFinite) {
         const auto i = std::uint32_t(random.below(int(s->triangles.size())));
         const double u = random(0.0, 1.0), v = random(0.0, 1.0 - u);
         for (const Vec3& center : {s->corner(i, 0), Vec3(0.5 * (s->corner(i, 0) + s->corner(i, 1))),
-                                   Vec3(s->corner(i, 0) + u * (s->corner(i, 1) - s->corner(i, 0)) + v * (s->corner(i, 2) - s->corner(i, 0)))}) {
+                                   Vec3(s->corner(i, 0) + u * (s->corner(i, 1) - s->corner(i, 0)) +
+                                        v * (s->corner(i, 2) - s->corner(i, 0)))}) {
             const auto found = collide_all(s, {}, Ball{0.1}, {center, Mat3::Identity()}, 0.0);
             ASSERT_FALSE(found.empty());
             EXPECT_NEAR(deepest(found), -0.1, 1e-12);
@@ -183,7 +185,8 @@ TEST(BallOnSurface, LargeMeshStaysQuick) {
     for (int trial = 0; trial < trials(20000); ++trial) {
         const Vec3 on(random(-49, 49), 0.0, random(-49, 49));
         const Vec3 n = Vec3(-0.1, 1.0, 0.0).normalized();
-        const auto found = collide_all(s, {}, Ball{0.5}, {on + Vec3(0.0, 0.1 * on.x(), 0.0) + 0.499 * n, Mat3::Identity()}, 0.01);
+        const auto found =
+            collide_all(s, {}, Ball{0.5}, {on + Vec3(0.0, 0.1 * on.x(), 0.0) + 0.499 * n, Mat3::Identity()}, 0.01);
         ASSERT_GE(found.size(), 1u);
         EXPECT_NEAR(deepest(found), -0.001, 1e-9);
     }

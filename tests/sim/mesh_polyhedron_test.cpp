@@ -1,8 +1,8 @@
 // Boxes and hulls on triangle meshes: each lone triangle against the exact Minkowski difference, then internal edges,
 // ridges, valleys and sides.
 #include "random_shapes.h"
-#include "sim/geometry/separating_axis.h"
 #include "sim/ccd/closest_axis.h"
+#include "sim/geometry/separating_axis.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,8 @@ bool overlap(const CollisionMesh& s, const Polyhedron& b, const Pose& pose) {
     const SupportPoints cloud = cloud_of(std::move(points));
     bool found = false;
     s.tree.query(bounds, [&](std::uint32_t t) {
-        found = found || !closest_vector(cloud_of({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}), cloud, Vec3::UnitY());
+        found =
+            found || !closest_vector(cloud_of({s.corner(t, 0), s.corner(t, 1), s.corner(t, 2)}), cloud, Vec3::UnitY());
     });
     return found;
 }
@@ -155,7 +156,7 @@ TEST(PolyhedronOnSurface, ValleyNormalsAreTheSlopes) {
         for (int trial = 0; trial < 60; ++trial) {
             const auto body = random_body(random, trial);
             Pose pose{{random(-0.1, 0.1), 2.0, random(-0.5, 0.5)}, random.turn().toRotationMatrix()};
-            double gap = 1e300;   // lowered until it touches one slope or both
+            double gap = 1e300;  // lowered until it touches one slope or both
             for (const Vec3& v : body->vertices) {
                 const Vec3 p = pose.to_world(v);
                 gap = std::min(gap, p.y() - 0.5 * std::abs(p.x()));
@@ -174,7 +175,8 @@ TEST(PolyhedronOnSurface, ValleyNormalsAreTheSlopes) {
 TEST(PolyhedronOnSurface, RidgeCarriesAFlatBox) {
     for (const int n : {2, 10}) {
         const auto ridge = surface_of(folded(-0.5, n));
-        const auto found = collide_all(ridge, {}, box_of({1.0, 0.2, 0.6}), {{0.05, 0.0995, 0.03}, Mat3::Identity()}, 0.001);
+        const auto found =
+            collide_all(ridge, {}, box_of({1.0, 0.2, 0.6}), {{0.05, 0.0995, 0.03}, Mat3::Identity()}, 0.001);
         ASSERT_FALSE(found.empty());
         EXPECT_NEAR(deepest(found), -0.0005, 1e-9);
         Bounds line;
@@ -214,7 +216,7 @@ TEST(PolyhedronOnSurface, ClosedBoxMeshMatchesTheBox) {
     for (int trial = 0; trial < 600; ++trial) {
         const auto body = random_body(random, trial);
         Pose pose = random.pose(1.2);
-        if (outside(*same, pose.position) < 0.05) continue;   // a center inside is specific to the solid
+        if (outside(*same, pose.position) < 0.05) continue;  // a center inside is specific to the solid
         const auto solid = collide_all(same, {}, body, pose, 0.0);
         if (solid.empty()) continue;
         // Out to a shallow overlap, as for contacts in motion.
@@ -245,7 +247,7 @@ TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
                               : trial % 4 == 2 ? random_hull(random, 12, {0.6, random(0.05, 0.3), random(0.1, 0.5)})
                                                : box_of({random(0.1, 1.0), random(0.1, 1.0), random(0.1, 1.0)});
             Pose pose{{random(-4.0, 4.0), 0.0, random(-4.0, 4.0)}, random.turn().toRotationMatrix()};
-            const double side = trial % 8 < 4 ? 1.0 : -1.0;   // from above, or from below
+            const double side = trial % 8 < 4 ? 1.0 : -1.0;  // from above, or from below
             double outside = side * 4.0, inside = wavy_height(pose.position.x(), pose.position.z());
             while (std::abs(outside - inside) > 1e-9) {
                 pose.position.y() = 0.5 * (outside + inside);
@@ -255,7 +257,8 @@ TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
             pose.position.y() = outside - side * depth;
             const auto found = collide_all(ground, {}, body, pose, 0.01);
             ASSERT_FALSE(found.empty()) << trial;
-            EXPECT_GE(deepest(found), -1.001 * depth - 2.0 * axis_preference(body->radius)) << trial << " " << wound_alike;
+            EXPECT_GE(deepest(found), -1.001 * depth - 2.0 * axis_preference(body->radius))
+                << trial << " " << wound_alike;
             // An edge across a crease may be detected slightly late.
             EXPECT_LT(deepest(found), 0.2 * body->inner_radius) << trial << " " << wound_alike;
             for (const Manifold& m : found) EXPECT_GT(side * m.normal.y(), 0.0) << trial << " " << wound_alike;

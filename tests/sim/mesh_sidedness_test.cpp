@@ -1,7 +1,7 @@
 // Sidedness of open meshes: hills, folds, borders, and one-sided strips.
+#include "sim/geometry/mesh_sidedness.h"
 #include "core/deterministic_math.h"
 #include "random_shapes.h"
-#include "sim/geometry/mesh_sidedness.h"
 
 #include <gtest/gtest.h>
 
@@ -74,14 +74,20 @@ TEST(MeshSidedness, AboveAndBelowHillsAndHollows) {
 TEST(MeshSidedness, BetweenTheLayersOfAFold) {
     TriangleMesh mesh = grid_mesh(40, 2.0, 0.0);
     for (Vec3& v : mesh.vertices) {
-        const double s = v.x();   // along the sheet: three layers 0.2 m apart, joined by half circles
+        const double s = v.x();  // along the sheet: three layers 0.2 m apart, joined by half circles
         const double length = 1.0, bend = 0.1 * pi;
         const double u = s + 1.5 * length + bend;
-        if (u < length) v = {u, 0.0, v.z()};
-        else if (u < length + bend) v = {length + 0.1 * std::sin((u - length) / 0.1), 0.1 - 0.1 * std::cos((u - length) / 0.1), v.z()};
-        else if (u < 2.0 * length + bend) v = {2.0 * length + bend - u, 0.2, v.z()};
-        else if (u < 2.0 * length + 2.0 * bend) v = {-0.1 * std::sin((u - 2.0 * length - bend) / 0.1), 0.3 - 0.1 * std::cos((u - 2.0 * length - bend) / 0.1), v.z()};
-        else v = {u - 2.0 * length - 2.0 * bend, 0.4, v.z()};
+        if (u < length)
+            v = {u, 0.0, v.z()};
+        else if (u < length + bend)
+            v = {length + 0.1 * std::sin((u - length) / 0.1), 0.1 - 0.1 * std::cos((u - length) / 0.1), v.z()};
+        else if (u < 2.0 * length + bend)
+            v = {2.0 * length + bend - u, 0.2, v.z()};
+        else if (u < 2.0 * length + 2.0 * bend)
+            v = {-0.1 * std::sin((u - 2.0 * length - bend) / 0.1),
+                 0.3 - 0.1 * std::cos((u - 2.0 * length - bend) / 0.1), v.z()};
+        else
+            v = {u - 2.0 * length - 2.0 * bend, 0.4, v.z()};
     }
     const auto fold = surface_of(mesh);
     for (const double y : {0.09, 0.31}) {

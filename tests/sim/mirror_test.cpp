@@ -104,7 +104,8 @@ TEST(Mirror, BoxesThrownAtTheFloor) {
     for (int trial = 0; trial < 40; ++trial) {
         SceneDescription scene = ground_scene(0.0, 0.5, 1);
         scene.output.fps = 30.0;
-        BodyDescription& box = add_box(scene, {random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)}, {0.0, random(1.0, 1.5), 0.0});
+        BodyDescription& box =
+            add_box(scene, {random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)}, {0.0, random(1.0, 1.5), 0.0});
         box.rotation = random.turn();
         box.velocity = {random(-3.0, 3.0), random(-4.0, 0.0), random(-3.0, 3.0)};
         box.angular_velocity = random.vector(5.0);

@@ -1,8 +1,8 @@
 // Manifolds from step to step: accumulated impulses stay with the points that still exist.
+#include "sim/detection/narrow_phase.h"
 #include "random_shapes.h"
 #include "sim/detection/settings.h"
 #include "sim/dynamics/body_builder.h"
-#include "sim/detection/narrow_phase.h"
 #include "sim/geometry/settings.h"
 #include "support/compounds.h"
 
@@ -67,7 +67,7 @@ TEST(NarrowPhaseManifold, KeepsItsImpulses) {
     mark(first);
     const Manifold before = first;
     for (int step = 0; step < 20; ++step) {
-        if (step > 2) scene.bodies[1].position.x() += 0.004;   // searched again in the same step, then slid along
+        if (step > 2) scene.bodies[1].position.x() += 0.004;  // searched again in the same step, then slid along
         const Manifold& m = scene.find()[0];
         ASSERT_EQ(m.count, 4);
         for (int i = 0; i < 4; ++i) {
@@ -125,7 +125,7 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
                              body_at(HalfSpace{Vec3::UnitY(), 0.0}, Vec3::Zero(), BodyType::fixed)};
     for (int i = 0; i < 60; ++i) {
         const CollisionShape shape = i % 3 == 2 ? CollisionShape(random_hull(random, 12, Vec3::Constant(0.6)))
-                                          : CollisionShape(box_of(random.vector(0.3) + Vec3::Constant(0.9)));
+                                                : CollisionShape(box_of(random.vector(0.3) + Vec3::Constant(0.9)));
         bodies.push_back(body_at(shape, random.vector(1.8) + Vec3(0.0, 1.8, 0.0)));
         if (i % 3 != 1) turn(bodies.back(), random.turn());
     }
@@ -144,12 +144,13 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
             body.position += h * body.velocity;
             turn(body, Quat(Eigen::AngleAxisd(h * body.angular_velocity.norm(), body.angular_velocity.normalized())));
         }
-        const std::vector<Manifold> found = with.find(pairs, bodies, h, pool), fresh = without.find(pairs, bodies, h, pool);
+        const std::vector<Manifold> found = with.find(pairs, bodies, h, pool),
+                                    fresh = without.find(pairs, bodies, h, pool);
         auto m = found.begin();
         for (const Manifold& f : fresh) {
             const auto key = [](const Manifold& of) { return std::tuple(of.a, of.b, of.part); };
             while (m != found.end() && key(*m) < key(f)) ++m;
-            double nearest = 1.0;   // of the fresh points, over the smaller radius
+            double nearest = 1.0;  // of the fresh points, over the smaller radius
             for (int k = 0; k < f.count; ++k) nearest = std::min(nearest, f.points[std::size_t(k)].separation);
             const double size = std::min(bodies[f.a].radius, bodies[f.b].radius);
             if (m == found.end() || key(*m) != key(f)) {
@@ -158,7 +159,7 @@ TEST(PairMemory, AgreesWithFreshManifolds) {
                 missing += nearest < 0.02 * size;
                 continue;
             }
-            if ((m->normal - f.normal).norm() > 0.01) {   // another axis that separates nearly as well
+            if ((m->normal - f.normal).norm() > 0.01) {  // another axis that separates nearly as well
                 ++different;
                 continue;
             }
@@ -192,7 +193,8 @@ TEST(PairMemory, RefreshedSeparationsAreExact) {
 // growth.
 TEST(PairMemory, NoReducedPointSinksUndetected) {
     Random random(4);
-    Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({1.0, 1.0, 1.0}), {0.0, 0.9997, 0.0})});
+    Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed),
+                 body_at(box_of({1.0, 1.0, 1.0}), {0.0, 0.9997, 0.0})});
     const Quat level(Eigen::AngleAxisd(0.25 * EIGEN_PI, Vec3::UnitY()));
     const auto deepest = [](const std::vector<Manifold>& manifolds) {
         double least = 1.0;
@@ -209,7 +211,9 @@ TEST(PairMemory, NoReducedPointSinksUndetected) {
         Scene fresh(scene.bodies);
         const double true_deepest = deepest(fresh.find());
         const double radius = scene.bodies[1].radius;
-        EXPECT_LE(found, true_deepest + std::max(tuning::sunk_overlap * radius, tuning::sunk_share * std::abs(found)) + 1e-9) << step;
+        EXPECT_LE(found,
+                  true_deepest + std::max(tuning::sunk_overlap * radius, tuning::sunk_share * std::abs(found)) + 1e-9)
+            << step;
     }
     EXPECT_EQ(most, 2u) << "a second manifold was needed";
 }
@@ -217,7 +221,8 @@ TEST(PairMemory, NoReducedPointSinksUndetected) {
 // The upper, wider box tilts: its face separates the two better, and the manifold moves to it. Level again both faces
 // separate equally well, and the manifold stays; found anew it would lie on the lower box's face.
 TEST(PairMemory, StaysOnItsFace) {
-    Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({2.0, 1.0, 2.0}), {0.0, 0.9995, 0.0})});
+    Scene scene({body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero(), BodyType::fixed),
+                 body_at(box_of({2.0, 1.0, 2.0}), {0.0, 0.9995, 0.0})});
     const auto on_upper = [](Scene& s) { return (s.find()[0].points[0].feature >> 63) != 0; };
     EXPECT_FALSE(on_upper(scene));
     turn(scene.bodies[1], Quat(Eigen::AngleAxisd(0.01, Vec3::UnitZ())));
@@ -234,7 +239,8 @@ TEST(PairMemory, DistinguishesATouchFromAGap) {
     Random random(3);
     for (int trial = 0; trial < trials(300); ++trial) {
         const auto on_edge = [](const Vec3& axis) { return Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, axis)); };
-        Scene scene({body_at(box_of({2.0, 2.0, 2.0}), Vec3::Zero(), BodyType::fixed), body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero())});
+        Scene scene({body_at(box_of({2.0, 2.0, 2.0}), Vec3::Zero(), BodyType::fixed),
+                     body_at(box_of({1.0, 1.0, 1.0}), Vec3::Zero())});
         turn(scene.bodies[0], on_edge(Vec3::UnitZ()));
         turn(scene.bodies[1], Quat(Eigen::AngleAxisd(random(-1.2, 1.2), Vec3::UnitY())) * on_edge(Vec3::UnitX()));
         scene.bodies[1].position = {random(-0.01, 0.01), 1.5 * std::numbers::sqrt2 + 2e-4, random(-0.01, 0.01)};
@@ -278,11 +284,13 @@ TEST(PairMemory, ComesBackAfterAFlight) {
 // to the board must not be taken for the distance of the body.
 TEST(PairMemory, TheGapOfOnePartIsNotThatOfTheCompound) {
     BodyDescription thing;
-    thing.shape = compound_of({part(BoxShape{{3.0, 0.05, 0.5}}, Vec3::Zero(), Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ()))),
+    thing.shape = compound_of({part(BoxShape{{3.0, 0.05, 0.5}}, Vec3::Zero(),
+                                    Quat(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitZ()))),
                                part(BoxShape{{0.3, 0.1, 0.3}}, {0.9, -0.6, 0.0})});
     thing.type = BodyType::fixed;
-    Scene scene({BodyBuilder().build(thing, IntegratorKind::symplectic_euler), body_at(box_of({0.2, 0.2, 0.2}), {0.9, -0.35, 0.0})});
-    for (double y = -0.35; y > -0.451; y -= 0.005) {   // down to an overlap of 1 mm
+    Scene scene({BodyBuilder().build(thing, IntegratorKind::symplectic_euler),
+                 body_at(box_of({0.2, 0.2, 0.2}), {0.9, -0.35, 0.0})});
+    for (double y = -0.35; y > -0.451; y -= 0.005) {  // down to an overlap of 1 mm
         scene.bodies[1].position.y() = y;
         scene.find();
     }
@@ -307,8 +315,7 @@ TEST(PairMemory, InternalEdgesAreFlat) {
                 EXPECT_NEAR(deepest(found), -1e-5, 1e-14) << step;
                 for (const Manifold& m : found) {
                     EXPECT_LT((m.normal - Vec3::UnitY()).norm(), 1e-14) << step;
-                    for (int i = 0; i < m.count; ++i)
-                        EXPECT_NEAR(m.points[std::size_t(i)].separation, -1e-5, 1e-14);
+                    for (int i = 0; i < m.count; ++i) EXPECT_NEAR(m.points[std::size_t(i)].separation, -1e-5, 1e-14);
                 }
             }
         }
@@ -330,7 +337,7 @@ TEST(BroadPhase, SleepersAreInNoList) {
     broad_phase.bodies_woke();
     const auto pairs = broad_phase.update(bodies, h);
     EXPECT_EQ(broad_phase.awake(), (std::vector<std::uint32_t>{7, 500}));
-    EXPECT_EQ(pairs.size(), 5u);   // the neighbors beside, above and across
+    EXPECT_EQ(pairs.size(), 5u);  // the neighbors beside, above and across
     for (const BroadPhase::Pair& pair : pairs) EXPECT_TRUE(pair.a == 7 || pair.b == 7);
     bodies[7].asleep = true;
     EXPECT_TRUE(broad_phase.update(bodies, h).empty());

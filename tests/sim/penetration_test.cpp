@@ -13,7 +13,7 @@ namespace {
 
 struct Exact {
     double separation;
-    Vec3 normal;   // away from A, world
+    Vec3 normal;  // away from A, world
 };
 
 Exact exact_separation(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
@@ -31,7 +31,8 @@ Exact exact_separation(const Polyhedron& a, const Pose& pose_a, const Polyhedron
 }
 
 // The same number computed without a hull: separations along many directions never exceed it.
-double separation_along(const Vec3& n, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
+double separation_along(const Vec3& n, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
+                        const Pose& pose_b) {
     double reach_a = -1e300, reach_b = 1e300;
     for (const Vec3& v : a.vertices) reach_a = std::max(reach_a, n.dot(pose_a.to_world(v)));
     for (const Vec3& v : b.vertices) reach_b = std::min(reach_b, n.dot(pose_b.to_world(v)));
@@ -60,7 +61,7 @@ void check_pair(const PolyhedronRef& a, const Pose& pose_a, const PolyhedronRef&
     ASSERT_GE(m.count, 1);
     EXPECT_NEAR(m.normal.norm(), 1.0, 1e-12);
     const double along = separation_along(m.normal, *a, pose_a, *b, pose_b);
-    EXPECT_LE(along, exact.separation + 1e-10 * radius);   // no axis separates better than the exact one
+    EXPECT_LE(along, exact.separation + 1e-10 * radius);  // no axis separates better than the exact one
     EXPECT_GE(along, exact.separation - slack) << "the axis is not that of least overlap";
     // The deepest point is as deep as the axis: the manifold contains the vertex that must be pushed out.
     EXPECT_GE(deepest(found), along - 1e-10 * radius);
@@ -144,7 +145,8 @@ TEST(Penetration, RoundedHullAtABoxesEdge) {
     Tally tally;
     for (int trial = 0; trial < trials(200); ++trial) {
         std::vector<Vec3> points;
-        for (int i = 0; i < 150; ++i) points.push_back(0.3 * random.direction().cwiseProduct(Vec3(1.0, random(0.99, 1.0), 1.0)));
+        for (int i = 0; i < 150; ++i)
+            points.push_back(0.3 * random.direction().cwiseProduct(Vec3(1.0, random(0.99, 1.0), 1.0)));
         const auto round = std::make_shared<const Polyhedron>(make_hull(points, mean(points)));
         const auto box = box_of({random(0.2, 1.0), random(0.2, 1.0), random(0.2, 1.0)});
         const Pose pose_a = random.pose(1.0);

@@ -16,7 +16,7 @@ namespace {
 void expect_sound(const Polyhedron& p, double size) {
     EXPECT_EQ(int(p.vertices.size()) - int(p.edges.size()) + int(p.faces.size()), 2);
     const Vec3 inside = mean(p.vertices);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> left_of;   // directed edge -> face
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> left_of;  // directed edge -> face
     std::set<std::uint32_t> used;
     for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
         const Polyhedron::Face& face = p.faces[f];
@@ -102,7 +102,8 @@ TEST(Hull, CoplanarPointsMakeOneFace) {
         for (int i = 0; i <= 6; ++i)
             for (int j = 0; j <= 6; ++j)
                 for (int k = 0; k <= 6; ++k)
-                    if (i % 6 == 0 || j % 6 == 0 || k % 6 == 0) points.push_back(size * Vec3(i / 6.0, j / 6.0, k / 6.0));
+                    if (i % 6 == 0 || j % 6 == 0 || k % 6 == 0)
+                        points.push_back(size * Vec3(i / 6.0, j / 6.0, k / 6.0));
         const Polyhedron p = make_hull(points, size * Vec3::Constant(0.5));
         EXPECT_EQ(p.faces.size(), 6u);
         EXPECT_EQ(p.edges.size(), 12u);
@@ -121,7 +122,8 @@ TEST(Hull, CoplanarPointsMakeOneFaceRotated) {
         for (int i = 0; i <= 5; ++i)
             for (int j = 0; j <= 5; ++j)
                 for (int k = 0; k <= 5; ++k)
-                    if (i % 5 == 0 || j % 5 == 0 || k % 5 == 0) points.push_back(pose.to_world({i / 5.0, j / 2.5, k / 5.0}));
+                    if (i % 5 == 0 || j % 5 == 0 || k % 5 == 0)
+                        points.push_back(pose.to_world({i / 5.0, j / 2.5, k / 5.0}));
         const Polyhedron p = make_hull(points, mean(points));
         EXPECT_EQ(p.faces.size(), 6u);
         EXPECT_EQ(p.vertices.size(), 8u);
@@ -136,7 +138,7 @@ TEST(Hull, OfManyPointsOnASphere) {
     for (int i = 0; i < 500; ++i) points.push_back(random.direction());
     const Polyhedron p = make_hull(points, Vec3::Zero());
     EXPECT_EQ(p.vertices.size(), 500u);
-    EXPECT_EQ(p.faces.size(), 996u);   // all triangles: 2 V - 4
+    EXPECT_EQ(p.faces.size(), 996u);  // all triangles: 2 V - 4
     expect_sound(p, 1.0);
     for (int trial = 0; trial < 100; ++trial) {
         const Vec3 d = random.direction();

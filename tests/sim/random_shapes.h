@@ -82,8 +82,8 @@ inline std::shared_ptr<const CollisionMesh> surface_of(const TriangleMesh& mesh,
     return std::make_shared<const CollisionMesh>(make_surface(mesh, origin));
 }
 
-inline std::vector<Manifold> collide_all(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b,
-                                         double margin) {
+inline std::vector<Manifold> collide_all(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b,
+                                         const Pose& pose_b, double margin) {
     CollisionScratch scratch;
     std::vector<Manifold> out;
     collide(a, pose_a, b, pose_b, margin, scratch, out);

@@ -9,7 +9,7 @@ using namespace tumble::testing;
 
 namespace {
 
-constexpr double h = 1.0 / 64.0;   // exact in binary: half a second is 32 steps
+constexpr double h = 1.0 / 64.0;  // exact in binary: half a second is 32 steps
 constexpr double shortest = tuning::sleep_times.front(), longest = tuning::sleep_times.back();
 
 /// A floor (0), two boxes one on the other (1, 2), and one apart from them on the floor (3); nothing moves unless a
@@ -34,7 +34,9 @@ struct Yard {
             sleep.observe(islands, manifolds, bodies, h);
         }
     }
-    int asleep() const { return int(std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.asleep; })); }
+    int asleep() const {
+        return int(std::count_if(bodies.begin(), bodies.end(), [](const Body& b) { return b.asleep; }));
+    }
 };
 
 }  // namespace
@@ -42,9 +44,9 @@ struct Yard {
 TEST(SleepMonitor, AfterHalfASecondOfRest) {
     Yard yard;
     const int steps = int(tuning::sleep_times[0] / h);
-    yard.observe(steps);   // the span starts with the first observation
+    yard.observe(steps);  // the span starts with the first observation
     EXPECT_EQ(yard.asleep(), 0);
-    yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);   // the residual motion is removed
+    yard.bodies[1].momentum = Vec3(0.0, 1e-7, 0.0);  // the residual motion is removed
     yard.observe();
     EXPECT_EQ(yard.asleep(), 3);
     EXPECT_TRUE(yard.bodies[1].momentum.isZero(0.0));
@@ -80,7 +82,7 @@ TEST(SleepMonitor, TremblingIsRestAndCreepingIsNot) {
     const double drift = tuning::sleep_drift(longest) * yard.bodies[3].radius;
     for (int k = 0; k * h < longest + 1.0; ++k) {
         yard.bodies[3].position.x() = 5.0 + (k % 2 ? 0.45 : -0.45) * drift;
-        yard.bodies[1].position.x() = 0.1 * k * drift;   // the whole drift in ten steps
+        yard.bodies[1].position.x() = 0.1 * k * drift;  // the whole drift in ten steps
         yard.observe();
     }
     EXPECT_TRUE(yard.bodies[3].asleep);
@@ -129,7 +131,7 @@ TEST(SleepMonitor, SettlingIsRest) {
 
 TEST(SleepMonitor, OnlyIslandsThatTouchAFixedBody) {
     Yard yard;
-    yard.manifolds[0].points[0].impulse = 0.0;   // the pair touches the floor without weight
+    yard.manifolds[0].points[0].impulse = 0.0;  // the pair touches the floor without weight
     yard.bodies[0].type = BodyType::fixed;
     yard.observe(100);
     EXPECT_FALSE(yard.bodies[1].asleep);
@@ -157,7 +159,7 @@ TEST(SleepMonitor, WakesTheGroupThatIsTouchedAndNoOther) {
     EXPECT_EQ(yard.asleep(), 3);
     EXPECT_TRUE(fall(1.01 * 0.01 / h));
     EXPECT_EQ(yard.sleep.changes(), before + 1);
-    EXPECT_FALSE(yard.bodies[1].asleep);   // with the one below it
+    EXPECT_FALSE(yard.bodies[1].asleep);  // with the one below it
     EXPECT_FALSE(yard.bodies[2].asleep);
     EXPECT_TRUE(yard.bodies[3].asleep);
 }
@@ -179,7 +181,7 @@ TEST(SleepMonitor, AMovingSupportWakesAStandingOneDoesNot) {
 TEST(SleepMonitor, WakingPropagates) {
     Yard yard;
     yard.observe(100);
-    std::vector<Manifold> manifolds = {touch(2, 3), touch(1, 2)};   // the third touches the pair only in this list
+    std::vector<Manifold> manifolds = {touch(2, 3), touch(1, 2)};  // the third touches the pair only in this list
     yard.sleep.wake(3, yard.bodies);
     EXPECT_EQ(yard.asleep(), 2);
     EXPECT_TRUE(yard.sleep.wake_touched(manifolds, yard.bodies, h, 0.0));

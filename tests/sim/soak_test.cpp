@@ -18,9 +18,9 @@ using namespace tumble::testing;
 namespace {
 
 struct Findings {
-    double growth = 0.0;        // largest in a frame, of the scale
-    double sunk = 0.0;          // m, lowest point below the ground at the end, per body size
-    double penetration = 0.0;   // m
+    double growth = 0.0;       // largest in a frame, of the scale
+    double sunk = 0.0;         // m, lowest point below the ground at the end, per body size
+    double penetration = 0.0;  // m
 };
 
 Findings soak(const SceneDescription& scene, double seconds) {
@@ -41,7 +41,8 @@ Findings soak(const SceneDescription& scene, double seconds) {
     const Snapshot end = world.snapshot();
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
         EXPECT_TRUE(end.bodies[i].origin.allFinite() && end.bodies[i].orientation.coeffs().allFinite());
-        if (scene.bodies[i].type == BodyType::dynamic) f.sunk = std::max(f.sunk, -lowest_point(scene.bodies[i], end.bodies[i]));
+        if (scene.bodies[i].type == BodyType::dynamic)
+            f.sunk = std::max(f.sunk, -lowest_point(scene.bodies[i], end.bodies[i]));
     }
     return f;
 }
@@ -83,7 +84,7 @@ TEST(Soak, ElasticWithoutFriction) {
     SceneKind kind;
     kind.friction_high = 0.0;
     kind.restitution_low = 1.0;
-    kind.heaviest = 4.0;   // heavy bodies spin light ones up to half a radian per step
+    kind.heaviest = 4.0;  // heavy bodies spin light ones up to half a radian per step
     kind.steps_per_frame = 32;
     soak_many(3000, 20, kind, 5e-3, five_percent);
 }
@@ -108,7 +109,8 @@ TEST(Soak, SqueezedBodiesAreNotShotAway) {
         for (const double friction : {0.0, 0.5})
             for (const bool ball : {false, true}) {
                 SceneDescription scene = ground_scene(e, friction);
-                BodyDescription& body = ball ? add_sphere(scene, 0.5, {0.0, 0.5, 0.0}) : add_box(scene, {1, 1, 1}, {0.0, 0.5, 0.0});
+                BodyDescription& body =
+                    ball ? add_sphere(scene, 0.5, {0.0, 0.5, 0.0}) : add_box(scene, {1, 1, 1}, {0.0, 0.5, 0.0});
                 body.restitution = e;
                 body.friction = friction;
                 BodyDescription& press = add_box(scene, {2.0, 0.5, 2.0}, {0.0, 2.0, 0.0});
@@ -153,7 +155,7 @@ TEST(Soak, OverlapsAtTheStartDissolve) {
             world.advance_frame();
             for (const BodyState& b : world.snapshot().bodies) fastest = std::max(fastest, b.velocity.norm());
         }
-        EXPECT_LT(fastest, 9.0) << trial;   // falling from the heap's top: 6.3 m/s
+        EXPECT_LT(fastest, 9.0) << trial;  // falling from the heap's top: 6.3 m/s
         EXPECT_LT(world.measure().max_penetration, 2e-3) << trial;
     }
 }

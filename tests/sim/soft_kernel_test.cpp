@@ -1,7 +1,7 @@
 // The soft solver's inner loops: the same bits at any width, and one contact against closed forms.
+#include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/model/settings.h"
 #include "sim/contact/soft/settings.h"
-#include "sim/contact/soft/soft_kernel.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>
@@ -21,15 +21,15 @@ struct alignas(64) Line {
 };
 
 struct LanePoint {
-    Vec3 arm = Vec3::Zero();   // from A's center
+    Vec3 arm = Vec3::Zero();  // from A's center
     double separation = 0.0, impulse = 0.0;
     double share = 1.0;
 };
 struct Lane {
-    std::uint32_t a = 0, b = 0;   // slots; 0 stands still
+    std::uint32_t a = 0, b = 0;  // slots; 0 stands still
     bool moves_a = true, moves_b = true;
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
-    Vec3 between = Vec3::Zero();   // from B's center to A's
+    Vec3 between = Vec3::Zero();  // from B's center to A's
     double friction = 0.0, size = 1.0, spread = 1.0;
     double start_friction[3] = {};
     std::vector<LanePoint> points;
@@ -39,15 +39,26 @@ struct Lane {
 class OneColor {
 public:
     OneColor(const Kernel& kernel, std::size_t bodies, const std::vector<Lane>& lanes)
-        : kernel_(kernel), lanes_(std::size_t(kernel.lanes)), groups_((lanes.size() + lanes_ - 1) / lanes_),
-          state_(bodies + 1), inertia_((bodies + 2) / 2), forces_(inertia_.size()), start_(inertia_.size()),
-          rows_((groups_ * group_rows * lanes_ + 15) / 16), bodies_(2 * lanes_ * groups_, 0), moved_(2 * groups_, 0), points_(groups_, 0) {
+        : kernel_(kernel),
+          lanes_(std::size_t(kernel.lanes)),
+          groups_((lanes.size() + lanes_ - 1) / lanes_),
+          state_(bodies + 1),
+          inertia_((bodies + 2) / 2),
+          forces_(inertia_.size()),
+          start_(inertia_.size()),
+          rows_((groups_ * group_rows * lanes_ + 15) / 16),
+          bodies_(2 * lanes_ * groups_, 0),
+          moved_(2 * groups_, 0),
+          points_(groups_, 0) {
         for (std::size_t k = 0; k < lanes.size(); ++k) pack(k, lanes[k]);
     }
     float* state(std::size_t slot) { return state_[slot].f; }
     float* inertia(std::size_t slot) { return inertia_[slot / 2].f + 8 * (slot % 2); }
     float* force(std::size_t slot) { return forces_[slot / 2].f + 8 * (slot % 2); }
-    float& head(std::size_t lane, int row) { return reinterpret_cast<float*>(rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_]; }
+    float& head(std::size_t lane, int row) {
+        return reinterpret_cast<float*>(
+            rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_];
+    }
     float& at(std::size_t lane, int point, int row) { return head(lane, head_rows + point * point_rows + row); }
 
     void prepare() { call(kernel_.prepare); }
@@ -62,11 +73,13 @@ public:
 
 private:
     Groups groups() { return {reinterpret_cast<float*>(rows_.data()), bodies_.data(), moved_.data(), points_.data()}; }
-    Bodies bodies() { 
+    Bodies bodies() {
         return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(inertia_.data()),
                 reinterpret_cast<float*>(forces_.data()), reinterpret_cast<float*>(start_.data())};
     }
-    void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) { pass(groups(), 0, groups_, bodies()); }
+    void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) {
+        pass(groups(), 0, groups_, bodies());
+    }
 
     void pack(std::size_t k, const Lane& lane) {
         const std::size_t group = k / lanes_, l = k % lanes_;
@@ -117,7 +130,9 @@ std::vector<const Kernel*> kernels() {
 
 void random_mass(Random& random, float& inverse, float* inertia) {
     inverse = float(random(0.1, 2.0));
-    const Mat3 root = (Mat3() << random(0.5, 2.0), 0, 0, random(-0.5, 0.5), random(0.5, 2.0), 0, random(-0.5, 0.5), random(-0.5, 0.5), random(0.5, 2.0)).finished();
+    const Mat3 root = (Mat3() << random(0.5, 2.0), 0, 0, random(-0.5, 0.5), random(0.5, 2.0), 0, random(-0.5, 0.5),
+                       random(-0.5, 0.5), random(0.5, 2.0))
+                          .finished();
     const Mat3 tensor = root * root.transpose();
     const double entries[] = {tensor(0, 0), tensor(0, 1), tensor(0, 2), tensor(1, 1), tensor(1, 2), tensor(2, 2)};
     for (int i = 0; i < 6; ++i) inertia[i] = float(entries[i]);
@@ -178,7 +193,7 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
                 for (double& f : lane.start_friction) f = random(-0.01, 0.01);
                 for (int i = 1 + random.below(4); i > 0; --i)
                     lane.points.push_back({random.vector(1.0), random(-0.05, 0.02), random(0.0, 0.1)});
-                if (random.below(3) == 0) {   // idle
+                if (random.below(3) == 0) {  // idle
                     for (LanePoint& p : lane.points) p.impulse = 0.0;
                     for (double& f : lane.start_friction) f = 0.0;
                 }
@@ -205,9 +220,13 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
             }
             color.sum();
             std::vector<float> result;
-            for (std::size_t s = 0; s <= std::size_t(2 * count); ++s) result.insert(result.end(), color.state(s), color.state(s) + body_floats);
+            for (std::size_t s = 0; s <= std::size_t(2 * count); ++s)
+                result.insert(result.end(), color.state(s), color.state(s) + body_floats);
             for (std::size_t k = 0; k < lanes.size(); ++k) {
-                for (const int row : std::initializer_list<int>{friction_1, friction_2, twist, friction_1_sum, friction_2_sum, twist_sum, force, force + 1, force + 2, moment, moment + 1, moment + 2}) result.push_back(color.head(k, row));
+                for (const int row :
+                     std::initializer_list<int>{friction_1, friction_2, twist, friction_1_sum, friction_2_sum,
+                                                twist_sum, force, force + 1, force + 2, moment, moment + 1, moment + 2})
+                    result.push_back(color.head(k, row));
                 for (std::size_t i = 0; i < lanes[k].points.size(); ++i) {
                     result.push_back(color.at(k, int(i), impulse));
                     result.push_back(color.at(k, int(i), impulse_sum));
@@ -219,7 +238,8 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
         for (std::size_t k = 1; k < results.size(); ++k) {
             ASSERT_EQ(results[k].size(), results[0].size());
             // Equal except for the sign of a zero: adding a neighbor's unused points turns -0 into +0.
-            for (std::size_t i = 0; i < results[0].size(); ++i) ASSERT_EQ(results[k][i], results[0][i]) << all[k]->lanes << " lanes, " << i;
+            for (std::size_t i = 0; i < results[0].size(); ++i)
+                ASSERT_EQ(results[k][i], results[0][i]) << all[k]->lanes << " lanes, " << i;
         }
     }
 }
@@ -235,14 +255,14 @@ TEST(SoftKernel, FixedBodiesAreNotWritten) {
         lane.between = Vec3(0.0, -r, 0.0) - lane.points[0].arm;
         OneColor color(*kernel, 2, {lane});
         color.state(1)[1] = -1.0f;
-        color.state(2)[0] = 0.25f;   // a belt
+        color.state(2)[0] = 0.25f;  // a belt
         color.state(1)[inverse_mass] = color.inertia(1)[0] = color.inertia(1)[3] = color.inertia(1)[5] = 1.0f;
         color.prepare();
         color.push(480.0f);
         color.relax(480.0f);
         EXPECT_EQ(color.state(2)[0], 0.25f);
         EXPECT_EQ(color.state(2)[1], 0.0f);
-        EXPECT_GT(color.state(1)[0], 0.0f);   // it carries the ball along
+        EXPECT_GT(color.state(1)[0], 0.0f);  // it carries the ball along
         for (int i = 0; i < body_floats; ++i) EXPECT_EQ(color.state(0)[i], 0.0f);
     }
 }
@@ -261,7 +281,7 @@ TEST(SoftKernel, AContactStopsAnApproach) {
         const double j = 3.0 / (1.0 / m + 0.4 * 0.4 / moment_of_inertia);
         EXPECT_NEAR(aside.at(0, 0, impulse), j, 1e-5);
         EXPECT_NEAR(aside.state(1)[1], -3.0 + j / m, 1e-5);
-        EXPECT_NEAR(aside.state(1)[5], 0.4 * j / moment_of_inertia, 1e-4);   // about z: x arm times y impulse
+        EXPECT_NEAR(aside.state(1)[5], 0.4 * j / moment_of_inertia, 1e-4);  // about z: x arm times y impulse
         OneColor leaving = ball(*kernel, ball_lane(0.5), {1.0, 0.1, 0.0});
         leaving.push(480.0f);
         leaving.relax(480.0f);
@@ -308,16 +328,17 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved) {
 // Each kind of pair has its softness; between unlike masses, both moving, no overlap is pushed out twice as fast.
 TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
     for (const Kernel* kernel : kernels())
-        for (const double other : {0.0, 1.0, 0.6, 0.4, 1.6, 2.4}) {   // inverse mass, 1/kg, beside that of 1 kg
+        for (const double other : {0.0, 1.0, 0.6, 0.4, 1.6, 2.4}) {  // inverse mass, 1/kg, beside that of 1 kg
             Lane lane = ball_lane(0.0, -0.01);
-            lane.size = 0.1;   // the overlap is a tenth of it
+            lane.size = 0.1;  // the overlap is a tenth of it
             lane.between = Vec3::Zero();
             lane.a = 1;
             lane.b = 2;
             OneColor color(*kernel, 2, {lane});
             color.state(1)[inverse_mass] = 1.0f;
             color.state(2)[inverse_mass] = float(other);
-            for (const std::size_t slot : {1, 2}) color.inertia(slot)[0] = color.inertia(slot)[3] = color.inertia(slot)[5] = 1.0f;
+            for (const std::size_t slot : {1, 2})
+                color.inertia(slot)[0] = color.inertia(slot)[3] = color.inertia(slot)[5] = 1.0f;
             color.alike = {10.0f, 0.8f, 0.2f};
             color.unlike = {8.0f, 0.6f, 0.4f};
             color.fixed = {12.0f, 0.9f, 0.1f};
@@ -325,7 +346,8 @@ TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
             color.push(480.0f);
             const bool unlike = other == 0.4 || other == 2.4;
             const double overlap = 0.01 - tuning::soft_slop * lane.size;
-            const double expected = (unlike ? 0.6 * 8.0 : 2.0 * (other == 0.0 ? 0.9 * 12.0 : 0.8 * 10.0)) * overlap / (1.0 + other);
+            const double expected =
+                (unlike ? 0.6 * 8.0 : 2.0 * (other == 0.0 ? 0.9 * 12.0 : 0.8 * 10.0)) * overlap / (1.0 + other);
             EXPECT_NEAR(color.at(0, 0, impulse), expected, 1e-5) << other;
         }
 }
@@ -384,7 +406,8 @@ TEST(SoftKernel, FrictionActsAtTheCentroidOfTheArea) {
         for (const double gap : {0.0, 0.1}) {
             Lane lane = ball_lane(0.5);
             lane.points.clear();
-            for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4, 1.0 + 0.25 * side});
+            for (const double side : {-1.0, 1.0})
+                lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4, 1.0 + 0.25 * side});
             lane.points.push_back({Vec3(0.0, 0.0, 0.3), gap, 0.0, 1.0});
             OneColor color = ball(*kernel, lane, Vec3::Zero());
             const float x = color.head(0, friction_arm), z = color.head(0, friction_arm + 2);
@@ -423,8 +446,10 @@ TEST(SoftKernel, PointsAreCoupled) {
             for (int i = 0; i < 4; ++i) {
                 const Vec3 arm[2] = {lane.points[std::size_t(i)].arm, lane.points[std::size_t(i)].arm + lane.between};
                 double compliance = inverse[0] + inverse[1];
-                for (int k = 0; k < 2; ++k) compliance += arm[k].cross(lane.normal).dot(inverse_inertia[k] * arm[k].cross(lane.normal));
-                const double v = lane.normal.dot(velocity[1] + spin[1].cross(arm[1]) - velocity[0] - spin[0].cross(arm[0]));
+                for (int k = 0; k < 2; ++k)
+                    compliance += arm[k].cross(lane.normal).dot(inverse_inertia[k] * arm[k].cross(lane.normal));
+                const double v =
+                    lane.normal.dot(velocity[1] + spin[1].cross(arm[1]) - velocity[0] - spin[0].cross(arm[0]));
                 const double j = std::max(0.0, -v / compliance);
                 for (int k = 0; k < 2; ++k) {
                     const Vec3 impulse = (k ? j : -j) * lane.normal;
@@ -454,19 +479,24 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
                 OneColor color(*kernel, 2, {lane});
                 for (std::size_t k = 1; k <= 2; ++k) {
                     random_mass(random, color.state(k)[inverse_mass], color.inertia(k));
-                    for (int i = 0; i < 6; ++i) color.state(k)[i] = float(random(-0.3, 0.3) + (k == 1 && i < 3 ? 2.0 * lane.normal[i] : 0.0));
+                    for (int i = 0; i < 6; ++i)
+                        color.state(k)[i] = float(random(-0.3, 0.3) + (k == 1 && i < 3 ? 2.0 * lane.normal[i] : 0.0));
                 }
                 color.prepare();
-                if (pushing) color.push(480.0f);
-                else color.relax(480.0f);
+                if (pushing)
+                    color.push(480.0f);
+                else
+                    color.relax(480.0f);
                 const auto velocity = [&](std::size_t k, const Vec3& arm) {
                     const float* f = color.state(k);
                     return Vec3(Vec3(f[0], f[1], f[2]) + Vec3(f[3], f[4], f[5]).cross(arm));
                 };
                 const Vec3& arm = lane.points[0].arm;
                 const Vec3 relative = velocity(2, arm + lane.between) - velocity(1, arm);
-                if (pushing) EXPECT_NEAR(relative.dot(lane.normal), 0.0, 1e-4);
-                else EXPECT_LT(relative.cross(lane.normal).norm(), 1e-4);
+                if (pushing)
+                    EXPECT_NEAR(relative.dot(lane.normal), 0.0, 1e-4);
+                else
+                    EXPECT_LT(relative.cross(lane.normal).norm(), 1e-4);
                 EXPECT_GT(color.at(0, 0, impulse), 0.0f);
             }
         }

@@ -19,7 +19,7 @@ SceneDescription scattered(int across, int up, int deep) {
     scene.simulation.gravity = Vec3(0.0, -9.81, 0.0);
     const int count = across * up * deep;
     for (int n = 0; n < count; ++n) {
-        const int k = n * 37 % count;   // 37 is no factor of the counts used here
+        const int k = n * 37 % count;  // 37 is no factor of the counts used here
         add_sphere(scene, 0.3, 2.0 * Vec3(k % across, k / across % up, k / (across * up)), 1.0 + 0.01 * n);
     }
     return scene;
@@ -35,7 +35,8 @@ TEST(SpatialSort, HalvesAreApartAcrossGravityAndColumnsGoUp) {
     double last = -1.0;
     for (std::size_t i = 0; i < 320; ++i) last = std::max(last, x(i));
     for (std::size_t i = 320; i < 640; ++i) EXPECT_GT(x(i), last);
-    for (std::size_t i = 1; i < 20; ++i) EXPECT_GE(bodies[i].position.y(), bodies[i - 1].position.y()) << i;   // 640 in halves: 20
+    for (std::size_t i = 1; i < 20; ++i)
+        EXPECT_GE(bodies[i].position.y(), bodies[i - 1].position.y()) << i;  // 640 in halves: 20
 }
 
 TEST(SpatialSort, SmallScenesKeepTheirOrder) {

@@ -17,7 +17,7 @@ TEST(ThreadPool, EveryItemExactlyOnce) {
         EXPECT_EQ(pool.size(), threads);
         for (const std::size_t count : {0u, 1u, 2u, 3u, 7u, 63u, 64u, 65u, 1000u, 4097u})
             for (const std::size_t grain : {0u, 1u, 64u, 5000u}) {
-                std::vector<int> calls(count, 0);   // one place per item: a second call would be a data race
+                std::vector<int> calls(count, 0);  // one place per item: a second call would be a data race
                 std::atomic<bool> known{true};
                 pool.for_each(count, grain, [&](std::size_t item, std::size_t thread) {
                     ++calls.at(item);
@@ -46,7 +46,8 @@ TEST(ThreadPool, FirstExceptionInItemOrder) {
             const int first = 13 + round;
             try {
                 pool.for_each(300, 1, [&](std::size_t item, std::size_t) {
-                    if (int(item) >= first && int(item) % 2 == first % 2) throw std::runtime_error(std::to_string(item));
+                    if (int(item) >= first && int(item) % 2 == first % 2)
+                        throw std::runtime_error(std::to_string(item));
                 });
                 FAIL() << "nothing thrown";
             } catch (const std::runtime_error& error) {
@@ -63,7 +64,8 @@ TEST(ThreadPool, FirstExceptionInItemOrder) {
 TEST(ThreadPool, ManyShortRounds) {
     ThreadPool pool(4);
     std::atomic<std::size_t> calls{0};
-    for (int round = 0; round < 3000; ++round) pool.for_each(2 + std::size_t(round % 5), 1, [&](std::size_t, std::size_t) { ++calls; });
+    for (int round = 0; round < 3000; ++round)
+        pool.for_each(2 + std::size_t(round % 5), 1, [&](std::size_t, std::size_t) { ++calls; });
     EXPECT_EQ(calls, 3000u / 5u * (2 + 3 + 4 + 5 + 6));
 }
 

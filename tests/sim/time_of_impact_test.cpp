@@ -1,9 +1,9 @@
 // The time of impact: never missed, never early, to the last digits; grazing and touching starts.
+#include "sim/ccd/time_of_impact.h"
 #include "random_shapes.h"
+#include "sim/event_driven/contact_transition.h"
 #include "sim/event_driven/settings.h"
 #include "sim/geometry/separating_axis.h"
-#include "sim/event_driven/contact_transition.h"
-#include "sim/ccd/time_of_impact.h"
 #include "support/bodies.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ const Vec3 gravity(0.0, -9.81, 0.0);
 struct Flying {
     Body body;
     Trajectory path;
-    explicit Flying(const Body& b, const Vec3& acceleration = gravity) : body(b), path(Trajectory::flight(b, acceleration)) {}
+    explicit Flying(const Body& b, const Vec3& acceleration = gravity)
+        : body(b), path(Trajectory::flight(b, acceleration)) {}
     Traveller traveller(double since = 0.0) const { return {&body, &path, since}; }
 };
 
@@ -39,7 +40,8 @@ double gap(const Flying& a, const Flying& b, double t) {
     CollisionScratch scratch;
     scratch.choice = AxisChoice::nearest;
     const Pose b_in_a{ma.rotation.transpose() * (mb.position - ma.position), ma.rotation.transpose() * mb.rotation};
-    return find_separating_axis(shape_of(a.body), shape_of(b.body), b_in_a, 1e9, EdgeSearch::all, Vec3::Zero(), scratch).separation;
+    return find_separating_axis(shape_of(a.body), shape_of(b.body), b_in_a, 1e9, EdgeSearch::all, Vec3::Zero(), scratch)
+        .separation;
 }
 
 struct Ground {
@@ -97,7 +99,8 @@ TEST(TimeOfImpact, TumblingBoxOnPlane) {
     Random random(7);
     for (const double spin : {0.0, 1.0, 10.0, 100.0, 1000.0}) {
         for (int trial = 0; trial < 100; ++trial) {
-            const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, random(1.0, 2.0), 0.0}, random.vector(3.0), random.turn(), random.vector(spin)));
+            const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, random(1.0, 2.0), 0.0}, random.vector(3.0),
+                                      random.turn(), random.vector(spin)));
             const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 5.0);
             ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
             EXPECT_NEAR(lowest(box, found.time), 0.0, 1e-12);
@@ -113,9 +116,11 @@ TEST(TimeOfImpact, TumblingBoxes) {
     for (const double spin : {0.0, 1.0, 10.0, 100.0}) {
         int hits = 0;
         for (int trial = 0; trial < 60; ++trial) {
-            const Flying a(free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(spin)));
+            const Flying a(
+                free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(spin)));
             const Vec3 from = Vec3(random(-1, 1), random(-1, 1), random(-0.4, 0.4)).normalized();
-            const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, 2.0 * from, random.vector(0.6) - 4.0 * from, random.turn(), random.vector(spin)));
+            const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, 2.0 * from, random.vector(0.6) - 4.0 * from, random.turn(),
+                                    random.vector(spin)));
             const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
             ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
             const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
@@ -139,7 +144,8 @@ TEST(TimeOfImpact, TumblingHulls) {
         for (int i = 0; i < 40; ++i) points_a.push_back(0.5 * random.direction());
         for (int i = 0; i < 40; ++i) points_b.push_back(0.4 * random.direction());
         const Flying a(free_hull(points_a, 1.0, Vec3::Zero(), Vec3::Zero(), random.vector(10.0)));
-        const Flying b(free_hull(points_b, 1.0, {2.0, random(-0.5, 0.5), random(-0.5, 0.5)}, {-4.0, 0.0, 0.0}, random.vector(10.0)));
+        const Flying b(free_hull(points_b, 1.0, {2.0, random(-0.5, 0.5), random(-0.5, 0.5)}, {-4.0, 0.0, 0.0},
+                                 random.vector(10.0)));
         const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
         ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
         const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
@@ -156,11 +162,13 @@ TEST(TimeOfImpact, GrazingIsDecidedToTheLastDigits) {
     const Ground ground;
     ImpactSearch search;
     const auto box = [&](double height) {
-        return Flying(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, height, 0.0}, {0.0, 3.0, 0.0}, Quat(0.3, 0.5, 0.2, 0.7).normalized(), {3.0, 7.0, 2.0}));
+        return Flying(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, height, 0.0}, {0.0, 3.0, 0.0},
+                               Quat(0.3, 0.5, 0.2, 0.7).normalized(), {3.0, 7.0, 2.0}));
     };
     const auto touches = [&](double height) {
         const Flying f = box(height);
-        return lowest(f, 0.0) <= 0.0 || search.find(ground.traveller(), f.traveller(), 0.4).kind == TimeOfImpact::Kind::impact;
+        return lowest(f, 0.0) <= 0.0 ||
+               search.find(ground.traveller(), f.traveller(), 0.4).kind == TimeOfImpact::Kind::impact;
     };
     double low = 0.2, high = 1.5;
     for (int i = 0; i < 80; ++i) (touches(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
@@ -179,12 +187,14 @@ TEST(TimeOfImpact, TouchingAtTheStart) {
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_NEAR(found.time, 6.0 / 9.81, 1e-13);
     // Approaching: at once.
-    const Flying down(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, -1e-6, 0.0}, Quat::Identity(), Vec3::Zero()));
+    const Flying down(
+        free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, -1e-6, 0.0}, Quat::Identity(), Vec3::Zero()));
     found = search.find(ground.traveller(), down.traveller(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_EQ(found.time, 0.0);
     // At rest against each other without forces: never.
-    const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
+    const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()),
+                      Vec3::Zero());
     const Flying right(free_box({1, 1, 1}, 1.0, {1, 0, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
     EXPECT_EQ(search.find(left.traveller(), right.traveller(), 5.0).kind, TimeOfImpact::Kind::none);
     // At rest, exactly, and about to fall: as soon as the fall exceeds rounding.
@@ -230,13 +240,15 @@ TEST(TimeOfImpact, TheHarmlessTimeIsHarmless) {
     Random random(9);
     double farthest = 0.0;
     for (int trial = 0; trial < 500; ++trial) {
-        const Vec3 size(random(0.001, 1.0), random(0.001, 1.0), random(0.001, 1.0)), spin = random.vector(trial % 2 ? 100.0 : 1.0);
+        const Vec3 size(random(0.001, 1.0), random(0.001, 1.0), random(0.001, 1.0)),
+            spin = random.vector(trial % 2 ? 100.0 : 1.0);
         Body body = free_box(size, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), spin);
         const Vec3 corner = 0.5 * size, arm = body.rotation * corner;
         body.momentum = -body.mass * body.angular_velocity.cross(arm);
         body.derive();
         const Flying flying(body);
-        const double t = harmless_time(ground.traveller(), flying.traveller()), most = tuning::impact_harmless * body.radius;
+        const double t = harmless_time(ground.traveller(), flying.traveller()),
+                     most = tuning::impact_harmless * body.radius;
         for (const double part : {0.3, 1.0}) {
             const double way = (flying.path.at(part * t).to_world(corner) - arm).norm();
             EXPECT_LT(way, 1.01 * part * part * most) << trial;
@@ -250,7 +262,9 @@ TEST(TimeOfImpact, HugeAndTinySpeeds) {
     const Ground ground;
     ImpactSearch search;
     for (const double v : {1e-9, 1e-3, 1.0, 1e3, 1e6}) {
-        const Flying box(free_box({0.1, 0.1, 0.1}, 1.0, {0.0, 1.0, 0.0}, {0.0, -v, 0.0}, Quat(1.0, 0.1, 0.2, 0.3).normalized(), Vec3::Zero()), Vec3::Zero());
+        const Flying box(free_box({0.1, 0.1, 0.1}, 1.0, {0.0, 1.0, 0.0}, {0.0, -v, 0.0},
+                                  Quat(1.0, 0.1, 0.2, 0.3).normalized(), Vec3::Zero()),
+                         Vec3::Zero());
         const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 1e10);
         ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact) << v;
         EXPECT_NEAR(found.time * v, lowest(box, 0.0), 1e-12) << v;
@@ -263,8 +277,10 @@ TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
     Random random(7);
     for (int trial = 0; trial < 30; ++trial) {
         const Flying a(free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(5.0)));
-        const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, {2.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, random.turn(), random.vector(5.0)));
-        const TimeOfImpact first = search.find(a.traveller(), b.traveller(), 1.0), second = search.find(b.traveller(), a.traveller(), 1.0);
+        const Flying b(
+            free_box({0.6, 0.6, 0.6}, 1.0, {2.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, random.turn(), random.vector(5.0)));
+        const TimeOfImpact first = search.find(a.traveller(), b.traveller(), 1.0),
+                           second = search.find(b.traveller(), a.traveller(), 1.0);
         ASSERT_EQ(first.kind, second.kind);
         EXPECT_NEAR(first.time, second.time, 1e-12);
         const TimeOfImpact later = search.find(a.traveller(0.1), b.traveller(0.1), 1.0);
@@ -292,7 +308,8 @@ TEST(TimeOfImpact, OneSearchDoesNotAffectTheNext) {
         const TimeOfImpact found = search.find(ball.traveller(), {&sheet, &still, 0.0}, 1.0);
         ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
         EXPECT_NEAR(found.time, exact, 1e-12);
-        const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 5.0, 0.0}, {0.0, -50.0, 0.0}, Quat::Identity(), {3.0, 7.0, 2.0}));
+        const Flying box(
+            free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 5.0, 0.0}, {0.0, -50.0, 0.0}, Quat::Identity(), {3.0, 7.0, 2.0}));
         search.find(box.traveller(), fast.traveller(), 1.0);
     }
 }

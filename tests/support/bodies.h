@@ -33,7 +33,8 @@ inline Body free_box(const Vec3& size, double mass, const Vec3& position, const 
 }
 
 /// The hull of points, with the mass distribution of a ball about the origin.
-inline Body free_hull(const std::vector<Vec3>& points, double mass, const Vec3& position, const Vec3& velocity, const Vec3& angular_velocity) {
+inline Body free_hull(const std::vector<Vec3>& points, double mass, const Vec3& position, const Vec3& velocity,
+                      const Vec3& angular_velocity) {
     Body body = free_ball(1.0, mass, position, velocity);
     body.collider = std::make_shared<const Polyhedron>(make_hull(points, Vec3::Zero()));
     body.radius = bounding_radius(body.collider);

@@ -34,8 +34,10 @@ inline CompoundShape box_of_eight(const Vec3& size) {
 /// A square frame in the x-y plane about the origin: outer edge `edge`, of square bars `bar` thick.
 inline CompoundShape square_link(double edge, double bar) {
     const double at = 0.5 * (edge - bar), inside = edge - 2.0 * bar;
-    return compound_of({part(BoxShape{Vec3(edge, bar, bar)}, {0.0, at, 0.0}), part(BoxShape{Vec3(edge, bar, bar)}, {0.0, -at, 0.0}),
-                        part(BoxShape{Vec3(bar, inside, bar)}, {at, 0.0, 0.0}), part(BoxShape{Vec3(bar, inside, bar)}, {-at, 0.0, 0.0})});
+    return compound_of({part(BoxShape{Vec3(edge, bar, bar)}, {0.0, at, 0.0}),
+                        part(BoxShape{Vec3(edge, bar, bar)}, {0.0, -at, 0.0}),
+                        part(BoxShape{Vec3(bar, inside, bar)}, {at, 0.0, 0.0}),
+                        part(BoxShape{Vec3(bar, inside, bar)}, {-at, 0.0, 0.0})});
 }
 
 /// A top of 1.6 x 0.1 x 1 m on four legs of 0.8 m; the origin is on the ground in the middle.

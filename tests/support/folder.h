@@ -19,7 +19,7 @@ public:
         path_ = name;
     }
     ~TestFolder() {
-        std::error_code ignored;   // a test that fails must not end the program as well
+        std::error_code ignored;  // a test that fails must not end the program as well
         std::filesystem::remove_all(path_, ignored);
     }
     TestFolder(const TestFolder&) = delete;
@@ -27,9 +27,7 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    std::size_t files() const {
-        return std::size_t(std::distance(std::filesystem::directory_iterator(path_), {}));
-    }
+    std::size_t files() const { return std::size_t(std::distance(std::filesystem::directory_iterator(path_), {})); }
 
 private:
     std::filesystem::path path_;

@@ -14,19 +14,20 @@ struct ReferenceBody {
     using Vector = std::array<Real, 3>;
 
     Real mass = 1;
-    Vector inertia{1, 1, 1};            // about the body axes
+    Vector inertia{1, 1, 1};  // about the body axes
     Vector gravity{0, 0, 0};
     Vector wind{0, 0, 0};
-    Real drag = 0;                      // F = drag |u| u
-    Vector point{0, 0, 0};              // body frame, from the center of mass
-    Vector force{0, 0, 0};              // at the point
-    bool force_turns = false;           // with the body
-    std::array<Real, 13> y{};           // x, q (w, x, y, z), v, L
+    Real drag = 0;             // F = drag |u| u
+    Vector point{0, 0, 0};     // body frame, from the center of mass
+    Vector force{0, 0, 0};     // at the point
+    bool force_turns = false;  // with the body
+    std::array<Real, 13> y{};  // x, q (w, x, y, z), v, L
 
     void advance(double seconds, int steps) {
         const Real h = Real(seconds) / steps;
         for (int i = 0; i < steps; ++i) {
-            const auto k1 = rate(y), k2 = rate(moved(y, k1, h / 2)), k3 = rate(moved(y, k2, h / 2)), k4 = rate(moved(y, k3, h));
+            const auto k1 = rate(y), k2 = rate(moved(y, k1, h / 2)), k3 = rate(moved(y, k2, h / 2)),
+                       k4 = rate(moved(y, k3, h));
             for (std::size_t n = 0; n < 13; ++n) y[n] += h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
         }
     }

@@ -11,7 +11,7 @@
 namespace tumble::testing {
 
 template <class Real>
-using Quadruple = std::array<Real, 4>;   // w, x, y, z
+using Quadruple = std::array<Real, 4>;  // w, x, y, z
 
 /// dm/dt = m x m/I, dq/dt = q (m/I) / 2 with m = R(q)^T L made anew each step. The nearest pole in complex time is at
 /// least about pi/2 / |omega| away: steps of 0.3 / |omega| to the 30th order are good for 20 digits.
@@ -94,7 +94,7 @@ private:
 
     std::array<Real, 3> inverse_, momentum_;
     Quadruple<Real> q_;
-    double spin_;   // rad/s, a bound
+    double spin_;  // rad/s, a bound
 };
 
 }  // namespace tumble::testing

@@ -15,19 +15,19 @@ namespace tumble {
 
 struct RenderCommand {
     std::filesystem::path scene;
-    std::optional<std::filesystem::path> clip;     // without this, frames and AOVs: the scene's name with .mp4
-    std::optional<std::filesystem::path> frames;   // folder
+    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the scene's name with .mp4
+    std::optional<std::filesystem::path> frames;  // folder
     AovSet aovs;
-    std::optional<std::filesystem::path> aov_folder;   // instead of the frames' folder
+    std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    double start = 0.0;   // s, scene time; earlier frames are not drawn
-    double speed = 1.0;   // of the motion in the clip: 0.25 is slow motion
-    double shutter = 0.0;   // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;   // moments while the shutter is open
-    std::optional<int> threads;   // of the simulation; see thread_budget.h
-    int workers = 1;      // render processes
+    double start = 0.0;          // s, scene time; earlier frames are not drawn
+    double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
+    double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
+    int blur_samples = 8;        // moments while the shutter is open
+    std::optional<int> threads;  // of the simulation; see thread_budget.h
+    int workers = 1;             // render processes
     bool quiet = false;
 };
 void run_render(const RenderCommand& command);
@@ -42,7 +42,7 @@ struct SimulateCommand {
 void run_simulate(const SimulateCommand& command);
 
 struct EncodeCommand {
-    std::filesystem::path frames;   // folder
+    std::filesystem::path frames;  // folder
     std::filesystem::path clip;
     double fps = 60.0;
     VideoQuality quality = VideoQuality::normal;
@@ -65,7 +65,7 @@ struct InfoCommand {
 void run_info(const InfoCommand& command);
 
 struct DoctorCommand {
-    double time_limit = 30.0;   // s for each program and driver: a driver without caches takes seconds on a busy machine
+    double time_limit = 30.0;  // s for each program and driver: a driver without caches takes seconds on a busy machine
 };
 /// Returns 0 if clips can be rendered, else 1.
 int run_doctor(const DoctorCommand& command);

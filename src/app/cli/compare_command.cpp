@@ -1,6 +1,6 @@
 #include "app/cli/commands.h"
-#include "app/files/output_plan.h"
 #include "app/cli/say.h"
+#include "app/files/output_plan.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/image_compare.h"
@@ -47,12 +47,14 @@ Comparison compared(const CompareCommand& command) {
 }
 
 void print(const Comparison& result) {
-    const std::string differences = fmt::format("{} pixels differ, by {} levels at most", result.differing_pixels,
-                                                result.max_difference);
+    const std::string differences =
+        fmt::format("{} pixels differ, by {} levels at most", result.differing_pixels, result.max_difference);
     if (!result.alike)
         put("different: {}\n{}, at x {}, y {}\n", result.reason, differences, result.max_x, result.max_y);
-    else if (result.differing_pixels == 0) put("alike: every pixel is the same\n");
-    else put("alike: {}\n", differences);
+    else if (result.differing_pixels == 0)
+        put("alike: every pixel is the same\n");
+    else
+        put("alike: {}\n", differences);
     finish_standard_output();
 }
 
@@ -66,7 +68,7 @@ int cannot_tell(const std::string& words) {
 
 int run_compare(const CompareCommand& command) try {
     const CompareOptions& options = command.options;
-    if (!(options.fraction >= 0.0 && options.fraction <= 1.0))   // CLI11's range check lets NaN through
+    if (!(options.fraction >= 0.0 && options.fraction <= 1.0))  // CLI11's range check lets NaN through
         throw InputError(fmt::format("--fraction: must be between 0 and 1 (was {})", options.fraction));
     const Comparison result = compared(command);
     print(result);

@@ -1,6 +1,6 @@
 #include "app/cli/commands.h"
-#include "app/threads/interrupt.h"
 #include "app/cli/say.h"
+#include "app/threads/interrupt.h"
 #include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/image.h"
@@ -9,9 +9,9 @@
 #include "output/process.h"
 #include "render/gl/shader_locator.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <png.h>
+#include <CLI/CLI.hpp>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -32,7 +32,7 @@ namespace {
 struct Finding {
     bool good = false;
     std::string text;
-    bool can_be_installed = true;   // true if an installation is the remedy
+    bool can_be_installed = true;  // true if an installation is the remedy
 };
 
 /// Waits for child processes until they end, the time limit is reached, or Ctrl-C is pressed.
@@ -60,16 +60,16 @@ private:
         };
     }
 
-    double limit_;   // s
+    double limit_;  // s
     Interrupt interrupt_;
     bool interrupted_ = false;
 };
 
-constexpr int failed = 1, out_of_memory = 3;   // exit codes of a check
+constexpr int failed = 1, out_of_memory = 3;  // exit codes of a check
 
 /// Runs a check in the child process.
 [[noreturn]] void look_and_tell(const std::function<std::string()>& look, int pipe) {
-    ::setpgid(0, 0);   // Ctrl-C must reach it only through the parent
+    ::setpgid(0, 0);  // Ctrl-C must reach it only through the parent
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     sigset_t none;
     sigemptyset(&none);
@@ -89,7 +89,7 @@ constexpr int failed = 1, out_of_memory = 3;   // exit codes of a check
         code = failed;
     }
     if (::write(pipe, text.data(), text.size()) < 0) code = failed;
-    ::_exit(code);   // no destructors of the parent's objects, no second flush of its streams
+    ::_exit(code);  // no destructors of the parent's objects, no second flush of its streams
 }
 
 /// Runs `look` in a process of its own: a driver that crashes or hangs is a finding as well.
@@ -145,7 +145,8 @@ Finding look_for_ffmpeg(Patience& patience) try {
     if (!program) return {false, "not on the PATH"};
     const ProgramOutput version = patience.run(*program, {"-hide_banner", "-version"});
     if (version.stopped) return patience.late(program->string());
-    if (!version.end.ok()) return {false, fmt::format("{} does not run ({})", program->string(), version.end.describe())};
+    if (!version.end.ok())
+        return {false, fmt::format("{} does not run ({})", program->string(), version.end.describe())};
     const ProgramOutput encoders = patience.run(*program, {"-hide_banner", "-encoders"});
     if (encoders.stopped) return patience.late(program->string());
     std::string text = version.text.substr(0, version.text.find(" Copyright"));
@@ -159,15 +160,18 @@ Finding look_for_ffmpeg(Patience& patience) try {
 
 /// Prints one line of the report, and another one with the remedy if needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
-    put("  {:<16} {:<8} {}\n", what, finding.good ? "ok" : finding.can_be_installed ? "MISSING" : "FAILS",
+    put("  {:<16} {:<8} {}\n", what,
+        finding.good               ? "ok"
+        : finding.can_be_installed ? "MISSING"
+                                   : "FAILS",
         safe_lines(finding.text));
     if (!finding.good && finding.can_be_installed) put("  {:<16} {:<8} try: {}\n", "", "", remedy);
 }
 
 std::string versions() {
-    return fmt::format("fmt {}.{}.{}, Eigen {}.{}.{}, libpng {}, CLI11 {}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
-                       FMT_VERSION % 100, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                       png_get_libpng_ver(nullptr), CLI11_VERSION);
+    return fmt::format("fmt {}.{}.{}, Eigen {}.{}.{}, libpng {}, CLI11 {}", FMT_VERSION / 10000,
+                       FMT_VERSION / 100 % 100, FMT_VERSION % 100, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                       EIGEN_MINOR_VERSION, png_get_libpng_ver(nullptr), CLI11_VERSION);
 }
 
 }  // namespace

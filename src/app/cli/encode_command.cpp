@@ -1,13 +1,13 @@
-#include "app/threads/bounded_queue.h"
 #include "app/cli/commands.h"
-#include "app/files/frame_folder.h"
-#include "app/threads/interrupt.h"
-#include "app/files/output_plan.h"
-#include "app/workers/frame_memory.h"
-#include "app/pipeline/pipeline.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/files/frame_folder.h"
+#include "app/files/output_plan.h"
+#include "app/pipeline/pipeline.h"
+#include "app/threads/bounded_queue.h"
+#include "app/threads/interrupt.h"
 #include "app/threads/task_group.h"
+#include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -41,14 +41,16 @@ void check_regular(const fs::path& path) {
 std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
     const std::vector<std::int64_t> numbers = frames_in(folder);
     if (numbers.empty())
-        throw InputError({folder.string(), 0, 0}, "the folder holds no frames (frame_000000.png, frame_000001.png, ...)");
+        throw InputError({folder.string(), 0, 0},
+                         "the folder holds no frames (frame_000000.png, frame_000001.png, ...)");
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const auto n = static_cast<std::int64_t>(i);
         const fs::path path = frame_path(folder, n);
         if (numbers[i] != n)
-            throw InputError({path.string(), 0, 0},
-                             fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
-                                         frame_path(folder, numbers.back()).filename().string()));
+            throw InputError(
+                {path.string(), 0, 0},
+                fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
+                            frame_path(folder, numbers.back()).filename().string()));
         check_regular(path);
         const PictureSize this_size = read_png_size(path);
         if (i == 0) size = this_size;
@@ -105,7 +107,8 @@ void run_encode(const EncodeCommand& command) {
     const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);
     const std::uint64_t on_their_way = pictures_on_their_way(size, format, frames);
     require_memory(on_their_way, what, "smaller frames take less");
-    require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what, "smaller frames take less");
+    require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what,
+                   "smaller frames take less");
 
     Interrupt interrupt;
     VideoWriter video(command.clip, size.width, size.height, command.fps, {FrameTimes::constant_rate, command.quality});
@@ -115,7 +118,7 @@ void run_encode(const EncodeCommand& command) {
     }
     if (!command.quiet)
         say("wrote {}: {} frames of {} x {}\n", safe_path(command.clip), video.frames_in_clip(), size.width,
-                   size.height);
+            size.height);
 }
 
 }  // namespace tumble

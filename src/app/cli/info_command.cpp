@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
-#include "app/workers/frame_memory.h"
 #include "app/cli/say.h"
 #include "app/threads/stage_timer.h"
+#include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -18,14 +18,17 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t listed_bodies = 24;    // a screenful; the groups summarize all bodies
-constexpr double trial_seconds = 0.25;       // of stepping, to estimate the time of the whole run
+constexpr std::size_t listed_bodies = 24;  // a screenful; the groups summarize all bodies
+constexpr double trial_seconds = 0.25;     // of stepping, to estimate the time of the whole run
 
 const char* type_text(BodyType type) {
     switch (type) {
-        case BodyType::dynamic: return "dynamic";
-        case BodyType::fixed: return "fixed";
-        case BodyType::kinematic: return "kinematic";
+        case BodyType::dynamic:
+            return "dynamic";
+        case BodyType::fixed:
+            return "fixed";
+        case BodyType::kinematic:
+            return "kinematic";
     }
     return "";
 }
@@ -43,10 +46,13 @@ ShapeText shape_text(const Shape& shape) {
         }
         ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
         ShapeText operator()(const MeshShape& s) const {
-            return {"mesh", fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
-                                        s.asset->surface.triangles.size())};
+            return {"mesh",
+                    fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
+                                s.asset->surface.triangles.size())};
         }
-        ShapeText operator()(const CompoundShape& s) const { return {"compound", fmt::format("{} parts", s.parts->size())}; }
+        ShapeText operator()(const CompoundShape& s) const {
+            return {"compound", fmt::format("{} parts", s.parts->size())};
+        }
     };
     return std::visit(Tell{}, shape);
 }
@@ -67,15 +73,15 @@ void print_head(const SceneDescription& scene) {
     const std::int64_t frames = scene.frame_count();
     const int steps = scene.simulation.steps_per_frame;
     put("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
-               scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
+        scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
     put("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
-               scene.output.samples, scene.light.shadows ? "on" : "off");
+        scene.output.samples, scene.light.shadows ? "on" : "off");
     put("  camera    from {} to {}, {:.4g} degrees vertical field of view{}\n", vector_text(scene.camera.eye),
-               vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
+        vector_text(scene.camera.target), scene.camera.vertical_fov, camera_motion(scene));
     put("  gravity   {} m/s^2\n", vector_text(scene.simulation.gravity));
     if (scene.wind)
         put("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
-                   scene.wind->density, scene.wind->drag);
+            scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) put("  forces    {} at points of bodies\n", scene.forces.size());
 }
 
@@ -102,17 +108,17 @@ void print_groups(const SceneDescription& scene, const World& world) {
 void print_bodies(const SceneDescription& scene, const World& world) {
     if (scene.bodies.empty()) return;
     put("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
-               "principal inertia (kg m^2)", "hull");
+        "principal inertia (kg m^2)", "hull");
     const std::size_t count = std::min(scene.bodies.size(), listed_bodies);
     for (std::size_t i = 0; i < count; ++i) {
         const BodyDescription& body = scene.bodies[i];
         const BodyReport report = world.report(i);
         const ShapeText shape = shape_text(body.shape);
         const bool moves = body.type == BodyType::dynamic;
-        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type), shape.kind,
-                   shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
-                   moves ? vector_text(report.principal_inertia) : "-",
-                   report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
+        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type),
+            shape.kind, shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
+            moves ? vector_text(report.principal_inertia) : "-",
+            report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
     }
     if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
     put("  hull: vertices of the convex shape that collides\n");
@@ -133,8 +139,8 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
         return fmt::format("the simulation fails: {}", error.what());
     }
     const double seconds = wall_seconds() - start;
-    return fmt::format("about {:.3g} s on one thread, estimated from the first {} frames", seconds * double(frames) / double(done),
-                       done);
+    return fmt::format("about {:.3g} s on one thread, estimated from the first {} frames",
+                       seconds * double(frames) / double(done), done);
 }
 
 void print_cost(const SceneDescription& scene, World& world) {
@@ -147,9 +153,10 @@ void print_cost(const SceneDescription& scene, World& world) {
     put("\ncost\n");
     put("  simulation  {}\n", simulation_cost(scene, world));
     put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),
-               1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
-    put("  memory      about {} for the pictures of each render process and {} for those of ffmpeg, for any number of frames\n",
-               memory_text(memory.worker), memory_text(memory.encoder));
+        1e-6 * pixels * double(scene.frame_count()) * scene.output.samples);
+    put("  memory      about {} for the pictures of each render process and {} for those of ffmpeg, for any number of "
+        "frames\n",
+        memory_text(memory.worker), memory_text(memory.encoder));
 }
 
 }  // namespace

@@ -1,28 +1,28 @@
 #include "app/cli/options.h"
 
 #include "app/cli/commands.h"
-#include "app/timing/motion_blur.h"
 #include "app/cli/say.h"
 #include "app/threads/thread_budget.h"
+#include "app/timing/motion_blur.h"
 #include "app/timing/time_scaling.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "scene/toml/limits.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <sstream>
 #include <string>
-#include <vector>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
 
-constexpr int enough_workers = 8;   // 65 MiB each; the simulation and the encoder cannot keep more busy
+constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
 
 /// "1280x720" to two numbers. Their range is checked with the scene.
 void read_size(const std::string& text, SceneOverrides& overrides) {
@@ -35,7 +35,8 @@ void read_size(const std::string& text, SceneOverrides& overrides) {
         good = bad_height == std::errc() && end == last;
     }
     if (!good)
-        throw InputError(fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", safe_text(text)));
+        throw InputError(
+            fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", safe_text(text)));
     overrides.width = width;
     overrides.height = height;
 }
@@ -72,26 +73,30 @@ CLI::Validator number_within(double least, double most) {
         [=](const std::string& text) {
             double value = 0.0;
             const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return within ? std::string() : fmt::format("Value {} not in range {:g} to {:g}", safe_text(text), least, most);
+            return within ? std::string()
+                          : fmt::format("Value {} not in range {:g} to {:g}", safe_text(text), least, most);
         },
         "");
 }
 
 /// An option with one of a list of names as its value.
 template <class T>
-CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value, const std::vector<std::pair<std::string, T>>& choices,
-                        const std::string& help) {
-    return command.add_option_function<std::string>(option, [=, &value](const std::string& text) {
-        std::string names;
-        for (const auto& [name, choice] : choices) {
-            if (name == text) {
-                value = choice;
-                return;
+CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
+    return command.add_option_function<std::string>(
+        option,
+        [=, &value](const std::string& text) {
+            std::string names;
+            for (const auto& [name, choice] : choices) {
+                if (name == text) {
+                    value = choice;
+                    return;
+                }
+                names += (names.empty() ? "" : ", ") + name;
             }
-            names += (names.empty() ? "" : ", ") + name;
-        }
-        throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}')", names, safe_text(text)));
-    }, help);
+            throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}')", names, safe_text(text)));
+        },
+        help);
 }
 
 // An empty name comes from an unset variable of a script.
@@ -104,65 +109,92 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 }
 
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
-    command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")->type_name("N");
-    command.add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
+    command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")
+        ->type_name("N");
+    command
+        .add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
         ->type_name("S");
 }
 
 template <class Threads>
 void add_run(CLI::App& command, Threads& threads, const std::string& unless_told, bool& quiet) {
     command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
-        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", unless_told));
+        ->check(CLI::Range(1, most_threads))
+        ->option_text(fmt::format("N [{}]", unless_told));
     command.add_flag("--quiet", quiet, "Print errors only");
 }
 
 void add_quality(CLI::App& command, VideoQuality& quality) {
-    add_choice<VideoQuality>(command, "--quality", quality,
-                             {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
-                             "Quality of the clip. draft: fast to encode, leaves specks behind moving bodies;\n"
-                             "normal: for viewing; best: looks like the frames (docs/explanation/output.md has\n"
-                             "time and size). A GIF has one setting")
+    add_choice<VideoQuality>(
+        command, "--quality", quality,
+        {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
+        "Quality of the clip. draft: fast to encode, leaves specks behind moving bodies;\n"
+        "normal: for viewing; best: looks like the frames (docs/explanation/output.md has\n"
+        "time and size). A GIF has one setting")
         ->option_text("draft|normal|best [normal]");
 }
 
 CLI::App* add_render(CLI::App& app, CommandLine& line) {
     RenderCommand& c = line.render;
-    CLI::App* command = app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
     add_scene(*command, c.scene);
-    command->add_option("-o,--output", c.clip,
-                        "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
-                        ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
-                        "name with .mp4, in this folder")->check(some_name())->type_name("CLIP");
-    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")->check(some_name())
+    command
+        ->add_option("-o,--output", c.clip,
+                     "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
+                     ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
+                     "name with .mp4, in this folder")
+        ->check(some_name())
+        ->type_name("CLIP");
+    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")
+        ->check(some_name())
         ->type_name("DIR");
-    command->add_option("--aov", line.aovs,
-                        "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
+    command
+        ->add_option("--aov", line.aovs,
+                     "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
+                     "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
     command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
-        ->check(some_name())->type_name("DIR");
+        ->check(some_name())
+        ->type_name("DIR");
     command->add_option("--size", line.render_size, "Picture size, in place of the scene's")
-        ->check(some_name())->type_name("WxH");
+        ->check(some_name())
+        ->type_name("WxH");
     add_frames_of_time(*command, c.overrides);
-    command->add_option("--start", c.start, "Seconds that are simulated and not drawn. Frames keep their numbers and their pixels")
-        ->check(number_within(limits::duration.min, limits::duration.max))->option_text("S [0]");
-    command->add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
+    command
+        ->add_option("--start", c.start,
+                     "Seconds that are simulated and not drawn. Frames keep their numbers and their pixels")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->option_text("S [0]");
+    command
+        ->add_option("--samples", c.overrides.samples,
+                     "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
-    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}}, "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, else it draws the same pixels on the CPU")
+    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+                          "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, "
+                          "else it draws the same pixels on the CPU")
         ->option_text("osmesa|egl");
-    command->add_option("--speed", c.speed, "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
-                        "at the same frames per second), 2 twice as fast")
-        ->check(number_within(slowest_speed, fastest_speed))->option_text("X [1]");
+    command
+        ->add_option("--speed", c.speed,
+                     "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
+                     "at the same frames per second), 2 twice as fast")
+        ->check(number_within(slowest_speed, fastest_speed))
+        ->option_text("X [1]");
     command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
-        ->check(number_within(0.0, 360.0))->option_text("DEGREES [0]");
+        ->check(number_within(0.0, 360.0))
+        ->option_text("DEGREES [0]");
     command->add_option("--blur-samples", c.blur_samples, "Moments averaged while the shutter is open")
-        ->check(CLI::Range(2, most_blur_samples))->option_text(fmt::format("N [{}]", c.blur_samples));
+        ->check(CLI::Range(2, most_blur_samples))
+        ->option_text(fmt::format("N [{}]", c.blur_samples));
     add_quality(*command, c.clip_options.quality);
-    command->add_flag_callback("--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
-                               "Store an unchanged picture once and show it longer, which costs nothing; players show\n"
-                               "the same, but tools that count stored frames find fewer");
+    command->add_flag_callback(
+        "--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
+        "Store an unchanged picture once and show it longer, which costs nothing; players show\n"
+        "the same, but tools that count stored frames find fewer");
     c.workers = std::min(machine_threads(), enough_workers);
     command->add_option("--workers", c.workers, "Render processes, one per core; the result is the same for any number")
-        ->check(CLI::Range(1, most_threads))->option_text(fmt::format("N [{}]", c.workers));
+        ->check(CLI::Range(1, most_threads))
+        ->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, "by the bodies", c.quiet);
     command->footer(
         "Examples:\n"
@@ -190,22 +222,36 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     SimulateCommand& c = line.simulate;
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
     add_scene(*command, c.scene);
-    command->add_option("--trajectory", c.trajectory,
-                        "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - is standard output")
-        ->check(some_name())->transform(or_standard_output())->type_name("T.csv");
-    command->add_option("--energy", c.energy, "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
-        ->check(some_name())->transform(or_standard_output())->type_name("E.csv");
-    CLI::Option* step = command->add_option("--step", c.overrides.step,
-                                            "The fixed step in s, in place of the scene's; it must divide 1/fps")
+    command
+        ->add_option("--trajectory", c.trajectory,
+                     "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
+                     "is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("T.csv");
+    command
+        ->add_option("--energy", c.energy,
+                     "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("E.csv");
+    CLI::Option* step = command
+                            ->add_option("--step", c.overrides.step,
+                                         "The fixed step in s, in place of the scene's; it must divide 1/fps")
                             ->type_name("H");
     command->add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
-        ->excludes(step)->type_name("N");
+        ->excludes(step)
+        ->type_name("N");
     command
-        ->add_option("--integrator", c.overrides.integrator, "symplectic-euler, explicit-euler, splitting, rk4 or exact")
+        ->add_option("--integrator", c.overrides.integrator,
+                     "symplectic-euler, explicit-euler, splitting, rk4 or exact")
         ->type_name("NAME");
-    command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")->type_name("MODE");
-    command->add_option("--impact-law", c.overrides.impact_law,
-                        "propagating or simultaneous: the rule for several contacts at once")->type_name("NAME");
+    command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")
+        ->type_name("MODE");
+    command
+        ->add_option("--impact-law", c.overrides.impact_law,
+                     "propagating or simultaneous: the rule for several contacts at once")
+        ->type_name("NAME");
     add_frames_of_time(*command, c.overrides);
     c.threads = machine_threads();
     add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
@@ -220,9 +266,11 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     EncodeCommand& c = line.encode;
     CLI::App* command = app.add_subcommand("encode", "Make a clip from existing frames");
     command->add_option("frames", c.frames, "The folder with frame_000000.png, frame_000001.png and so on")
-        ->required()->type_name("DIR");
+        ->required()
+        ->type_name("DIR");
     command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
-        ->required()->type_name("CLIP");
+        ->required()
+        ->type_name("CLIP");
     command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
     add_quality(*command, c.quality);
     command->add_flag("--quiet", c.quiet, "Print errors only");
@@ -232,23 +280,39 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
 
 CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     CompareCommand& c = line.compare;
-    CLI::App* command = app.add_subcommand("compare", "Compare two pictures: exit code 0 alike, 1 different, 2 cannot compare");
+    CLI::App* command =
+        app.add_subcommand("compare", "Compare two pictures: exit code 0 alike, 1 different, 2 cannot compare");
     command->add_option("a", c.a, "A picture (PNG)")->required()->type_name("A.png");
     command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
-    command->add_option("--diff", c.difference, "Write a picture of the differences: red beyond the tolerance, blue within")
-        ->check(some_name())->type_name("D.png");
-    command->add_option("--tolerance", c.options.tolerance, "Levels (of 255) that a pixel may differ in each channel without counting")
-        ->check(CLI::Range(0, 255))->option_text("N [3]");
-    command->add_option("--fraction", c.options.fraction, "Rule pixels: part of the pixels that may differ by more (rounded up to whole\npixels)")
-        ->check(number_within(0.0, 1.0))->option_text("F [0.0001]");
+    command
+        ->add_option("--diff", c.difference,
+                     "Write a picture of the differences: red beyond the tolerance, blue within")
+        ->check(some_name())
+        ->type_name("D.png");
+    command
+        ->add_option("--tolerance", c.options.tolerance,
+                     "Levels (of 255) that a pixel may differ in each channel without counting")
+        ->check(CLI::Range(0, 255))
+        ->option_text("N [3]");
+    command
+        ->add_option("--fraction", c.options.fraction,
+                     "Rule pixels: part of the pixels that may differ by more (rounded up to whole\npixels)")
+        ->check(number_within(0.0, 1.0))
+        ->option_text("F [0.0001]");
     command->add_option("--cluster", c.options.cluster, "Rule cluster: pixels of any 8 x 8 that may differ by more")
-        ->check(CLI::Range(0, 64))->option_text("N [4 + 64 F]");
-    command->add_option("--window", c.options.window, "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off by 64 times that breaks it as well")
-        ->check(number_within(0.0, 255.0))->option_text("L [tolerance / 2 + 255 F]");
+        ->check(CLI::Range(0, 64))
+        ->option_text("N [4 + 64 F]");
+    command
+        ->add_option("--window", c.options.window,
+                     "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off "
+                     "by 64 times that breaks it as well")
+        ->check(number_within(0.0, 255.0))
+        ->option_text("L [tolerance / 2 + 255 F]");
     command->footer(
         "Pictures are alike if all three rules hold. A rule that fails is named with its value, its limit and its\n"
         "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
-        "small object moved by one pixel (cluster), a lost shadow or a shifted color (window) do not. The 8 x 8 pixels\n"
+        "small object moved by one pixel (cluster), a lost shadow or a shifted color (window) do not. The 8 x 8 "
+        "pixels\n"
         "begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
         "Example:\n  tumble compare golden.png frame_000100.png --diff difference.png");
     return command;
@@ -258,7 +322,8 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("info", "Describe a scene and estimate its cost");
     add_scene(*command, line.info.scene);
     command->add_option("--size", line.info_size, "Picture size, in place of the scene's")
-        ->check(some_name())->type_name("WxH");
+        ->check(some_name())
+        ->type_name("WxH");
     add_frames_of_time(*command, line.info.overrides);
     command->footer("Example:\n  tumble info scene.toml");
     return command;
@@ -267,8 +332,10 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
 void add_doctor(CLI::App& app, CommandLine& line) {
     CLI::App* command =
         app.add_subcommand("doctor", "Check the requirements of rendering, and name a remedy for each that is not met");
-    command->add_option("--time-limit", line.doctor.time_limit, "Seconds that each program and driver may take to answer")
-        ->check(number_within(0.001, 1e6))->option_text(fmt::format("S [{:g}]", line.doctor.time_limit));
+    command
+        ->add_option("--time-limit", line.doctor.time_limit, "Seconds that each program and driver may take to answer")
+        ->check(number_within(0.001, 1e6))
+        ->option_text(fmt::format("S [{:g}]", line.doctor.time_limit));
 }
 
 }  // namespace
@@ -284,7 +351,8 @@ int run_command_line(int argc, char** argv) {
         "  tumble doctor                                     is everything there?\n"
         "  tumble info assets/scenes/falling_boxes.toml      bodies, shapes and settings of the scene\n"
         "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4\n"
-        "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong usage\n"
+        "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong "
+        "usage\n"
         "or bad input. Messages and progress go to standard error.");
     app.failure_message([](const CLI::App*, const CLI::Error& error) {
         return fmt::format("error: {} (see \"tumble --help\" and \"tumble COMMAND --help\")\n",
@@ -309,12 +377,18 @@ int run_command_line(int argc, char** argv) {
     if (render->get_option("--aov")->count() > 0) line.render.aovs = read_aovs(line.aovs);
     if (!line.info_size.empty()) read_size(line.info_size, line.info.overrides);
 
-    if (render->parsed()) run_render(line.render);
-    else if (simulate->parsed()) run_simulate(line.simulate);
-    else if (encode->parsed()) run_encode(line.encode);
-    else if (compare->parsed()) return run_compare(line.compare);
-    else if (info->parsed()) run_info(line.info);
-    else return run_doctor(line.doctor);
+    if (render->parsed())
+        run_render(line.render);
+    else if (simulate->parsed())
+        run_simulate(line.simulate);
+    else if (encode->parsed())
+        run_encode(line.encode);
+    else if (compare->parsed())
+        return run_compare(line.compare);
+    else if (info->parsed())
+        run_info(line.info);
+    else
+        return run_doctor(line.doctor);
     return 0;
 }
 

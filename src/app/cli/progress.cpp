@@ -14,8 +14,8 @@
 namespace tumble {
 namespace {
 
-constexpr double bar_period = 0.1;    // s between updates of the bar
-constexpr double line_period = 5.0;   // s between lines of a log
+constexpr double bar_period = 0.1;   // s between updates of the bar
+constexpr double line_period = 5.0;  // s between lines of a log
 
 int terminal_columns() {
     winsize size{};
@@ -32,7 +32,11 @@ std::string clock_text(double seconds) {
 }
 
 Progress::Progress(std::int64_t total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), start_(wall_seconds()), last_shown_(start_) {}
+    : total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(wall_seconds()),
+      last_shown_(start_) {}
 
 Progress::~Progress() {
     if (bar_shown_) say_text("\r\033[K");
@@ -43,8 +47,10 @@ void Progress::update(std::int64_t done) {
     const double now = wall_seconds();
     if (now - last_shown_ < (terminal_ ? bar_period : line_period)) return;
     last_shown_ = now;
-    if (terminal_) draw_bar(done, now);
-    else print_line(done, now);
+    if (terminal_)
+        draw_bar(done, now);
+    else
+        print_line(done, now);
 }
 
 std::string Progress::figures(std::int64_t done, double now) const {
@@ -57,7 +63,7 @@ std::string Progress::figures(std::int64_t done, double now) const {
 void Progress::draw_bar(std::int64_t done, double now) {
     const double part = total_ > 0 ? double(done) / double(total_) : 1.0;
     const std::string text = fmt::format(" {:3.0f} %  {}", 100.0 * part, figures(done, now));
-    const int width = std::min(40, terminal_columns() - int(text.size()) - 3);   // one column stays free: no line break
+    const int width = std::min(40, terminal_columns() - int(text.size()) - 3);  // one column stays free: no line break
     std::string bar;
     if (width >= 5) {
         const int full = int(part * width);

@@ -1,12 +1,12 @@
 #include "app/cli/commands.h"
-#include "app/threads/interrupt.h"
-#include "app/files/output_plan.h"
-#include "app/workers/frame_memory.h"
-#include "app/pipeline/pipeline.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/files/output_plan.h"
+#include "app/pipeline/pipeline.h"
+#include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
 #include "app/timing/time_scaling.h"
+#include "app/workers/frame_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 
@@ -39,14 +39,14 @@ struct Summary {
 
     void print() const {
         if (video != nullptr)
-            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(),
-                       scene.output.width, scene.output.height, every_so_manieth(), stored());
+            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(), scene.output.width,
+                scene.output.height, every_so_manieth(), stored());
         if (folder != nullptr)
             say("wrote {} to {}\n", safe_path(frame_path(folder->path(), frames.first)),
-                       frame_path(folder->path(), frames.end - 1).filename().string());
+                frame_path(folder->path(), frames.end - 1).filename().string());
         if (aovs != nullptr)
             say("wrote {} to {}: {}\n", safe_path(aov_path(aovs->path(), frames.first)),
-                       aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
+                aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
         print_times();
         if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
         if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
@@ -54,8 +54,8 @@ struct Summary {
 
     std::string every_so_manieth() const {
         if (video->frames_in_clip() == frames.count()) return "";
-        return fmt::format(" (one in {} of {}: the format holds no more)",
-                           video_format(*clip, clip_fps).frame_step, frames.count());
+        return fmt::format(" (one in {} of {}: the format holds no more)", video_format(*clip, clip_fps).frame_step,
+                           frames.count());
     }
 
     std::string stored() const {
@@ -65,12 +65,11 @@ struct Summary {
 
     void print_times() const {
         const PipelineTimes& t = pipeline.times();
-        std::string text = fmt::format("{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s",
-                                       seconds, double(frames.count()) / seconds, drawer.drawn(), t.simulation.cpu.load(),
-                                       t.drawing.drawing.cpu.load());
+        std::string text = fmt::format(
+            "{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s", seconds,
+            double(frames.count()) / seconds, drawer.drawn(), t.simulation.cpu.load(), t.drawing.drawing.cpu.load());
         if (folder != nullptr) text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
-        if (aovs != nullptr)
-            text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
+        if (aovs != nullptr) text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
         if (video != nullptr)
             text += fmt::format(", conversion {:.2f} s, video {:.2f} s", t.drawing.conversion.cpu.load(),
                                 t.video.cpu.load() + video->encoder_seconds());
@@ -85,7 +84,7 @@ struct Summary {
         const auto older = std::lower_bound(there.begin(), there.end(), frames.end);
         if (older != there.end())
             say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
-                       safe_path(path(where, *older)));
+                safe_path(path(where, *older)));
     }
 };
 
@@ -106,8 +105,7 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     for (const fs::path& file : inputs) plan.add_input(file);
     if (clip) plan.add("--output", *clip);
     if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
-    if (command.frames)
-        plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
+    if (command.frames) plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
 }
 
@@ -126,7 +124,8 @@ void run_render(const RenderCommand& command) {
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
     // All checks of the outputs come before the simulation and before anything is written.
-    PictureWork work{{std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
+    PictureWork work{
+        {std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
     const FrameOutputs& forms = work.forms;
     if (clip) {
         const VideoFormat format = video_format(*clip, clip_fps);
@@ -139,10 +138,11 @@ void run_render(const RenderCommand& command) {
     const int workers = workers_that_fit(scene, work, wanted_workers);
     if (workers < wanted_workers && !command.quiet)
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers, wanted_workers);
-    Interrupt interrupt;   // before any thread or process is made
+    Interrupt interrupt;  // before any thread or process is made
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
-    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
+    const int threads =
+        command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
     World world(scene, divided(timing, shutter.parts), threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
@@ -162,8 +162,17 @@ void run_render(const RenderCommand& command) {
     }
     const ProcessEnd workers_end = drawer.finish();
     if (!command.quiet)
-        Summary{scene, frames, pipeline, folder ? &*folder : nullptr, aovs ? &*aovs : nullptr, video ? &*video : nullptr, drawer, workers_end, clip,
-                clip_fps, wall_seconds() - start}
+        Summary{scene,
+                frames,
+                pipeline,
+                folder ? &*folder : nullptr,
+                aovs ? &*aovs : nullptr,
+                video ? &*video : nullptr,
+                drawer,
+                workers_end,
+                clip,
+                clip_fps,
+                wall_seconds() - start}
             .print();
 }
 

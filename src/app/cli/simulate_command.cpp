@@ -1,9 +1,9 @@
 #include "api/scene_data.h"
 #include "app/cli/commands.h"
-#include "app/threads/interrupt.h"
-#include "app/files/output_plan.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/files/output_plan.h"
+#include "app/threads/interrupt.h"
 #include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -18,7 +18,7 @@
 namespace tumble {
 namespace {
 
-constexpr double interrupt_period = 0.02;   // s between checks for Ctrl-C, because a frame may take only a microsecond
+constexpr double interrupt_period = 0.02;  // s between checks for Ctrl-C, because a frame may take only a microsecond
 
 /// Checks for Ctrl-C and shows the progress, without a system call per frame.
 class Watch {
@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    Interrupt interrupt_;   // before the world makes its threads
+    Interrupt interrupt_;  // before the world makes its threads
     Progress progress_;
     double last_ = wall_seconds();
 };
@@ -74,8 +74,7 @@ void run_simulate(const SimulateCommand& command) {
     for (const auto& file : {command.trajectory, command.energy})
         if (file) say("wrote {}\n", safe_path(*file));
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
-               (frames - 1) * scene.steps_per_frame(), scene.step(), seconds,
-               double(frames - 1) / fps / seconds);
+        (frames - 1) * scene.steps_per_frame(), scene.step(), seconds, double(frames - 1) / fps / seconds);
 }
 
 }  // namespace tumble

@@ -9,7 +9,7 @@
 namespace tumble {
 
 void open_missing_standard_streams() {
-    constexpr std::array<int, 3> how{O_RDONLY, O_RDONLY, O_WRONLY};   // by descriptor
+    constexpr std::array<int, 3> how{O_RDONLY, O_RDONLY, O_WRONLY};  // by descriptor
     for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
         if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
         // The lowest free descriptor is this one. Without /dev/null, a folder occupies it.

@@ -46,7 +46,7 @@ std::size_t bytes_of_pixel(Aov aov) {
         case Aov::albedo:
             return 3;
         default:
-            return 4;   // depth, segmentation
+            return 4;  // depth, segmentation
     }
 }
 

@@ -16,7 +16,9 @@ std::filesystem::path aov_path(const std::filesystem::path& folder, std::int64_t
 
 std::vector<std::int64_t> aovs_in(const std::filesystem::path& folder) { return numbers_in(folder, "aov_", ".npz"); }
 
-std::filesystem::path segmentation_table_path(const std::filesystem::path& folder) { return folder / "segmentation.csv"; }
+std::filesystem::path segmentation_table_path(const std::filesystem::path& folder) {
+    return folder / "segmentation.csv";
+}
 
 std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<const std::byte> file) {
     if (!std::exchange(begun_, true) && aovs_.has(Aov::segmentation)) write_table();

@@ -16,7 +16,9 @@ namespace tumble {
 
 namespace fs = std::filesystem;
 
-fs::path frame_path(const fs::path& folder, std::int64_t frame) { return folder / fmt::format("frame_{:06}.png", frame); }
+fs::path frame_path(const fs::path& folder, std::int64_t frame) {
+    return folder / fmt::format("frame_{:06}.png", frame);
+}
 
 std::vector<std::int64_t> frames_in(const fs::path& folder) { return numbers_in(folder, "frame_", ".png"); }
 
@@ -64,7 +66,8 @@ void FrameFolder::make() {
     std::error_code failed;
     for (auto p = missing.rbegin(); p != missing.rend() && !failed; ++p)
         if (fs::create_directory(*p, failed)) made_.push_back(*p);
-    if (!failed && !fs::is_directory(folder_, failed) && !failed) failed = std::make_error_code(std::errc::not_a_directory);
+    if (!failed && !fs::is_directory(folder_, failed) && !failed)
+        failed = std::make_error_code(std::errc::not_a_directory);
     if (failed) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder_), failed.message()));
 }
 

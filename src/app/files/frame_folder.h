@@ -18,7 +18,8 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, std::int64
 std::vector<std::int64_t> frames_in(const std::filesystem::path& folder);
 
 /// The same for any files whose name is `before`, a number of six digits or more, and `after`.
-std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::string_view before, std::string_view after);
+std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::string_view before,
+                                     std::string_view after);
 
 /// The number in such a name; empty for another name.
 std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after);
@@ -41,7 +42,7 @@ private:
     void remove_empty() const;
 
     std::filesystem::path folder_;
-    std::vector<std::filesystem::path> made_;   // outermost first
+    std::vector<std::filesystem::path> made_;  // outermost first
     std::optional<FolderLock> lock_;
 };
 

@@ -43,11 +43,12 @@ std::optional<OutputPlan::Place> OutputPlan::place_of(const fs::path& path) {
 bool OutputPlan::is_one_of(const Place& place, const OutputSeries& series) {
     const auto any = place_of(series.path(series.folder, series.first));
     if (!any || any->folder != place.folder) return false;
-    if (place.rest == any->rest.parent_path()) return true;   // the folder itself, before it is made
+    if (place.rest == any->rest.parent_path()) return true;  // the folder itself, before it is made
     if (place.rest.parent_path() != any->rest.parent_path()) return false;
     const std::string name = place.rest.filename().string();
     const auto number = number_in(name, series.before, series.after);
-    return number && *number >= series.first && *number < series.end && series.path(series.folder, *number).filename() == name;
+    return number && *number >= series.first && *number < series.end &&
+           series.path(series.folder, *number).filename() == name;
 }
 
 OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path& name) {
@@ -57,7 +58,8 @@ OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path
         struct stat status {};
         // A file that is opened later might get this number.
         if (::fstat(*target.descriptor, &status) != 0)
-            throw RunError(fmt::format("cannot write '{}': {}", safe_path(name), std::generic_category().message(errno)));
+            throw RunError(
+                fmt::format("cannot write '{}': {}", safe_path(name), std::generic_category().message(errno)));
         if (!swallows_all(status)) output.file = File{status.st_dev, status.st_ino};
         return output;
     }
@@ -69,8 +71,8 @@ OutputPlan::Output OutputPlan::look_at(const std::string& option, const fs::path
 void OutputPlan::compare_with_inputs(const Output& output) const {
     for (const Input& input : inputs_)
         if (output.file == input.file)
-            throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", output.option, safe_path(output.name),
-                                         safe_path(input.name)));
+            throw InputError(fmt::format("{}: '{}' would replace '{}', which is read", output.option,
+                                         safe_path(output.name), safe_path(input.name)));
 }
 
 void OutputPlan::compare_with_outputs(const Output& output) const {
@@ -102,8 +104,8 @@ void OutputPlan::add(const OutputSeries& series) {
     series_.push_back(series);
     for (const Output& output : outputs_)
         if (output.place && is_one_of(*output.place, series))
-            throw InputError(fmt::format("{} and {} must be two files ('{}' is a name in '{}')", output.option, series.option,
-                                         safe_path(output.name), safe_path(series.folder)));
+            throw InputError(fmt::format("{} and {} must be two files ('{}' is a name in '{}')", output.option,
+                                         series.option, safe_path(output.name), safe_path(series.folder)));
     std::error_code error;
     if (!fs::is_directory(series.folder, error)) return;
     for (const std::int64_t number : numbers_in(series.folder, series.before, series.after)) {

@@ -17,9 +17,9 @@ namespace tumble {
 struct OutputSeries {
     std::string option;
     std::filesystem::path folder;
-    std::string_view before, after;                                                     // parts of a name around the number
-    std::filesystem::path (*path)(const std::filesystem::path& folder, std::int64_t);   // the file of a number
-    std::int64_t first = 0, end = 0;                                                    // range of the numbers
+    std::string_view before, after;  // parts of a name around the number
+    std::filesystem::path (*path)(const std::filesystem::path& folder, std::int64_t);  // the file of a number
+    std::int64_t first = 0, end = 0;                                                   // range of the numbers
 };
 
 /// All members throw InputError. Outputs may be added in any order, after all inputs.
@@ -50,8 +50,8 @@ private:
     struct Output {
         std::string option;
         std::filesystem::path name;
-        std::optional<Place> place;   // of the name that will be replaced or made; none: written in place
-        std::optional<File> file;     // the existing file
+        std::optional<Place> place;  // of the name that will be replaced or made; none: written in place
+        std::optional<File> file;    // the existing file
     };
 
     static std::optional<File> file_at(const std::filesystem::path& path);
@@ -62,7 +62,7 @@ private:
     void compare_with_outputs(const Output& output) const;
 
     std::vector<Input> inputs_;
-    std::vector<Output> outputs_;   // single files, and links among those of a series
+    std::vector<Output> outputs_;  // single files, and links among those of a series
     std::vector<OutputSeries> series_;
 };
 

@@ -18,7 +18,7 @@ namespace tumble {
 /// Files that are waited for together share a commit (measured in docs/explanation/output.md).
 class PublishQueue {
 public:
-    static constexpr int threads = 4;   // concurrent waits: with this number, PNG frames come as fast as without waiting
+    static constexpr int threads = 4;  // concurrent waits: with this number, PNG frames come as fast as without waiting
 
     PublishQueue() : files_(waiting_files) {}
 
@@ -35,7 +35,7 @@ public:
     std::int64_t published() const { return published_; }
 
 private:
-    static constexpr std::size_t waiting_files = 8;   // each is an open file
+    static constexpr std::size_t waiting_files = 8;  // each is an open file
 
     struct Waiting {
         std::int64_t number;
@@ -45,7 +45,7 @@ private:
 
     BoundedQueue<Waiting> files_;
     std::int64_t put_ = 0;
-    std::mutex mutex_;   // guards waits for published_
+    std::mutex mutex_;  // guards waits for published_
     std::condition_variable turn_;
     std::atomic<std::int64_t> published_{0};
     bool cancelled_ = false;

@@ -15,7 +15,7 @@ namespace {
 
 // Enough to smooth frames of different cost; small relative to one frame's pixels.
 constexpr std::size_t waiting_poses = 8;
-constexpr std::size_t waiting_pose_bytes = 16 << 20;   // lower limit for scenes of very many bodies
+constexpr std::size_t waiting_pose_bytes = 16 << 20;  // lower limit for scenes of very many bodies
 // Each holds a slot of the process that drew it, so a number above that of the slots would have no effect.
 constexpr std::size_t waiting_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
@@ -41,8 +41,8 @@ void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder, VideoWriter* video,
-                   AovFolder* aovs, Shutter shutter)
+Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder,
+                   VideoWriter* video, AovFolder* aovs, Shutter shutter)
     : world_(world),
       frames_(frames),
       drawer_(drawer),
@@ -69,8 +69,8 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
     });
     stages.start([this] { simulate(); });
     stages.start([this] {
-        drawer_.run(poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing,
-                    frames_.first);
+        drawer_.run(
+            poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing, frames_.first);
         for_png_.close();
         for_aovs_.close();
         for_video_.close();
@@ -94,14 +94,16 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 
 void Pipeline::simulate() {
     const bool ahead = aovs_ != nullptr && aovs_->aovs().has(Aov::motion);
-    std::optional<MotionBlurFrame> waiting;   // with motion AOVs, a frame waits for the poses of the next one
+    std::optional<MotionBlurFrame> waiting;  // with motion AOVs, a frame waits for the poses of the next one
     for (std::int64_t n = 0; n < frames_.end; ++n) {
         MotionBlurFrame exposure = expose(n);
         if (waiting) waiting->aovs->next = exposure.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
         waiting.reset();
-        if (ahead) waiting = std::move(exposure);
-        else if (!poses_.push(std::move(exposure))) return;
+        if (ahead)
+            waiting = std::move(exposure);
+        else if (!poses_.push(std::move(exposure)))
+            return;
     }
     if (waiting) {
         waiting->aovs->next = after_the_last();
@@ -163,8 +165,10 @@ void Pipeline::write_aovs() {
 void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
         const StageTimer timer(times_.video);
-        if (frame->repeated) video_->repeat();
-        else video_->write(frame->video);
+        if (frame->repeated)
+            video_->repeat();
+        else
+            video_->write(frame->video);
         ++filmed_;
     }
     // After a stop the queue ends as well, but the clip is not complete.

@@ -10,11 +10,11 @@
 #pragma once
 
 #include "app/files/aov_folder.h"
-#include "app/workers/render_pool.h"
 #include "app/files/frame_folder.h"
-#include "app/timing/frame_range.h"
 #include "app/files/publish_queue.h"
 #include "app/threads/stage_timer.h"
+#include "app/timing/frame_range.h"
+#include "app/workers/render_pool.h"
 #include "output/video_writer.h"
 #include "scene/description/description.h"
 #include "sim/world.h"

@@ -14,7 +14,7 @@ Interrupt::Interrupt() {
 }
 
 Interrupt::~Interrupt() {
-    pending();   // a signal that came after the work must not end the program before it has reported the result
+    pending();  // a signal that came after the work must not end the program before it has reported the result
     restore();
 }
 

@@ -31,7 +31,7 @@ void TaskGroup::start(std::function<void()> stage) {
     };
     try {
         threads_.push_back(start_thread<std::thread>(run));
-    } catch (...) {   // the system has no more threads
+    } catch (...) {  // the system has no more threads
         const std::lock_guard lock(mutex_);
         --running_;
         throw;

@@ -10,7 +10,7 @@ namespace {
 // took 0.24 s of processor time for 151 frames with one thread, 0.42 s with two; a clip of a thousand took a tenth less
 // with one.
 constexpr std::size_t bodies_a_thread = 500;
-constexpr std::size_t many_bodies = 5000;   // above this number a step takes so long that drawing would wait for it
+constexpr std::size_t many_bodies = 5000;  // above this number a step takes so long that drawing would wait for it
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 namespace tumble {
 
 struct FrameRange {
-    std::int64_t first = 0, end = 0;   // frame numbers in the scene, from 0
+    std::int64_t first = 0, end = 0;  // frame numbers in the scene, from 0
     std::int64_t count() const { return end - first; }
 };
 

@@ -15,7 +15,7 @@ namespace tumble {
 struct MotionBlurFrame {
     std::int64_t frame = 0;
     std::vector<Snapshot> moments;
-    std::optional<AovPoses> aovs;   // the true poses at the frame's own time, when the shutter opens
+    std::optional<AovPoses> aovs;  // the true poses at the frame's own time, when the shutter opens
 };
 
 /// Each frame is simulated in this many equal parts; the first `moments` of them begin while the shutter is open.

@@ -31,7 +31,8 @@ FrameTiming timing_at_speed(const SceneDescription& scene, double speed) {
     if (scene.simulation.duration * fps > double(limits::frames))
         throw InputError(fmt::format("--speed: at {:g} the clip has more than {} frames", speed, limits::frames));
     if (steps > double(limits::steps_per_frame))
-        throw InputError(fmt::format("--speed: at {:g} a frame takes more than {} steps", speed, limits::steps_per_frame));
+        throw InputError(
+            fmt::format("--speed: at {:g} a frame takes more than {} steps", speed, limits::steps_per_frame));
     return {fps, int(steps)};
 }
 

@@ -12,25 +12,25 @@ namespace tumble {
 namespace {
 
 // Bytes per pixel.
-constexpr std::uint64_t sample = 8;          // color and depth
-constexpr std::uint64_t targets = 2;         // the background and the frame, each with all samples (framebuffer.h)
-constexpr std::uint64_t picture_bytes = 4;   // RGBA
-constexpr std::uint64_t drawing = 10;        // buffers of antialiasing and readback: measured, see docs/explanation/output.md
-constexpr std::uint64_t light = 12;          // the sums of a mean of moments (image_mean.h)
-constexpr std::uint64_t surface = 16;        // visibility buffer: depth, surface, triangle (visibility_buffer.h)
+constexpr std::uint64_t sample = 8;         // color and depth
+constexpr std::uint64_t targets = 2;        // the background and the frame, each with all samples (framebuffer.h)
+constexpr std::uint64_t picture_bytes = 4;  // RGBA
+constexpr std::uint64_t drawing = 10;  // buffers of antialiasing and readback: measured, see docs/explanation/output.md
+constexpr std::uint64_t light = 12;    // the sums of a mean of moments (image_mean.h)
+constexpr std::uint64_t surface = 16;  // visibility buffer: depth, surface, triangle (visibility_buffer.h)
 
-constexpr std::int64_t slots = 4;            // of a worker (render_pool.cpp); a frame takes one
+constexpr std::int64_t slots = 4;  // of a worker (render_pool.cpp); a frame takes one
 
 }  // namespace
 
 PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work) {
     const OutputSettings& output = scene.output;
     const std::uint64_t pixels = std::uint64_t(output.width) * std::uint64_t(output.height);
-    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);   // the renderer's rule
+    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);  // the renderer's rule
     PictureMemory memory;
     if (work.forms.picture()) {
         memory.worker += pixels * (targets * samples * sample + picture_bytes + drawing);
-        if (samples > 1) memory.worker += pixels * picture_bytes;                 // their mean
+        if (samples > 1) memory.worker += pixels * picture_bytes;  // their mean
         if (work.moments > 1) memory.worker += pixels * (light + picture_bytes);
     }
     if (work.forms.video) {
@@ -40,7 +40,8 @@ PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& w
     if (!work.forms.aovs.empty()) {
         memory.worker += pixels * surface;
         for (const Aov aov : all_aovs)
-            if (work.forms.aovs.has(aov)) memory.worker += 2 * pixels * bytes_of_pixel(aov);   // values, and space for the file
+            if (work.forms.aovs.has(aov))
+                memory.worker += 2 * pixels * bytes_of_pixel(aov);  // values, and space for the file
     }
     if (work.clip) memory.encoder = encoder_memory(*work.clip, output.width, output.height);
     return memory;
@@ -50,9 +51,12 @@ std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
     // Bytes per pixel: the increase of ffmpeg 5.1's peak from 1280 x 720 to 4096 x 2304 pixels, 8 plain frames.
     const auto of_pixel = [&]() -> std::uint64_t {
         switch (kind) {
-            case VideoKind::h264: return 25;
-            case VideoKind::vp9: return 115;
-            case VideoKind::gif: return 42;
+            case VideoKind::h264:
+                return 25;
+            case VideoKind::vp9:
+                return 115;
+            case VideoKind::gif:
+                return 42;
         }
         return 0;
     }();

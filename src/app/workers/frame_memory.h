@@ -16,13 +16,13 @@ namespace tumble {
 /// The outputs, and the number of images per frame.
 struct PictureWork {
     FrameOutputs forms;
-    std::optional<VideoKind> clip;   // kind of the clip, for the encoder
+    std::optional<VideoKind> clip;  // kind of the clip, for the encoder
     std::int64_t frames = 1;
-    int moments = 1;                 // per frame: above 1 with motion blur
+    int moments = 1;  // per frame: above 1 with motion blur
 };
 
 struct PictureMemory {
-    std::uint64_t worker = 0, encoder = 0;   // bytes: of each render process, of the ffmpeg program
+    std::uint64_t worker = 0, encoder = 0;  // bytes: of each render process, of the ffmpeg program
     std::uint64_t total(int workers) const { return std::uint64_t(workers) * worker + encoder; }
 };
 

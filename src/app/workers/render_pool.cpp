@@ -23,8 +23,9 @@ constexpr int slots_of_worker = 4;
 /// In memory shared by all processes. Null with a single process.
 std::shared_ptr<ShaderCompileSchedule> make_turns(int workers) {
     if (workers < 2) return nullptr;
-    void* const memory = mmap(nullptr, sizeof(ShaderCompileSchedule), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) return nullptr;   // each process then compiles everything
+    void* const memory =
+        mmap(nullptr, sizeof(ShaderCompileSchedule), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return nullptr;  // each process then compiles everything
     return {new (memory) ShaderCompileSchedule, [](ShaderCompileSchedule* turns) { munmap(turns, sizeof *turns); }};
 }
 
@@ -67,17 +68,18 @@ private:
     std::condition_variable changed_;
     std::vector<int> free_;
     bool stopped_ = false;
-    std::shared_ptr<SharedFrames> memory_;   // lives as long as one of its slots is read
+    std::shared_ptr<SharedFrames> memory_;  // lives as long as one of its slots is read
 };
 
-RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
-               int most_moments)
+RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+                       int workers, int most_moments)
     : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
     RenderOptions in_turns = options;
     in_turns.turns = turns_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(std::make_unique<RenderProcess>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
+        workers_.push_back(
+            std::make_unique<RenderProcess>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
         sockets.push_back(workers_.back()->socket());
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
@@ -85,8 +87,8 @@ RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& optio
 
 RenderPool::~RenderPool() = default;
 
-void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
-                 std::int64_t first) {
+void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on,
+                     DrawingTimes& times, std::int64_t first) {
     ReorderBuffer order(workers_.size(), first);
     std::vector<std::thread> threads;
     const auto stop = [&] {
@@ -134,8 +136,8 @@ bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
 }
 
 /// Main function of the thread that serves one worker.
-void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
-                  std::int64_t first) {
+void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
+                      DrawingTimes& times, std::int64_t first) {
     Slots& slots = *slots_[worker];
     const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);

@@ -7,9 +7,9 @@
 #pragma once
 
 #include "app/threads/bounded_queue.h"
-#include "app/workers/render_process.h"
-#include "app/timing/motion_blur.h"
 #include "app/threads/stage_timer.h"
+#include "app/timing/motion_blur.h"
+#include "app/workers/render_process.h"
 #include "render/scene/pose_filter.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
@@ -32,8 +32,8 @@ struct Frame {
     std::shared_ptr<const std::byte> video;  // in the form of VideoPixels; null if not requested
     std::span<const std::byte> png;          // the file; valid as long as `slot`
     std::shared_ptr<const void> slot;
-    std::span<const std::byte> aovs;         // the file (aov_file.h); valid as long as `aov_slot`
-    std::shared_ptr<const void> aov_slot;    // null if no AOVs are requested
+    std::span<const std::byte> aovs;       // the file (aov_file.h); valid as long as `aov_slot`
+    std::shared_ptr<const void> aov_slot;  // null if no AOVs are requested
 };
 
 struct DrawingTimes {
@@ -47,14 +47,14 @@ public:
     /// Starts the processes. Precondition: the program has no other thread. `moments`: largest number per frame. The
     /// scene must outlive it. Throws RunError.
     RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
-           int most_moments = 1);
+               int most_moments = 1);
     ~RenderPool();
 
     /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
     /// `hand_on` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
     /// look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
-    void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on, DrawingTimes& times,
-             std::int64_t first = 0);
+    void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on,
+             DrawingTimes& times, std::int64_t first = 0);
 
     /// Ends the processes at once, from any thread; run() then returns.
     void abandon();
@@ -63,22 +63,23 @@ public:
     ProcessEnd finish();
 
     std::vector<pid_t> processes() const;
-    std::int64_t drawn() const { return drawn_; }   // frames that were not repeated
+    std::int64_t drawn() const { return drawn_; }  // frames that were not repeated
 
 private:
     class Slots;
     bool follow(MotionBlurFrame& exposure, bool anew);
     bool follow_picture(MotionBlurFrame& exposure);
-    void tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times, std::int64_t first);
+    void tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
+              std::int64_t first);
 
     std::shared_ptr<ShaderCompileSchedule> turns_;
     std::vector<std::unique_ptr<RenderProcess>> workers_;
-    std::vector<std::shared_ptr<Slots>> slots_;   // of each worker
-    std::mutex pose_mutex_;                       // serializes taking the next pose
+    std::vector<std::shared_ptr<Slots>> slots_;  // of each worker
+    std::mutex pose_mutex_;                      // serializes taking the next pose
     PoseFilter drawn_poses_;
     AovChanges aov_changes_;
     FrameOutputs forms_;
-    bool moves_ = false;                          // whether bodies moved while the shutter was open for the previous frame
+    bool moves_ = false;  // whether bodies moved while the shutter was open for the previous frame
     std::int64_t drawn_ = 0;
 };
 

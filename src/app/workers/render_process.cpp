@@ -29,14 +29,14 @@
 namespace tumble {
 namespace {
 
-constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;   // bytes
+constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;  // bytes
 // A worker without a job ends within milliseconds.
 constexpr auto longest_end = std::chrono::seconds(1);
 
 struct Job {
     std::int64_t frame = 0;
     int slot = 0;
-    std::size_t moments = 1;   // 0: no picture is requested
+    std::size_t moments = 1;  // 0: no picture is requested
     bool aovs = false;
 };
 
@@ -44,14 +44,16 @@ struct Job {
 template <typename T>
 bool send_message(int socket, const T& message) {
     ssize_t n = 0;
-    while ((n = ::send(socket, &message, sizeof message, MSG_NOSIGNAL)) < 0 && errno == EINTR) {}
+    while ((n = ::send(socket, &message, sizeof message, MSG_NOSIGNAL)) < 0 && errno == EINTR) {
+    }
     return n == ssize_t(sizeof message);
 }
 
 template <typename T>
 bool receive_message(int socket, T& message) {
     ssize_t n = 0;
-    while ((n = ::recv(socket, &message, sizeof message, 0)) < 0 && errno == EINTR) {}
+    while ((n = ::recv(socket, &message, sizeof message, 0)) < 0 && errno == EINTR) {
+    }
     return n == ssize_t(sizeof message);
 }
 
@@ -68,7 +70,8 @@ WorkTime timed(const Work& work) {
 /// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, SharedFrames& memory)
+    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+               SharedFrames& memory)
         : memory_(memory) {
         if (forms.picture()) renderer_.emplace(scene, options);
         if (!forms.aovs.empty()) aovs_.emplace(scene, forms.aovs);
@@ -93,7 +96,7 @@ public:
 private:
     void make_picture(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { expose(job); });
-        const bool partly = !blurred_before_ && job.moments == 1;   // otherwise the previous picture was a different one
+        const bool partly = !blurred_before_ && job.moments == 1;  // otherwise the previous picture was a different one
         const std::vector<Rectangle> changed =
             partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
         const Image& picture = job.moments == 1 ? image_ : blurred_;
@@ -124,7 +127,7 @@ private:
     SharedFrames& memory_;
     std::optional<Renderer> renderer_;
     Snapshot snapshot_;
-    Image image_;          // the last moment that was drawn
+    Image image_;  // the last moment that was drawn
     ImageMean mean_;
     Image blurred_;
     bool blurred_before_ = false;
@@ -145,7 +148,7 @@ std::string reason(const std::exception& error) {
 
 [[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
                        SharedFrames& memory, int socket) {
-    ::setpgid(0, 0);   // Ctrl-C must reach it only through the program
+    ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
     sigset_t none;
     sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -153,7 +156,7 @@ std::string reason(const std::exception& error) {
     // Larger blocks are returned.
     ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
     ::mallopt(M_TRIM_THRESHOLD, kept_memory);
-    ::setenv("LP_NUM_THREADS", "0", 1);   // llvmpipe draws in this thread: one core per worker
+    ::setenv("LP_NUM_THREADS", "0", 1);  // llvmpipe draws in this thread: one core per worker
 
     Job job;
     bool asked = false;
@@ -161,7 +164,8 @@ std::string reason(const std::exception& error) {
         FrameMaker maker(scene, options, forms, memory);
         while ((asked = receive_message(socket, job)))
             if (!send_message(socket, maker.make(job))) break;
-        ::_exit(0);   // skips destructors of OpenGL, which would take milliseconds to free memory that ends with the process
+        ::_exit(
+            0);  // skips destructors of OpenGL, which would take milliseconds to free memory that ends with the process
     } catch (const std::exception& error) {
         const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
         memory.write_words(out_of_memory ? "out of memory" : reason(error));
@@ -170,13 +174,13 @@ std::string reason(const std::exception& error) {
         // If OpenGL could not be opened, no frame may have been requested yet.
         if (asked || receive_message(socket, job)) send_message(socket, failure);
     }
-    ::_exit(0);   // no destructors of the parent's objects, no second flush of its streams
+    ::_exit(0);  // no destructors of the parent's objects, no second flush of its streams
 }
 
 }  // namespace
 
-RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
-                       int most_moments, std::span<const int> other_sockets)
+RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+                             int slots, int most_moments, std::span<const int> other_sockets)
     : memory_(std::make_shared<SharedFrames>(scene, forms, slots, most_moments)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
@@ -185,7 +189,7 @@ RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions&
     const pid_t program = ::getpid();
     id_ = ::fork();
     if (id_ == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGKILL);   // a worker that hangs or was stopped ends with the program as well
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker that hangs or was stopped ends with the program as well
         if (::getppid() != program) ::_exit(0);
         // A copy of the program's end of a socket in this process would keep the other worker from noticing the
         // program's end.
@@ -211,14 +215,16 @@ DrawnFrame RenderProcess::draw(const MotionBlurFrame& exposure, int slot) {
     for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
     if (exposure.aovs) memory_->write_aov_poses(*exposure.aovs);
     DrawnFrame drawn;
-    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) || !receive_message(socket_, drawn))
+    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) ||
+        !receive_message(socket_, drawn))
         died(exposure.frame);
     if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
     return drawn;
 }
 
 void RenderProcess::died(std::int64_t frame) {
-    throw RunError(fmt::format("cannot draw frame {}: its process {}{}", frame, finish().describe(), memory_limit_note()));
+    throw RunError(
+        fmt::format("cannot draw frame {}: its process {}{}", frame, finish().describe(), memory_limit_note()));
 }
 
 void RenderProcess::kill() {
@@ -227,7 +233,7 @@ void RenderProcess::kill() {
 }
 
 ProcessEnd RenderProcess::finish() {
-    if (socket_ >= 0) ::close(std::exchange(socket_, -1));   // the worker takes the closed socket as the end of its jobs
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));  // the worker takes the closed socket as the end of its jobs
     if (id_ < 0) return {};
     if (!ends_within(id_, longest_end)) kill();
     const std::lock_guard lock(id_mutex_);

@@ -26,9 +26,9 @@ struct WorkTime {
 /// Report of a worker about a frame that it has drawn.
 struct DrawnFrame {
     std::int64_t frame = 0;
-    bool failed = false;           // the reason is in the shared memory
-    bool unchanged = false;        // the same picture as the previous frame of this worker
-    std::size_t png_bytes = 0, aov_bytes = 0;   // of the files in the slot
+    bool failed = false;                       // the reason is in the shared memory
+    bool unchanged = false;                    // the same picture as the previous frame of this worker
+    std::size_t png_bytes = 0, aov_bytes = 0;  // of the files in the slot
     WorkTime drawing, conversion, png, aovs;
 };
 
@@ -37,7 +37,7 @@ public:
     /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it.
     /// Precondition: the program has no other thread. Throws RunError if there are no more processes or no memory.
     RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
-               int most_moments, std::span<const int> other_sockets = {});
+                  int most_moments, std::span<const int> other_sockets = {});
     /// Ends the process in any state.
     ~RenderProcess();
     RenderProcess(const RenderProcess&) = delete;
@@ -62,7 +62,8 @@ private:
 
     std::shared_ptr<SharedFrames> memory_;
     pid_t id_ = -1;
-    std::mutex id_mutex_;   // guards kill() against the end of finish(), after which another process may have that number
+    std::mutex
+        id_mutex_;  // guards kill() against the end of finish(), after which another process may have that number
     int socket_ = -1;
 };
 

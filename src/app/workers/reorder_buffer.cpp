@@ -7,7 +7,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::int64_t most_ahead = 4096;   // bounds the repeated frames that wait for a drawn one, which are small
+constexpr std::int64_t most_ahead = 4096;  // bounds the repeated frames that wait for a drawn one, which are small
 
 }  // namespace
 

@@ -40,7 +40,7 @@ public:
 private:
     struct Waiting {
         Frame frame;
-        std::optional<std::size_t> worker;   // none: the picture is repeated
+        std::optional<std::size_t> worker;  // none: the picture is repeated
         bool unchanged = false;
     };
     Frame told_apart(Waiting waiting);

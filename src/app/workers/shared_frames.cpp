@@ -17,9 +17,9 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t page = 4096;                 // bytes: parts with different writers are on separate pages
-constexpr std::size_t numbers_of_moment = 4;       // time; x, y, z
-constexpr std::size_t numbers_of_body = 7;         // x, y, z; x, y, z, w
+constexpr std::size_t page = 4096;            // bytes: parts with different writers are on separate pages
+constexpr std::size_t numbers_of_moment = 4;  // time; x, y, z
+constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
 
@@ -31,7 +31,10 @@ SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& fo
       bodies_(scene.bodies.size()),
       most_moments_(std::size_t(most_moments)),
       poses_size_((numbers_of_moment + bodies_ * numbers_of_body) * sizeof(double)),
-      slots_at_(words_size + whole_pages((most_moments_ + (forms.aovs.empty() ? 0 : motion_ ? 2 : 1)) * poses_size_)),
+      slots_at_(words_size + whole_pages((most_moments_ + (forms.aovs.empty() ? 0
+                                                           : motion_          ? 2
+                                                                              : 1)) *
+                                         poses_size_)),
       video_at_(0),
       video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
       png_at_(whole_pages(video_size_)),
@@ -41,10 +44,11 @@ SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& fo
       slot_size_(aovs_at_ + whole_pages(aovs_size_)),
       size_(slots_at_ + slot_size_ * std::size_t(slots)) {
     // Pages that are never written take no memory, so the space for a PNG file may be far larger than the file.
-    void* const memory = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    void* const memory =
+        mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED)
-        throw RunError(fmt::format("no memory for frames ({} MiB): {}", size_ >> 20,
-                                   std::generic_category().message(errno)));
+        throw RunError(
+            fmt::format("no memory for frames ({} MiB): {}", size_ >> 20, std::generic_category().message(errno)));
     memory_ = static_cast<std::byte*>(memory);
 }
 

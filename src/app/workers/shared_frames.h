@@ -42,8 +42,10 @@ public:
     void read_aov_poses(AovPoses& poses) const;
 
     std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
-    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }   // space for the largest file
-    std::span<std::byte> aovs(int slot) const { return part(slot, aovs_at_, aovs_size_); }   // space for the largest file
+    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }  // space for the largest file
+    std::span<std::byte> aovs(int slot) const {
+        return part(slot, aovs_at_, aovs_size_);
+    }  // space for the largest file
 
     /// Stores the reason of a failure; a long one is cut.
     void write_words(const std::string& words);
@@ -61,8 +63,8 @@ private:
     static constexpr std::size_t words_size = 4096;
     std::optional<std::size_t> followed_;
     bool motion_;
-    std::size_t bodies_, most_moments_, poses_size_, slots_at_, video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_,
-        slot_size_, size_;
+    std::size_t bodies_, most_moments_, poses_size_, slots_at_, video_at_, video_size_, png_at_, png_size_, aovs_at_,
+        aovs_size_, slot_size_, size_;
     std::byte* memory_;
 };
 

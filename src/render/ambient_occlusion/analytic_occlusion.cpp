@@ -66,15 +66,17 @@ TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float r
     }
 }
 
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach) {
+float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder,
+                 float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
     const Eigen::Vector3f away = position - occluder.center;
-    const float room = occluder.bound_radius + 2.0f * far_step;   // beyond it, both samples are unoccluded
+    const float room = occluder.bound_radius + 2.0f * far_step;  // beyond it, both samples are unoccluded
     if (away.squaredNorm() > room * room) return 1.0f;
     const Eigen::Vector3f p = occluder.to_local * away, n = occluder.to_local * normal, half = occluder.half_size;
     const auto closed = [&](float step) {
         const float distance = box_distance(p.x() + n.x() * step, p.y() + n.y() * step, p.z() + n.z() * step, half.x(),
-                                            half.y(), half.z()) - occluder.radius;
+                                            half.y(), half.z()) -
+                               occluder.radius;
         return clamped(1.0f - distance / step);
     };
     return 1.0f - occlusion_strength * 0.5f * (closed(near_step) + closed(far_step));

@@ -9,26 +9,27 @@ namespace tumble {
 namespace {
 
 constexpr int most_tile = 64;
-constexpr int most_ground_tile = 256;   // six of them in a row: crates occlude a receiver of 60 m as finely as a plane
+constexpr int most_ground_tile = 256;  // six of them in a row: crates occlude a receiver of 60 m as finely as a plane
 
 // Resolutions of tiles; the first one with which all tiles fit the budget is taken.
 struct Fineness {
     double texels_per_reach;        // of a box's face
     int least_box_tile, ball_tile;  // texels across
 };
-constexpr Fineness ladder[] = {{OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 5, 16}, {1.0, 5, 12}, {0.5, 4, 8},
-                               {0.25, 3, 6}, {0.125, 2, 4}};
+constexpr Fineness ladder[] = {
+    {OcclusionAtlas::texels_per_reach, 5, 16}, {2.0, 5, 16}, {1.0, 5, 12}, {0.5, 4, 8}, {0.25, 3, 6}, {0.125, 2, 4}};
 
 int box_tile(const RenderBody& look, const RenderScene& looks, const Fineness& fineness) {
     const double edge = 2.0 * look.half_size.maxCoeff();
-    const double reach = look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;   // AO radius of its occluders
+    const double reach =
+        look.ground ? std::min(look.reach, looks.typical_reach) : look.reach;  // AO radius of its occluders
     const double texels = std::min(std::ceil(fineness.texels_per_reach * edge / reach) + 1.0, double(most_ground_tile));
     return std::clamp(int(texels), fineness.least_box_tile, look.ground ? most_ground_tile : most_tile);
 }
 
 // A body without room in the atlas stays unoccluded.
 bool lay_out(const RenderScene& looks, const Fineness& fineness, OcclusionAtlas& atlas) {
-    ShelfPacker shelves(1, OcclusionAtlas::most_body_rows);   // texel 0, 0 is unoccluded, for bodies without a place
+    ShelfPacker shelves(1, OcclusionAtlas::most_body_rows);  // texel 0, 0 is unoccluded, for bodies without a place
     bool all = true;
     atlas.places.assign(looks.bodies.size(), {});
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {

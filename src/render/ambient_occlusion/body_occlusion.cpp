@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr int coarse_ball_tile = 4;   // texels across
+constexpr int coarse_ball_tile = 4;  // texels across
 
 // Bilinear upsampling of from x from values to to x to values with the same corners.
 void stretch(const std::vector<float>& values, int from, int to, std::vector<float>& result) {
@@ -39,7 +39,7 @@ void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f&
     const Eigen::Vector3f from = occluder.center - corner;
     const float far = occluder.bound_radius + std::min(reach, occluder.reach);
     const auto range = [&](const Eigen::Vector3f& step, int& first, int& count) {
-        const float length = step.norm(), at = from.dot(step) / length;   // m
+        const float length = step.norm(), at = from.dot(step) / length;  // m
         first = int(std::floor(std::clamp((at - far) / length, 0.0f, float(size))));
         count = int(std::ceil(std::clamp((at + far) / length, -1.0f, float(size - 1)))) - first + 1;
     };
@@ -55,7 +55,8 @@ void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f&
 }
 
 std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                                     const Surroundings& around, std::uint8_t wanted, float detail, const Store& store) {
+                                     const Surroundings& around, std::uint8_t wanted, float detail,
+                                     const Store& store) {
     const int size = place.size;
     // A body on a large receiver occludes it as far as a plane, also where the receiver is thin.
     const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
@@ -68,12 +69,15 @@ std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlac
         const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
         const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
         const Eigen::Vector3f corner = (middle - u - v).cast<float>();
-        const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(), along = (2.0 * v / (size - 1)).cast<float>();
+        const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(),
+                              along = (2.0 * v / (size - 1)).cast<float>();
         face_.set(corner, across, along, outward, size, size);
         if (detail > 0.0f) {
             for (const std::size_t i : around.near) {
-                if (look.ground) darken_part(around.occluders[i], corner, across, along, outward, size, reach);
-                else face_.darken(around.occluders[i], reach);
+                if (look.ground)
+                    darken_part(around.occluders[i], corner, across, along, outward, size, reach);
+                else
+                    face_.darken(around.occluders[i], reach);
             }
             for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, own);
         }
@@ -107,8 +111,10 @@ bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& plac
         make(coarse_ball_tile);
         stretch(points_.open, coarse_ball_tile, place.size, stretched_);
     }
-    if (detail > 0.0f) make(place.size);
-    else points_.open = stretched_;
+    if (detail > 0.0f)
+        make(place.size);
+    else
+        points_.open = stretched_;
     if (detail < 1.0f)
         for (std::size_t i = 0; i < stretched_.size(); ++i)
             points_.open[i] = stretched_[i] + (points_.open[i] - stretched_[i]) * detail;
@@ -122,15 +128,18 @@ bool BodyOcclusion::make_mesh(const RenderBody& look, const OcclusionPlace& plac
     const auto make = [&](const auto& probes) {
         points_.clear();
         for (const VertexSample& probe : probes)
-            points_.add((body.origin + body.axes * probe.position).cast<float>(), (body.axes * probe.normal).cast<float>());
+            points_.add((body.origin + body.axes * probe.position).cast<float>(),
+                        (body.axes * probe.normal).cast<float>());
         darken_points(around, look.reach);
     };
     if (detail < 1.0f) {
         make(mesh.coarse_probes);
         coarse_ = points_.open;
     }
-    if (detail > 0.0f) make(mesh.probes);
-    else points_.open.assign(mesh.probes.size(), 1.0f);
+    if (detail > 0.0f)
+        make(mesh.probes);
+    else
+        points_.open.assign(mesh.probes.size(), 1.0f);
     if (detail < 1.0f)
         for (std::size_t i = 0; i < points_.open.size(); ++i) {
             const float open = coarse_[mesh.coarse_of_probe[i]];

@@ -11,14 +11,14 @@ namespace tumble {
 
 /// Pose of a body, relative to the same point as occluders.
 struct BodyPlace {
-    Vec3 origin, center;   // m; origin of the body's frame, and center of its bounding ball
-    Mat3 axes;             // columns
+    Vec3 origin, center;  // m; origin of the body's frame, and center of its bounding ball
+    Mat3 axes;            // columns
 };
 
 /// Possible occluders of a body.
 struct Surroundings {
     const std::vector<Occluder>& occluders;
-    const std::vector<std::size_t>& near;    // indices of the nearby ones
+    const std::vector<std::size_t>& near;  // indices of the nearby ones
     const std::vector<PlaneInView>& planes;
 };
 
@@ -36,10 +36,10 @@ public:
                           const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);
 
     /// True if any texel changed.
-    bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
-                   float detail, const Store& store);
-    bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body, const Surroundings& around,
-                   float detail, const Store& store);
+    bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+                   const Surroundings& around, float detail, const Store& store);
+    bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+                   const Surroundings& around, float detail, const Store& store);
 
 private:
     void darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,

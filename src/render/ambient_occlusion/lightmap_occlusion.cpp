@@ -29,8 +29,9 @@ bool LightmapOcclusion::reached_by_plane(const Ball& ball, const std::vector<Pla
 }
 
 // Texels without an occluder nearby, in this update and the last, keep their initial value of 1.
-void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const OccluderFinder& near, const OccluderFinder* moved,
-                           const std::vector<PlaneInView>& planes, const Store& store) {
+void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const OccluderFinder& near,
+                               const OccluderFinder* moved, const std::vector<PlaneInView>& planes,
+                               const Store& store) {
     const OcclusionLightmap& surface = *body_.surface;
     for (const OcclusionLightmap::Group& group : surface.groups) {
         const Ball whole = ball_around(group.bounds);
@@ -49,7 +50,8 @@ void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const Occ
             touched_[i] = !found_.empty() || by_planes ? 1 : 0;
             points_.clear();
             for (int y = block.y; y < block.y + block.height; ++y)
-                points_.add(all_, std::size_t(y) * std::size_t(surface.width) + std::size_t(block.x), std::size_t(block.width));
+                points_.add(all_, std::size_t(y) * std::size_t(surface.width) + std::size_t(block.x),
+                            std::size_t(block.width));
             for (const std::size_t o : found_) darken(points_, occluders[o], std::numeric_limits<float>::infinity());
             for (const PlaneInView& plane : planes) darken(points_, plane.normal, plane.height, float(body_.reach));
             store(block, points_.open.data());

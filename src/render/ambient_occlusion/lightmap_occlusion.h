@@ -2,10 +2,10 @@
 // previous update.
 #pragma once
 
-#include "render/lightmap/occlusion_lightmap.h"
+#include "render/ambient_occlusion/analytic_occlusion.h"
 #include "render/ambient_occlusion/occluders.h"
 #include "render/ambient_occlusion/plane_occlusion.h"
-#include "render/ambient_occlusion/analytic_occlusion.h"
+#include "render/lightmap/occlusion_lightmap.h"
 
 #include <functional>
 #include <vector>
@@ -16,7 +16,7 @@ namespace tumble {
 struct LightmapBody {
     std::size_t body = 0;
     const OcclusionLightmap* surface = nullptr;
-    Vec3 origin;   // m
+    Vec3 origin;  // m
     Mat3 axes;
     double reach = 0.0;  // AO radius of this body, m
 };
@@ -43,8 +43,8 @@ private:
     bool reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const;
 
     LightmapBody body_{};
-    SurfacePoints all_, points_;   // of the whole surface; of a block
-    std::vector<char> touched_;    // blocks that have or had an occluder nearby
+    SurfacePoints all_, points_;  // of the whole surface; of a block
+    std::vector<char> touched_;   // blocks that have or had an occluder nearby
     std::vector<std::size_t> found_;
 };
 

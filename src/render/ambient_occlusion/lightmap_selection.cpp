@@ -11,7 +11,7 @@ namespace {
 
 // Vertices (and the few texels of a ball) are too far apart to sample the AO of moving bodies on a body that is this
 // many times as large as their AO radius.
-constexpr double large_of_reach = 4.0;   // ratio of the body's radius to the AO radius
+constexpr double large_of_reach = 4.0;  // ratio of the body's radius to the AO radius
 
 // for all lightmaps together; 28 bytes each, and five in the atlas. A field of 60 x 60 m under crates of 1 m has
 // 230,000
@@ -20,13 +20,14 @@ constexpr std::size_t most_texels = 1'200'000;
 // Coarser texels would resolve no more than vertices do.
 constexpr double fewest_per_reach = 1.0;
 
-constexpr int most_ball_texels = 512;   // per side, so that one region cannot take the whole atlas
+constexpr int most_ball_texels = 512;  // per side, so that one region cannot take the whole atlas
 
 // Median AO radius of the bodies that may move; 0 without such bodies.
 double movers_reach(const SceneDescription& scene, const RenderScene& looks) {
     std::vector<double> reaches;
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-        if (scene.bodies[i].type != BodyType::fixed && looks.bodies[i].reach > 0.0) reaches.push_back(looks.bodies[i].reach);
+        if (scene.bodies[i].type != BodyType::fixed && looks.bodies[i].reach > 0.0)
+            reaches.push_back(looks.bodies[i].reach);
     if (reaches.empty()) return 0.0;
     const auto middle = reaches.begin() + std::ptrdiff_t(reaches.size() / 2);
     std::nth_element(reaches.begin(), middle, reaches.end());
@@ -72,7 +73,8 @@ void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks) {
         if (scene.bodies[i].type != BodyType::fixed || look.bound_radius < large_of_reach * reach) continue;
         if (look.kind == DrawKind::mesh) {
             const MeshAsset* asset = looks.meshes[look.mesh].asset;
-            auto known = std::find_if(charted.begin(), charted.end(), [&](const Charted& c) { return c.asset == asset; });
+            auto known =
+                std::find_if(charted.begin(), charted.end(), [&](const Charted& c) { return c.asset == asset; });
             if (known == charted.end()) {
                 if (!chart(looks, look, cell, reach / fewest_per_reach, charted)) {
                     // its values would be many times farther apart than the AO radius of the moving bodies

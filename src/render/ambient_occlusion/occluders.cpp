@@ -31,8 +31,8 @@ void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& 
     const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
     const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
         occluders.push_back({Vec3(state.origin + state.orientation * center - reference).cast<float>(), to_local,
-                             half_size.cast<float>(), float(radius), float(look.reach), float(half_size.norm() + radius),
-                             body});
+                             half_size.cast<float>(), float(radius), float(look.reach),
+                             float(half_size.norm() + radius), body});
     };
     if (look.kind == DrawKind::box) add(Vec3::Zero(), look.half_size, 0.0);
     if (look.kind == DrawKind::ball) add(Vec3::Zero(), Vec3::Zero(), look.half_size.x());
@@ -86,7 +86,7 @@ void OccluderFinder::visit_near(const Eigen::Vector3f& center, float radius, Vis
         const Eigen::Array3i low = cell_of((at - reach).max(level.low), level.cell);
         const Eigen::Array3i high = cell_of((at + reach).min(level.high), level.cell);
         const Eigen::Array3d count = (high - low).cast<double>() + 1.0;
-        if (count.prod() > double(level.entries.size())) {   // looking at all entries costs less
+        if (count.prod() > double(level.entries.size())) {  // looking at all entries costs less
             for (const Entry& entry : level.entries)
                 if (!look_at(entry)) return;
             continue;
@@ -108,7 +108,7 @@ void OccluderFinder::find(const Eigen::Vector3f& center, float radius, std::vect
         return true;
     });
     std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());   // two cells may share a bucket
+    found.erase(std::unique(found.begin(), found.end()), found.end());  // two cells may share a bucket
 }
 
 bool OccluderFinder::any(const Eigen::Vector3f& center, float radius) const {

@@ -41,18 +41,18 @@ public:
 
 private:
     struct Entry {
-        float x, y, z, influence;   // m
+        float x, y, z, influence;  // m
         std::uint32_t occluder;
     };
     struct Level {
-        float cell = 1.0f, largest = 0.0f;   // m; cell size, and largest influence
-        Eigen::Array3f low, high;            // m; bounds of the centers
-        std::uint32_t mask = 0;              // number of buckets of the table, a power of two, less 1
-        std::vector<std::uint32_t> starts;   // first entry of each bucket, and the end
-        std::vector<Entry> entries;          // bucket by bucket
+        float cell = 1.0f, largest = 0.0f;  // m; cell size, and largest influence
+        Eigen::Array3f low, high;           // m; bounds of the centers
+        std::uint32_t mask = 0;             // number of buckets of the table, a power of two, less 1
+        std::vector<std::uint32_t> starts;  // first entry of each bucket, and the end
+        std::vector<Entry> entries;         // bucket by bucket
     };
     template <class Visit>
-    void visit_near(const Eigen::Vector3f& center, float radius, Visit visit) const;   // until it returns false
+    void visit_near(const Eigen::Vector3f& center, float radius, Visit visit) const;  // until it returns false
 
     std::vector<Level> levels_;
 };

@@ -1,8 +1,8 @@
 #include "render/ambient_occlusion/occlusion_atlas.h"
 
+#include "render/ambient_occlusion/atlas_layout.h"
 #include "render/ambient_occlusion/body_occlusion.h"
 #include "render/ambient_occlusion/lightmap_occlusion.h"
-#include "render/ambient_occlusion/atlas_layout.h"
 #include "render/ambient_occlusion/plane_occlusion.h"
 #include "render/scene/plane_patch.h"
 
@@ -42,7 +42,7 @@ struct AmbientOcclusion::State {
     };
     // The state that a body's texels were made from, apart from the bodies around it.
     struct Made {
-        std::uint8_t faces = 0;   // up to date; 1 for shapes without faces
+        std::uint8_t faces = 0;  // up to date; 1 for shapes without faces
         float detail = 0.0f;
     };
 
@@ -61,27 +61,27 @@ struct AmbientOcclusion::State {
     void update_fine(std::size_t body, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
     void store_ground(std::size_t body, int x, int y, int size, const float* open);
-    Vec3 center_of(std::size_t body) const {   // of the bounding ball
+    Vec3 center_of(std::size_t body) const {  // of the bounding ball
         return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
     }
 
     const RenderScene& looks;
     const Vec3 reference;
     OcclusionAtlas atlas;
-    int body_rows = 1;                       // of the atlas; plane tiles are below them
+    int body_rows = 1;  // of the atlas; plane tiles are below them
     OcclusionChanges changes;
     std::vector<Pose> poses;                 // of the previous update
     std::vector<Occluder> occluders, moved;  // of all bodies; of those that moved, at both poses
     std::vector<std::uint32_t> first;        // first occluder of each body, and the end
     OccluderFinder finder{{}};
-    bool anew = true;                        // everything is to be recomputed
+    bool anew = true;  // everything is to be recomputed
     bool moved_much = false;
     std::vector<Made> made;
     std::vector<PlaneInView> planes, near_planes;
     PlaneOcclusion plane_darkening;
     BodyOcclusion body_darkening{looks};
-    std::vector<std::size_t> found;          // possible occluders of the current body
-    std::vector<std::optional<LightmapOcclusion>> fine;   // lightmaps, made when first visible
+    std::vector<std::size_t> found;                      // possible occluders of the current body
+    std::vector<std::optional<LightmapOcclusion>> fine;  // lightmaps, made when first visible
 };
 
 // Takes over the poses: rebuilds the occluders and finds those that moved.
@@ -144,9 +144,10 @@ void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const
         return;
     }
     if (moved.empty()) return;
-    for (std::size_t i = 0; i < made.size(); ++i)   // hidden bodies are updated when they become visible
+    for (std::size_t i = 0; i < made.size(); ++i)  // hidden bodies are updated when they become visible
         if (made[i].faces != 0 &&
-            (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 && movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
+            (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 &&
+                                       movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
             made[i].faces = 0;
 }
 
@@ -198,10 +199,11 @@ void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int s
     const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
     for (int j = 0; j < size; j += ground_part)
         for (int i = 0; i < size; i += ground_part) {
-            int i0 = size, i1 = -1, j0 = size, j1 = -1;   // bounds of the texels that change
+            int i0 = size, i1 = -1, j0 = size, j1 = -1;  // bounds of the texels that change
             for (int b = j; b < std::min(j + ground_part, size); ++b)
                 for (int a = i; a < std::min(i + ground_part, size); ++a)
-                    if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] != level(open[b * size + a])) {
+                    if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] !=
+                        level(open[b * size + a])) {
                         i0 = std::min(i0, a);
                         i1 = std::max(i1, a);
                         j0 = std::min(j0, b);
@@ -210,7 +212,8 @@ void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int s
             if (i0 > i1) continue;
             store(x + i0, y + j0, i1 - i0 + 1, j1 - j0 + 1, size, open + j0 * size + i0);
             // interpolation: affects the area within one texel of a changed one, with a margin of 0.1
-            changes.parts.push_back({body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
+            changes.parts.push_back(
+                {body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
         }
 }
 
@@ -233,7 +236,8 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // a body does not occlude itself
     near_planes.clear();
     for (const PlaneInView& plane : planes)
-        if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach) near_planes.push_back(plane);
+        if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach)
+            near_planes.push_back(plane);
     const BodyPlace place{poses[body].origin - reference, middle, poses[body].orientation.toRotationMatrix()};
     const Surroundings around{occluders, found, near_planes};
     const auto keep = [&](int x, int y, int width, int height, const float* open) {
@@ -241,14 +245,15 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     };
     const auto keep_ground = [&](int x, int y, int width, int, const float* open) {
         store_ground(body, x, y, width, open);
-        return false;   // already in the changes
+        return false;  // already in the changes
     };
     std::uint8_t faces = 0;
     bool changed = false;
     switch (look.kind) {
         case DrawKind::box:
-            faces = body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
-                                            look.ground ? BodyOcclusion::Store(keep_ground) : BodyOcclusion::Store(keep));
+            faces =
+                body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
+                                        look.ground ? BodyOcclusion::Store(keep_ground) : BodyOcclusion::Store(keep));
             changed = faces != 0;
             break;
         case DrawKind::ball:
@@ -268,17 +273,19 @@ void AmbientOcclusion::State::update_fine(std::size_t body, const OccluderFinder
     std::optional<LightmapOcclusion>& darkening = fine[body];
     const bool all = known.faces == 0;
     if (!darkening || all) {
-        const LightmapBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)], poses[body].origin - reference,
-                             poses[body].orientation.toRotationMatrix(), look.reach};
+        const LightmapBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)],
+                                 poses[body].origin - reference, poses[body].orientation.toRotationMatrix(),
+                                 look.reach};
         if (!darkening) darkening.emplace();
         darkening->place(place);
     }
     known.faces = 1;
     const OcclusionPlace& at = atlas.places[body];
-    darkening->update(occluders, finder, all ? nullptr : &movers, planes, [&](const OcclusionLightmap::Block& block, const float* open) {
-        if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
-            changes.patches.push_back({body, block.bounds});
-    });
+    darkening->update(occluders, finder, all ? nullptr : &movers, planes,
+                      [&](const OcclusionLightmap::Block& block, const float* open) {
+                          if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
+                              changes.patches.push_back({body, block.bounds});
+                      });
 }
 
 AmbientOcclusion::AmbientOcclusion(const RenderScene& looks, const Vec3& reference)
@@ -288,7 +295,7 @@ AmbientOcclusion::~AmbientOcclusion() = default;
 const OcclusionAtlas& AmbientOcclusion::atlas() const { return state_->atlas; }
 
 const OcclusionChanges& AmbientOcclusion::update(const Snapshot& snapshot, const Camera& view,
-                                               const Visibility& visibility) {
+                                                 const Visibility& visibility) {
     State& s = *state_;
     s.changes = {};
     s.changes.first_row = OcclusionAtlas::most_rows;
@@ -299,8 +306,10 @@ const OcclusionChanges& AmbientOcclusion::update(const Snapshot& snapshot, const
     s.update_windows(snapshot);
     for (std::size_t i = 0; i < s.made.size(); ++i) {
         if (!visibility.bodies[i] || s.atlas.places[i].size == 0) continue;
-        if (s.looks.bodies[i].fine_surface >= 0) s.update_fine(i, movers);
-        else s.update_body(i, visibility.faces[i], view);
+        if (s.looks.bodies[i].fine_surface >= 0)
+            s.update_fine(i, movers);
+        else
+            s.update_body(i, visibility.faces[i], view);
     }
     s.anew = false;
     return s.changes;

@@ -8,10 +8,10 @@
 // number of pixels of the frame, not by the number of bodies.
 #pragma once
 
-#include "render/scene/render_scene.h"
-#include "render/camera/camera.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
+#include "render/camera/camera.h"
 #include "render/culling/occlusion_culling.h"
+#include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
@@ -38,10 +38,10 @@ struct PlaneOcclusionTile {
 
 struct OcclusionAtlas {
     static constexpr int width = 2048;
-    static constexpr int most_rows = 8192;             // OpenGL 4.1 guarantees 16384; 16 MiB here and as much on the GPU
-    static constexpr int most_body_rows = 4096;        // the plane tiles need room as well
-    static constexpr int largest_window = 1024;        // texels; bodies beyond it do not occlude the plane
-    static constexpr double texels_per_reach = 4.0;    // sampling density of a body's occlusion
+    static constexpr int most_rows = 8192;           // OpenGL 4.1 guarantees 16384; 16 MiB here and as much on the GPU
+    static constexpr int most_body_rows = 4096;      // the plane tiles need room as well
+    static constexpr int largest_window = 1024;      // texels; bodies beyond it do not occlude the plane
+    static constexpr double texels_per_reach = 4.0;  // sampling density of a body's occlusion
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height; 255: unoccluded
     std::vector<OcclusionPlace> places;  // of each body
@@ -52,7 +52,7 @@ struct OcclusionAtlas {
 struct OcclusionChanges {
     struct Body {
         std::size_t body;
-        std::uint8_t faces;   // of a box, as in Visibility; 0: any part of another body
+        std::uint8_t faces;  // of a box, as in Visibility; 0: any part of another body
     };
     /// A part of a large receiver's face: low and high on the face's axes (see face_part()), from -1 to 1.
     struct Part {
@@ -65,11 +65,11 @@ struct OcclusionChanges {
         std::size_t body;
         Bounds bounds;
     };
-    std::vector<Body> bodies;     // without large receivers made of boxes and bodies with lightmaps
-    std::vector<Part> parts;      // of large receivers
-    std::vector<Patch> patches;   // of bodies with lightmaps
-    bool windows_moved = false;   // a plane tile moved, appeared or disappeared
-    int first_row = 0, end_row = 0;   // range of changed texel rows
+    std::vector<Body> bodies;        // without large receivers made of boxes and bodies with lightmaps
+    std::vector<Part> parts;         // of large receivers
+    std::vector<Patch> patches;      // of bodies with lightmaps
+    bool windows_moved = false;      // a plane tile moved, appeared or disappeared
+    int first_row = 0, end_row = 0;  // range of changed texel rows
 };
 
 class AmbientOcclusion {

@@ -39,7 +39,7 @@ void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int en
         columns_ = columns;
     }
     send(atlas, first_row, std::min(end_row, first_of_windows), OcclusionAtlas::width);
-    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);   // all columns that a plane tile may read
+    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);  // all columns that a plane tile may read
 }
 
 void OcclusionTexture::send(const OcclusionAtlas& atlas, int first_row, int end_row, int columns) {

@@ -1,8 +1,8 @@
 // The AO atlas as an OpenGL texture.
 #pragma once
 
-#include "render/gl/gl_object.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/gl/gl_object.h"
 
 #include <vector>
 

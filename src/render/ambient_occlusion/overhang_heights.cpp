@@ -11,7 +11,8 @@ constexpr float no_overhang = std::numeric_limits<float>::infinity();
 
 // The texels from low to high within 0 .. count - 1.
 std::pair<int, int> texels(double low, double high, int count) {
-    return {int(std::clamp(std::ceil(low), 0.0, double(count))), int(std::clamp(std::floor(high), -1.0, double(count - 1)))};
+    return {int(std::clamp(std::ceil(low), 0.0, double(count))),
+            int(std::clamp(std::floor(high), -1.0, double(count - 1)))};
 }
 
 }  // namespace
@@ -32,10 +33,12 @@ void OverhangHeights::lower(int i, int j, double height) {
 void OverhangHeights::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 p = on_frame(a), pq = on_frame(b) - p, pr = on_frame(c) - p;
     const double area = pq.x() * pr.y() - pq.y() * pr.x();
-    if (area == 0.0) return;   // a vertical triangle
-    const auto [i0, i1] = texels(p.x() + std::min({0.0, pq.x(), pr.x()}), p.x() + std::max({0.0, pq.x(), pr.x()}), frame_.width);
-    const auto [j0, j1] = texels(p.y() + std::min({0.0, pq.y(), pr.y()}), p.y() + std::max({0.0, pq.y(), pr.y()}), frame_.height);
-    constexpr double edge = 1e-9;   // relative to the triangle: a point on an edge belongs to both triangles
+    if (area == 0.0) return;  // a vertical triangle
+    const auto [i0, i1] =
+        texels(p.x() + std::min({0.0, pq.x(), pr.x()}), p.x() + std::max({0.0, pq.x(), pr.x()}), frame_.width);
+    const auto [j0, j1] =
+        texels(p.y() + std::min({0.0, pq.y(), pr.y()}), p.y() + std::max({0.0, pq.y(), pr.y()}), frame_.height);
+    constexpr double edge = 1e-9;  // relative to the triangle: a point on an edge belongs to both triangles
     for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
             const double x = i - p.x(), y = j - p.y();
@@ -71,7 +74,8 @@ void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& looks, 
         if (look.kind == DrawKind::mesh) {
             const TriangleMesh& mesh = looks.meshes[look.mesh].asset->surface;
             for (const auto& t : mesh.triangles)
-                add_triangle(in_world(mesh.vertices[t[0]]), in_world(mesh.vertices[t[1]]), in_world(mesh.vertices[t[2]]));
+                add_triangle(in_world(mesh.vertices[t[0]]), in_world(mesh.vertices[t[1]]),
+                             in_world(mesh.vertices[t[2]]));
         }
         if (look.kind != DrawKind::box) continue;
         for (int axis = 0; axis < 3; ++axis)

@@ -4,8 +4,8 @@
 // below the body.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <vector>
@@ -16,8 +16,8 @@ namespace tumble {
 struct PlaneFrame {
     // m; unit vectors, in the plane and out of it
     Vec3 corner = Vec3::Zero(), u = Vec3::UnitX(), v = Vec3::UnitY(), normal = Vec3::UnitZ();
-    double cell = 1.0;           // m
-    int width = 0, height = 0;   // texels
+    double cell = 1.0;          // m
+    int width = 0, height = 0;  // texels
     friend bool operator==(const PlaneFrame&, const PlaneFrame&) = default;
 };
 
@@ -34,10 +34,10 @@ private:
     void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c);
     void add_ball(const Vec3& center, double radius);
     void lower(int i, int j, double height);
-    Vec3 on_frame(const Vec3& point) const;   // texels, texels, m above the plane
+    Vec3 on_frame(const Vec3& point) const;  // texels, texels, m above the plane
 
     PlaneFrame frame_{};
-    std::vector<float> height_;   // m; empty without fixed surfaces above the plane
+    std::vector<float> height_;  // m; empty without fixed surfaces above the plane
 };
 
 }  // namespace tumble

@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-constexpr int window_step = 16;       // texels; a tile that moves redraws the whole plane
-constexpr int update_block = 16;             // texels; about the size that one moved body affects
+constexpr int window_step = 16;   // texels; a tile that moves redraws the whole plane
+constexpr int update_block = 16;  // texels; about the size that one moved body affects
 
 }  // namespace
 
@@ -61,18 +61,18 @@ bool PlaneOcclusion::place(PlaneOcclusionTile& window, ShelfPacker& shelves) con
         }
         // Whole steps, so that it seldom moves, with an unoccluded texel on either side.
         low = window_step * std::floor((least / window.cell - 1.0) / window_step);
-        count = std::min(largest,
-                         window_step * int(std::ceil((std::ceil(most / window.cell) - low + 2.0) / window_step)));
+        count =
+            std::min(largest, window_step * int(std::ceil((std::ceil(most / window.cell) - low + 2.0) / window_step)));
     };
     range([](const Foot& foot) { return foot.a; }, window.low_a, window.width);
     range([](const Foot& foot) { return foot.b; }, window.low_b, window.height);
     return shelves.take(window.width, window.height, window.x, window.y);
 }
 
-bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
-                            const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved,
-                            bool everything, const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& window,
-                            const Store& store) {
+bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot,
+                            const Vec3& reference, const std::vector<Occluder>& occluders,
+                            const std::vector<Occluder>& moved, bool everything, const PlaneOcclusionTile* known,
+                            ShelfPacker& shelves, PlaneOcclusionTile& window, const Store& store) {
     const RenderBody& look = looks.bodies[plane.body];
     const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(look.plane.normal);
@@ -93,7 +93,8 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     const double cell = window.cell = looks.window_cell;
     if (!place(window, shelves)) return false;
 
-    const int columns = (window.width + update_block - 1) / update_block, rows = (window.height + update_block - 1) / update_block;
+    const int columns = (window.width + update_block - 1) / update_block,
+              rows = (window.height + update_block - 1) / update_block;
     const bool all = everything || known == nullptr || *known != window;
     dirty_.assign(std::size_t(columns) * std::size_t(rows), all ? 1 : 0);
     const auto for_blocks = [&](const Texels& t, const auto& see) {
@@ -111,8 +112,8 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
     open_.assign(std::size_t(window.width) * std::size_t(window.height), 1.0f);
     const Vec3 on_plane = origin + look.plane.offset * plane.normal.cast<double>();
     OverhangHeights& roof = roofs_[plane.body];
-    roof.update({reference + on_plane + u * (window.low_a * cell) + v * (window.low_b * cell), u, v, plane.normal.cast<double>(), cell,
-                 window.width, window.height},
+    roof.update({reference + on_plane + u * (window.low_a * cell) + v * (window.low_b * cell), u, v,
+                 plane.normal.cast<double>(), cell, window.width, window.height},
                 looks, snapshot);
     for (const Foot& foot : feet_) {
         const Texels t = touched(foot, window);
@@ -121,9 +122,10 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
         if (!all) for_blocks(t, [&](const char& dirty) { needed = needed || dirty != 0; });
         if (!needed) continue;
         const Occluder& o = *foot.occluder;
-        const float unroofed = looks.bodies[o.body].fixed ? 1.0f
-                                                          : roof.open_share(foot.a / cell - window.low_a, foot.b / cell - window.low_b,
-                                                                            double(o.half_size.minCoeff()) + double(o.radius), foot.height);
+        const float unroofed = looks.bodies[o.body].fixed
+                                   ? 1.0f
+                                   : roof.open_share(foot.a / cell - window.low_a, foot.b / cell - window.low_b,
+                                                     double(o.half_size.minCoeff()) + double(o.radius), foot.height);
         if (unroofed <= 0.0f) continue;
         const Vec3 corner = on_plane + u * ((window.low_a + t.i0) * cell) + v * ((window.low_b + t.j0) * cell);
         around_foot_.set(corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
@@ -132,12 +134,14 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& looks, 
         const float* share = around_foot_.open().data();
         for (int j = t.j0; j <= t.j1; ++j)
             for (int i = t.i0; i <= t.i1; ++i, ++share)
-                open_[std::size_t(j * window.width + i)] *= unroofed < 1.0f ? 1.0f - unroofed * (1.0f - *share) : *share;
+                open_[std::size_t(j * window.width + i)] *=
+                    unroofed < 1.0f ? 1.0f - unroofed * (1.0f - *share) : *share;
     }
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
             if (dirty_[std::size_t(row * columns + column)] != 0)
-                store(window.x + column * update_block, window.y + row * update_block, std::min(update_block, window.width - column * update_block),
+                store(window.x + column * update_block, window.y + row * update_block,
+                      std::min(update_block, window.width - column * update_block),
                       std::min(update_block, window.height - row * update_block), window.width,
                       &open_[std::size_t(row * update_block * window.width + column * update_block)]);
     return true;

@@ -3,10 +3,10 @@
 // texels near an occluder that moved, at both poses, are recomputed.
 #pragma once
 
-#include "render/ambient_occlusion/shelf_packer.h"
 #include "render/ambient_occlusion/occluders.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/ambient_occlusion/overhang_heights.h"
+#include "render/ambient_occlusion/shelf_packer.h"
 #include "render/ambient_occlusion/texel_grid.h"
 
 #include <functional>
@@ -36,20 +36,20 @@ public:
 private:
     struct Foot {
         const Occluder* occluder;
-        double a, b, radius;   // m, on the plane's axes
-        double height;         // m, above the plane
+        double a, b, radius;  // m, on the plane's axes
+        double height;        // m, above the plane
     };
     struct Texels {
-        int i0, i1, j0, j1;    // texels of the tile, both ends included
+        int i0, i1, j0, j1;  // texels of the tile, both ends included
         bool empty() const { return i0 > i1 || j0 > j1; }
     };
     static Texels touched(const Foot& foot, const PlaneOcclusionTile& window);
     bool place(PlaneOcclusionTile& window, ShelfPacker& shelves) const;
 
-    std::map<std::size_t, OverhangHeights> roofs_;   // by plane
+    std::map<std::size_t, OverhangHeights> roofs_;  // by plane
     std::vector<Foot> feet_;
     std::vector<float> open_;
-    std::vector<char> dirty_;   // blocks
+    std::vector<char> dirty_;  // blocks
     TexelGrid around_foot_;
 };
 

@@ -1,21 +1,21 @@
 #include "render/ambient_occlusion/texel_grid.h"
 
 #include "core/cpu_dispatch.h"
-#include "render/ambient_occlusion/box_distance.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
+#include "render/ambient_occlusion/box_distance.h"
 
 namespace tumble {
 namespace {
 
-constexpr std::size_t group = 8;   // points that are computed together; the last group is filled up
+constexpr std::size_t group = 8;  // points that are computed together; the last group is filled up
 
 inline float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 // The grid in the occluder's frame: both samples of the first point, and the steps.
 struct Seen {
-    float near[3], far[3], across[3], along[3];   // m
-    float half[3], radius;                        // m
-    float per_near, per_far;                      // 1/m
+    float near[3], far[3], across[3], along[3];  // m
+    float half[3], radius;                       // m
+    float per_near, per_far;                     // 1/m
 };
 
 // For points in full groups.
@@ -51,7 +51,7 @@ void put(const Eigen::Vector3f& from, float (&to)[3]) { std::copy_n(from.data(),
 }  // namespace
 
 void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
-                         const Eigen::Vector3f& normal, int columns, int rows) {
+                    const Eigen::Vector3f& normal, int columns, int rows) {
     corner_ = corner;
     across_ = across;
     along_ = along;
@@ -72,8 +72,9 @@ void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across
 
 void TexelGrid::darken(const Occluder& occluder, float reach) {
     const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
-    constexpr float spare = 1.0001f;   // for rounding: a skipped occluder would have multiplied by 1
-    const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center), outward = occluder.to_local * normal_;
+    constexpr float spare = 1.0001f;  // for rounding: a skipped occluder would have multiplied by 1
+    const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center),
+                          outward = occluder.to_local * normal_;
     // A body behind the face is farther from the samples than the face is.
     const float top = outward.cwiseAbs().dot(occluder.half_size) + occluder.radius - outward.dot(first);
     if (top < (1.0f - spare) * near_step) return;
@@ -99,7 +100,8 @@ void TexelGrid::darken(const Eigen::Vector3f& plane_normal, float plane_height, 
     const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
     for (std::size_t k = 0; k < open_.size(); ++k) {
         const float higher = i_[k] * across + j_[k] * along;
-        open_[k] *= 1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / reach));
+        open_[k] *=
+            1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / reach));
     }
 }
 

@@ -29,7 +29,7 @@ public:
 private:
     Eigen::Vector3f corner_, across_, along_, normal_;
     int columns_ = 0, rows_ = 0;
-    std::vector<float> i_, j_;   // of each point
+    std::vector<float> i_, j_;  // of each point
     std::vector<float> open_;
 };
 

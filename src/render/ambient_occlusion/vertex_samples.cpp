@@ -39,8 +39,8 @@ bool share(const RenderMesh& look, const std::vector<VertexSample>& points, doub
 }
 
 // Shares samples among vertices, with the finest grid that `most` samples allow.
-void share(const RenderMesh& look, const std::vector<VertexSample>& points, std::size_t most, std::vector<VertexSample>& shared,
-           std::vector<std::uint32_t>& of_point) {
+void share(const RenderMesh& look, const std::vector<VertexSample>& points, std::size_t most,
+           std::vector<VertexSample>& shared, std::vector<std::uint32_t>& of_point) {
     if (points.size() <= most) {
         shared = points;
         of_point.resize(points.size());

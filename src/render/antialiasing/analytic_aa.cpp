@@ -29,7 +29,7 @@ double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 
 
 // A surface that shows this far beyond its own edge, or another one this far within it, hides that edge (the near side
 // of a ring hides the far rim). Above the deviation of a ball's mesh (0.15) and of its outline polygon (0.03).
-constexpr double hidden = 0.2;   // pixels
+constexpr double hidden = 0.2;  // pixels
 
 // The greatest integer not above x; for x >= -2 (avoids a call, because baseline x86-64 lacks the instruction).
 int below(double x) { return int(x + 2.0) - 2; }
@@ -48,7 +48,7 @@ public:
         face_ = e.face;
         double m0 = across_ ? e.y0 : e.x0, n0 = across_ ? e.x0 : e.y0;
         double m1 = across_ ? e.y1 : e.x1, n1 = across_ ? e.x1 : e.y1;
-        side_ = across_ ? -1 : 1;   // direction of n towards the inner surface
+        side_ = across_ ? -1 : 1;  // direction of n towards the inner surface
         if (m1 < m0) {
             std::swap(m0, m1);
             std::swap(n0, n1);
@@ -60,7 +60,8 @@ public:
         count_n_ = across_ ? drawn_.width : drawn_.height;
         step_m_ = across_ ? row : 4;
         step_n_ = across_ ? 4 : row;
-        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope), inverse = inverse_width(steepness);
+        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope),
+                     inverse = inverse_width(steepness);
         if (!(std::max(m0, 0.0) < count_m_)) return;
         const int first = below(std::max(m0, 0.0)), last = below(std::min(m1, count_m_ - 0.5));
         for (int m = first; m <= last; ++m) {
@@ -78,20 +79,23 @@ public:
 private:
     // Crossing of an edge with a row of pixels across it.
     struct Crossing {
-        double line, half;      // its height there, and half of its rise over the width
-        double inverse;         // inverse_width() of half
-        double length;          // part of the pixel's width that it crosses
-        double middle;          // height of its extended line at the middle of that width
+        double line, half;  // its height there, and half of its rise over the width
+        double inverse;     // inverse_width() of half
+        double length;      // part of the pixel's width that it crosses
+        double middle;      // height of its extended line at the middle of that width
     };
 
     // A share of the pixel's color comes from the neighbor across the edge, or from the next one if the edge is
     // oblique. At a hidden edge the pixels have other surfaces.
     void pixel(int m, int n, const Crossing& here) {
-        const auto inside = [this](std::uint8_t id) { return whole_box ? of_same_box(id, inner_, face_) : id == inner_; };
+        const auto inside = [this](std::uint8_t id) {
+            return whole_box ? of_same_box(id, inner_, face_) : id == inner_;
+        };
         const std::ptrdiff_t at = m * step_m_ + n * step_n_;
         const std::uint8_t* const drawn = drawn_.pixels.data() + at;
         bool is_inner = inside(drawn[3]);
-        if (is_inner && inner_ == outer_) is_inner = (n + 0.5 - here.line) * side_ > 0.0;   // the ids do not tell them apart
+        if (is_inner && inner_ == outer_)
+            is_inner = (n + 0.5 - here.line) * side_ > 0.0;  // the ids do not tell them apart
         if (!is_inner && outer_ != 0 && drawn[3] != outer_) return;
         const int step = is_inner ? -side_ : side_;
         const std::uint8_t* from = drawn;
@@ -105,7 +109,8 @@ private:
         if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
         const int x = across_ ? n : m, y = across_ ? m : n;
         if (!marks_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
-        const double after = share_of(n + 1.0 - here.line, here.half, here.inverse);   // of the strip on the side of greater n
+        const double after =
+            share_of(n + 1.0 - here.line, here.half, here.inverse);  // of the strip on the side of greater n
         // A line that passes the center on the wrong side belongs to a partly hidden edge: half at most.
         const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
         const int weight = int(256.0 * share + 0.5);
@@ -127,9 +132,9 @@ private:
     const Image& drawn_;
     const DirtyTiles& marks_;
     Image& frame_;
-    bool across_ = false;   // the edge is steep: m is y
+    bool across_ = false;  // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
-    std::ptrdiff_t step_m_ = 0, step_n_ = 0;   // strides, bytes
+    std::ptrdiff_t step_m_ = 0, step_n_ = 0;  // strides, bytes
     std::uint8_t inner_ = 0, outer_ = 0, face_ = 0;
 };
 
@@ -139,21 +144,23 @@ double share_before(double t, double half) { return share_of(t, half, inverse_wi
 
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame) {
     for (const Rectangle& r : rectangles) {
-        const std::size_t bytes = 4 * std::size_t(r.width);   // a local copy, which the compiler need not reload for each pixel
+        const std::size_t bytes =
+            4 * std::size_t(r.width);  // a local copy, which the compiler need not reload for each pixel
         for (int y = r.y; y < r.y + r.height; ++y) {
             const std::uint8_t* from = drawn.at(r.x, y);
             std::uint8_t* to = frame.at(r.x, y);
             for (std::size_t at = 0; at < bytes; at += 4) {
                 std::uint32_t pixel;
                 std::memcpy(&pixel, from + at, 4);
-                pixel |= 0xff000000u;   // red first in memory, alpha last: little-endian, as all supported processors
+                pixel |= 0xff000000u;  // red first in memory, alpha last: little-endian, as all supported processors
                 std::memcpy(to + at, &pixel, 4);
             }
         }
     }
 }
 
-void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks, Image& frame) {
+void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks,
+                          Image& frame) {
     Walk<false> one_face(drawn, marks, frame);
     Walk<true> whole_box(drawn, marks, frame);
     for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);

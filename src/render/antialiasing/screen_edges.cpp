@@ -1,7 +1,7 @@
 #include "render/antialiasing/screen_edges.h"
 
-#include "render/camera/convex_hull_2d.h"
 #include "render/antialiasing/surface_ids.h"
+#include "render/camera/convex_hull_2d.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@ namespace tumble {
 namespace {
 
 // Largest deviation of a ball's outline polygon from the circle.
-constexpr double circle_error = 0.03;   // pixels
+constexpr double circle_error = 0.03;  // pixels
 
 // Below this size, a step between a box's own faces is a pixel or two long and invisible.
-constexpr double inner_edge_pixels = 3.0;   // of its longest edge
+constexpr double inner_edge_pixels = 3.0;  // of its longest edge
 
 // A face narrower than this on the screen may cover no pixel center along a part of its edge.
 constexpr double narrow_pixels = 1.0;
@@ -61,7 +61,7 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
         std::size_t end = i;
         while (end < halves.size() && halves[end].low == halves[i].low && halves[end].high == halves[i].high) ++end;
         Edge edge{halves[i].low, halves[i].high, halves[i].triangle, -1, true};
-        if (end - i >= 2) {   // more than two triangles at an edge: the further ones coincide closely enough
+        if (end - i >= 2) {  // more than two triangles at an edge: the further ones coincide closely enough
             edge.right = halves[i + 1].triangle;
             edge.crease = normals[std::size_t(edge.left)].dot(normals[std::size_t(edge.right)]) < crease_cosine;
         }
@@ -93,15 +93,17 @@ const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const 
 void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint8_t faces) {
     const std::array<Vec3, 8> places = item.corners();
     std::array<ScreenPoint, 8> corners;
-    bool before = true;   // all corners are in front of the eye
+    bool before = true;  // all corners are in front of the eye
     for (std::size_t i = 0; i < 8 && before; ++i) {
         before = before_eye(places[i], *view_);
         if (before) corners[i] = view_->pixel(places[i]);
     }
-    if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm()))) return add_rod(body, item);
+    if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm())))
+        return add_rod(body, item);
     const double depth = item.center.dot(view_->forward());
-    const bool inner_edges = 2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
-    std::array<bool, 6> front{};   // facing the eye, though perhaps hidden
+    const bool inner_edges =
+        2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
+    std::array<bool, 6> front{};  // facing the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
         const Vec3& on_face = places[face % 2 == 1 ? bit : 0];
@@ -113,7 +115,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
         const std::size_t along = std::size_t(1) << axis, a = (axis + 1) % 3, b = (axis + 2) % 3;
         for (std::size_t sides = 0; sides < 4; ++sides) {
             std::size_t face = 2 * a + (sides & 1), other = 2 * b + (sides >> 1);
-            std::size_t bit = std::size_t(1) << b;   // across `face`, away from the edge
+            std::size_t bit = std::size_t(1) << b;  // across `face`, away from the edge
             if (!front[face]) {
                 std::swap(face, other);
                 bit = std::size_t(1) << a;
@@ -137,7 +139,8 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
     }
     // A pixel is first filled with the box's own faces, then blended with its surroundings.
     if (narrow)
-        std::stable_partition(found_.begin() + std::ptrdiff_t(first), found_.end(), [](const ScreenEdge& e) { return e.outer != 0; });
+        std::stable_partition(found_.begin() + std::ptrdiff_t(first), found_.end(),
+                              [](const ScreenEdge& e) { return e.outer != 0; });
 }
 
 // Uses the longest axis, and at both ends the extent of the other axes perpendicular to it on the screen.
@@ -147,7 +150,8 @@ void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     const Vec3 axis = item.half_axes.col(longest);
     std::array<ScreenPoint, 2> ends{view_->pixel(item.center - axis), view_->pixel(item.center + axis)};
     const ScreenPoint way = ends[1] - ends[0];
-    const ScreenPoint to = way.norm() > 1e-6 ? ScreenPoint(way.normalized()) : ScreenPoint(1.0, 0.0), across(-to.y(), to.x());
+    const ScreenPoint to = way.norm() > 1e-6 ? ScreenPoint(way.normalized()) : ScreenPoint(1.0, 0.0),
+                      across(-to.y(), to.x());
     std::array<double, 2> half{};
     for (std::size_t end = 0; end < 2; ++end) {
         const Vec3 at = item.center + (end == 0 ? -1.0 : 1.0) * axis;
@@ -194,8 +198,9 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const Drawab
     const TriangleMesh& surface =
         level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
     const auto is_as_before = [&](const Seen& seen) {
-        return seen.level == level && seen.origin == state.origin && seen.orientation.coeffs() == state.orientation.coeffs() &&
-               seen.eye == view_->eye() && seen.forward == view_->forward() && seen.right == view_->right() &&
+        return seen.level == level && seen.origin == state.origin &&
+               seen.orientation.coeffs() == state.orientation.coeffs() && seen.eye == view_->eye() &&
+               seen.forward == view_->forward() && seen.right == view_->right() &&
                seen.pixel_size == view_->pixel_size();
     };
     const auto seen = seen_.find(body);
@@ -208,13 +213,20 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const Drawab
     auto edges = meshes_.find(key);
     if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
     add_outline(body, state, surface, edges->second);
-    seen_[body] = {state.origin, view_->eye(), view_->forward(), view_->right(), state.orientation, view_->pixel_size(), level,
+    seen_[body] = {state.origin,
+                   view_->eye(),
+                   view_->forward(),
+                   view_->right(),
+                   state.orientation,
+                   view_->pixel_size(),
+                   level,
                    {found_.begin() + std::ptrdiff_t(first), found_.end()}};
 }
 
-void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface, const MeshEdges& edges) {
+void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface,
+                             const MeshEdges& edges) {
     const Vec3 origin = view_->relative(state.origin);
-    const Vec3 eye = state.orientation.conjugate() * -origin;   // in the mesh's frame
+    const Vec3 eye = state.orientation.conjugate() * -origin;  // in the mesh's frame
     const Mat3 axes = state.orientation.toRotationMatrix();
     const auto place = [&](std::uint32_t vertex) -> Vec3 { return origin + axes * surface.vertices[vertex]; };
     std::vector<ScreenPoint> points;
@@ -251,10 +263,12 @@ void EdgeFinder::add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, 
     for (const Vec3& side : view_->sides()) {
         const double at_a = side.dot(a), at_b = side.dot(b);
         if (at_a < 0.0 && at_b < 0.0) return;
-        if (at_a < 0.0) a += (b - a) * (at_a / (at_a - at_b));
-        else if (at_b < 0.0) b += (a - b) * (at_b / (at_b - at_a));
+        if (at_a < 0.0)
+            a += (b - a) * (at_a / (at_a - at_b));
+        else if (at_b < 0.0)
+            b += (a - b) * (at_b / (at_b - at_a));
     }
-    constexpr double inward = 1e-3;   // of the way to c, which may be behind the eye
+    constexpr double inward = 1e-3;  // of the way to c, which may be behind the eye
     const Vec3 middle = 0.5 * (a + b), inside = middle + inward * (c - middle);
     if (!before_eye(a, *view_) || !before_eye(b, *view_) || !before_eye(inside, *view_)) return;
     found_.push_back(directed(view_->pixel(a), view_->pixel(b), view_->pixel(inside), inner, outer));
@@ -269,7 +283,7 @@ void EdgeFinder::add_corner(const PlanePatch& a, const PlanePatch& b) {
     rows << a.normal.transpose(), b.normal.transpose(), along.transpose();
     const Vec3 point = rows.inverse() * Vec3(-a.height, -b.height, 0.0);
     double low = -1e6 * point.norm(), high = -low;
-    const auto clip = [&](const Vec3& normal) {   // to normal . p > 0
+    const auto clip = [&](const Vec3& normal) {  // to normal . p > 0
         const double at = normal.dot(point), slope = normal.dot(along);
         if (slope > 0.0) low = std::max(low, -at / slope);
         if (slope < 0.0) high = std::min(high, -at / slope);
@@ -284,7 +298,8 @@ void EdgeFinder::add_corner(const PlanePatch& a, const PlanePatch& b) {
     const ScreenPoint across = ScreenPoint(p.y() - q.y(), q.x() - p.x()).normalized(), beside = 0.5 * (p + q) + across;
     const Vec3 ray = view_->ray(beside.x(), beside.y());
     const bool a_there = -a.normal.dot(ray) / a.height > -b.normal.dot(ray) / b.height;
-    found_.push_back(directed(p, q, beside, surface_id(a_there ? a.body : b.body, 0), surface_id(a_there ? b.body : a.body, 0)));
+    found_.push_back(
+        directed(p, q, beside, surface_id(a_there ? a.body : b.body, 0), surface_id(a_there ? b.body : a.body, 0)));
 }
 
 }  // namespace tumble

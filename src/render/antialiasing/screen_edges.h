@@ -2,11 +2,11 @@
 // and outlines of boxes, circles of balls, outlines and creases of meshes, intersections of planes.
 #pragma once
 
-#include "render/scene/drawable_bounds.h"
-#include "render/mesh/mesh_lod.h"
-#include "render/scene/plane_patch.h"
 #include "render/antialiasing/thin_geometry_aa.h"
 #include "render/culling/occlusion_culling.h"
+#include "render/mesh/mesh_lod.h"
+#include "render/scene/drawable_bounds.h"
+#include "render/scene/plane_patch.h"
 
 #include <array>
 #include <cstdint>
@@ -16,9 +16,9 @@
 namespace tumble {
 
 struct ScreenEdge {
-    float x0, y0, x1, y1;    // pixels from the top left corner
-    std::uint8_t inner;      // surface id (surface_ids.h) on the side to which the direction from 0 to 1 turns from x to y
-    std::uint8_t outer;      // surface id on the other side; 0: any that is not `inner`
+    float x0, y0, x1, y1;  // pixels from the top left corner
+    std::uint8_t inner;  // surface id (surface_ids.h) on the side to which the direction from 0 to 1 turns from x to y
+    std::uint8_t outer;  // surface id on the other side; 0: any that is not `inner`
     bool whole_box = false;  // the inner side is any face of the box of `inner`, which may cover no pixel center itself
     std::uint8_t face = 0;   // index of the box's face
 };
@@ -26,9 +26,9 @@ struct ScreenEdge {
 /// Edges of a mesh with the triangles on both sides; made once.
 struct MeshEdges {
     struct Edge {
-        std::uint32_t from, to;         // vertices
-        std::int32_t left, right;       // triangles; -1: none
-        bool crease;                    // sharp enough to be visible between two visible faces
+        std::uint32_t from, to;    // vertices
+        std::int32_t left, right;  // triangles; -1: none
+        bool crease;               // sharp enough to be visible between two visible faces
     };
     explicit MeshEdges(const TriangleMesh& mesh);
     std::vector<Edge> edges;
@@ -70,8 +70,8 @@ private:
         std::vector<ScreenEdge> edges;
     };
 
-    std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;   // by mesh and level; made on first use
-    std::map<std::size_t, Seen> seen_;   // by body: a resting mesh of 40,000 vertices is processed once
+    std::map<std::pair<std::size_t, std::size_t>, MeshEdges> meshes_;  // by mesh and level; made on first use
+    std::map<std::size_t, Seen> seen_;  // by body: a resting mesh of 40,000 vertices is processed once
     std::vector<ScreenEdge> found_;
     std::vector<ScreenRod> rods_;
 };

@@ -17,7 +17,7 @@ inline std::uint8_t surface_id(std::size_t body, std::size_t face) {
 
 /// True if an id belongs to the same box as the id of one of its faces.
 inline bool of_same_box(std::uint8_t id, std::uint8_t of_face, std::uint8_t face) {
-    int from_first = id - of_face + face;   // if the id counter wrapped between both, this is off by the number of ids
+    int from_first = id - of_face + face;  // if the id counter wrapped between both, this is off by the number of ids
     from_first += from_first < 0 ? surface_id_count : from_first >= surface_id_count ? -surface_id_count : 0;
     return from_first < 6 && id <= surface_id_count;
 }

@@ -18,7 +18,7 @@ constexpr int search = 3;
 constexpr int along = 2;
 
 struct Mean {
-    std::array<double, 3> sum{};   // sRGB values, 0 to 255
+    std::array<double, 3> sum{};  // sRGB values, 0 to 255
     int count = 0;
     void add(const std::uint8_t* pixel) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
@@ -46,7 +46,7 @@ public:
         count_n_ = steep_ ? drawn.width : drawn.height;
         length_ = std::max(m1_ - m0_, 1e-6);
         slope_ = (n1_ - n0_) / length_;
-        widening_ = std::sqrt(1.0 + slope_ * slope_);   // of a perpendicular extent, along n
+        widening_ = std::sqrt(1.0 + slope_ * slope_);  // of a perpendicular extent, along n
     }
 
     /// Marks the pixels that show this rod.
@@ -69,7 +69,8 @@ public:
                     break;
                 }
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
-            for (std::size_t c = 0; c < 3 && beside.count > 0; ++c) to[c] = std::uint8_t(std::lround(beside.sum[c] / beside.count));
+            for (std::size_t c = 0; c < 3 && beside.count > 0; ++c)
+                to[c] = std::uint8_t(std::lround(beside.sum[c] / beside.count));
         });
     }
 
@@ -78,7 +79,9 @@ public:
         for_each([&](int m, int n, double middle, double half) {
             const double share = std::min(covered(m, n, middle, half), 1.0);
             if (share <= 0.0 || !marked(m, n, marks)) return;
-            if (rods[index(m, n)] == 0 && !of_rod(m, n - 1) && !of_rod(m, n + 1) && !of_rod(m - 1, n) && !of_rod(m + 1, n)) return;
+            if (rods[index(m, n)] == 0 && !of_rod(m, n - 1) && !of_rod(m, n + 1) && !of_rod(m - 1, n) &&
+                !of_rod(m + 1, n))
+                return;
             Mean own;
             for (int other = m - along; other <= m + along; ++other)
                 for (int across = n - 1; across <= n + 1; ++across)
@@ -123,7 +126,8 @@ private:
         if (!(to > from)) return 0.0;
         const double line = middle + slope_ * (std::clamp(0.5 * (from + to), m0_, m1_) - std::clamp(m + 0.5, m0_, m1_));
         const double rise = 0.5 * std::abs(slope_) * (to - from);
-        return (to - from) * (share_before(n + 1.0 - (line - half), rise) - share_before(n + 1.0 - (line + half), rise));
+        return (to - from) *
+               (share_before(n + 1.0 - (line - half), rise) - share_before(n + 1.0 - (line + half), rise));
     }
 
     const Image& drawn_;

@@ -18,7 +18,9 @@ void for_each_pixel(const VisibilityBuffer& map, const Visit& visit) {
         for (int column = 0; column < map.width; ++column, ++pixel) visit(pixel, column, row);
 }
 
-void fill_depth(const VisibilityBuffer& map, std::vector<float>& values) { values.assign(map.depth.begin(), map.depth.end()); }
+void fill_depth(const VisibilityBuffer& map, std::vector<float>& values) {
+    values.assign(map.depth.begin(), map.depth.end());
+}
 
 /// Fills a pixel from a value that is constant over a surface.
 template <class Value>
@@ -68,19 +70,18 @@ void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& 
     for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
         const std::uint32_t surface = map.surface[pixel];
         const float* known = surface == VisibilityBuffer::nothing ? zero.data()
-                             : surface < parts.size()       ? everywhere[surface]
-                                                            : nullptr;
+                             : surface < parts.size()             ? everywhere[surface]
+                                                                  : nullptr;
         if (known != nullptr) {
             for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = known[k];
             return;
         }
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const double depth = map.depth[pixel];
-        const Vec3 normal =
-            surface < parts.size()
-                ? Vec3(turns[surface] *
-                       part_normal(parts[surface], places.parts[surface], map.triangle[pixel], ray, depth))
-                : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
+        const Vec3 normal = surface < parts.size()
+                                ? Vec3(turns[surface] * part_normal(parts[surface], places.parts[surface],
+                                                                    map.triangle[pixel], ray, depth))
+                                : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
         for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = float(normal[Eigen::Index(k)]);
     });
 }
@@ -149,8 +150,7 @@ bool AovChanges::follow(const AovPoses& poses) {
     const auto same = [&](const Snapshot& a, const Snapshot& b) {
         return same_poses(a, b) && same_place(path_.at(a), path_.at(b));
     };
-    const bool unmoved = before_ && same(before_->now, poses.now) &&
-                         (!poses.next || same(*before_->next, *poses.next));
+    const bool unmoved = before_ && same(before_->now, poses.now) && (!poses.next || same(*before_->next, *poses.next));
     if (!unmoved) before_ = poses;
     return !unmoved;
 }

@@ -24,11 +24,11 @@ struct AovPoses {
 /// The requested AOVs; the others are empty. Top row first, channels of a pixel adjacent.
 struct AovFrame {
     PinholeCamera camera;
-    std::vector<float> depth;                  // 1 per pixel
-    std::vector<float> normal;                 // 3 per pixel
-    std::vector<std::int32_t> segmentation;    // 1 per pixel
-    std::vector<float> motion;                 // 2 per pixel: columns, rows
-    std::vector<std::uint8_t> albedo;          // 3 per pixel: red, green, blue
+    std::vector<float> depth;                // 1 per pixel
+    std::vector<float> normal;               // 3 per pixel
+    std::vector<std::int32_t> segmentation;  // 1 per pixel
+    std::vector<float> motion;               // 2 per pixel: columns, rows
+    std::vector<std::uint8_t> albedo;        // 3 per pixel: red, green, blue
 };
 
 class AovRenderer {

@@ -9,9 +9,9 @@ namespace {
 /// Coordinates: a ray d passes on the inner side of the edge a b if (a x b) . d has the sign of the volume of the
 /// triangle with the eye. Nothing has to be clipped behind the eye.
 struct DepthTriangle {
-    std::array<Vec3, 3> edges;   // opposite to each corner, oriented to be positive inside
-    Vec3 normal;                 // not normalized
-    double height;               // normal . corner
+    std::array<Vec3, 3> edges;  // opposite to each corner, oriented to be positive inside
+    Vec3 normal;                // not normalized
+    double height;              // normal . corner
 
     /// False if it is seen edge-on, or from behind although `closed` excludes that.
     bool set(const std::array<Vec3, 3>& corners, bool closed) {
@@ -29,7 +29,7 @@ struct DepthTriangle {
 };
 
 struct Row {
-    double across, rest;   // across x + rest
+    double across, rest;  // across x + rest
     Row(const Vec3& v, double ray_y) : across(v.x()), rest(v.y() * ray_y + v.z()) {}
     double at(double x) const { return across * x + rest; }
 };
@@ -51,7 +51,7 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
             for (int column = bounds.first; column <= bounds.last; ++column) {
                 const double x = ray_x[std::size_t(column)];
                 if (!(a.at(x) >= 0.0 && b.at(x) >= 0.0 && c.at(x) >= 0.0)) continue;
-                const double depth = triangle.height / fall.at(x);   // edge-on, the sign depends on rounding
+                const double depth = triangle.height / fall.at(x);  // edge-on, the sign depends on rounding
                 const std::size_t pixel = map.at(column, row);
                 if (!(depth > 0.0 && depth < map.depth[pixel])) continue;
                 map.depth[pixel] = depth;

@@ -12,9 +12,9 @@
 namespace tumble {
 
 struct MeshTriangles {
-    std::span<const Vec3> vertices;             // camera frame, m
-    std::span<const std::uint32_t> indices;     // three per triangle, counter-clockwise seen from outside
-    bool closed;                                // back faces are not visible
+    std::span<const Vec3> vertices;          // camera frame, m
+    std::span<const std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
+    bool closed;                             // back faces are not visible
 };
 
 /// Stores the triangles that are nearer than the values in the buffer. `ray_x`: of each column.

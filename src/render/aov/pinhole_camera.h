@@ -11,11 +11,11 @@ namespace tumble {
 struct PinholeCamera {
     explicit PinholeCamera(const Camera& view);
 
-    int width, height;            // pixels
-    double focal;                 // pixels, for both axes, because pixels are square
-    double center_x, center_y;    // pixels
-    Mat3 axes;                    // columns: the camera's x, y and z in world axes
-    Vec3 eye;                     // m, world frame
+    int width, height;          // pixels
+    double focal;               // pixels, for both axes, because pixels are square
+    double center_x, center_y;  // pixels
+    Mat3 axes;                  // columns: the camera's x, y and z in world axes
+    Vec3 eye;                   // m, world frame
 
     /// The ray through a pixel center is (x, y, 1).
     double ray_x(int column) const { return (column - center_x) / focal; }

@@ -18,8 +18,8 @@ inline double larger(double a, double b) { return a > b ? a : b; }
 
 /// One pair of parallel faces of a box.
 struct Slab {
-    double along_x, along_row;   // the ray's component across the slab: along_x x + along_row
-    double first, last;          // distances of the faces from the eye
+    double along_x, along_row;  // the ray's component across the slab: along_x x + along_row
+    double first, last;         // distances of the faces from the eye
 };
 
 TUMBLE_WIDE void slab_depths(const std::array<Slab, 3>& slabs, const double* x, std::size_t count, double* depths) {
@@ -36,16 +36,16 @@ TUMBLE_WIDE void slab_depths(const std::array<Slab, 3>& slabs, const double* x, 
         const double in = larger(larger(smaller(a1, a2), smaller(b1, b2)), smaller(c1, c2));
         const double out = smaller(smaller(larger(a1, a2), larger(b1, b2)), larger(c1, c2));
         const double depth = in <= out ? in : none;
-        depths[i] = depth > 0.0 ? depth : none;   // behind the eye, or the eye is inside
+        depths[i] = depth > 0.0 ? depth : none;  // behind the eye, or the eye is inside
     }
 }
 
 /// A ball; or an infinite cylinder, after removal of the ray's component along its axis.
 struct Round {
-    Vec3 center;             // of the cylinder: the point of its axis nearest to the eye
-    Vec3 axis;               // unit; zero: a ball
+    Vec3 center;  // of the cylinder: the point of its axis nearest to the eye
+    Vec3 axis;    // unit; zero: a ball
     double radius_squared;
-    double outside;          // squared distance of the center, less the squared radius
+    double outside;  // squared distance of the center, less the squared radius
 };
 
 TUMBLE_WIDE void round_depths(const Round& shape, const double* xs, double ray_y, std::size_t count, double* depths) {

@@ -42,9 +42,7 @@ std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
 
 std::uint32_t body_id(std::size_t body) { return std::uint32_t(1 + body); }
 
-std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord) {
-    return body_id(scene.bodies.size() + cord);
-}
+std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord) { return body_id(scene.bodies.size() + cord); }
 
 PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera) {
     const BodyState& body = snapshot.bodies.at(part.body);

@@ -13,12 +13,12 @@ namespace tumble {
 
 /// One shape of a visible body.
 struct ShapeInstance {
-    std::size_t body = 0;               // index in the scene
-    Shape shape;                        // not a compound
-    Vec3 position = Vec3::Zero();       // of the part, body frame, m
+    std::size_t body = 0;          // index in the scene
+    Shape shape;                   // not a compound
+    Vec3 position = Vec3::Zero();  // of the part, body frame, m
     Quat rotation = Quat::Identity();
     Color color;
-    bool closed = true;                 // its back faces are never visible
+    bool closed = true;  // its back faces are never visible
 };
 
 /// In scene order. The scene must outlive them, because it owns the meshes.
@@ -31,7 +31,7 @@ std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord);
 /// Pose of a part in the camera frame: a point p of the part is at origin + axes p.
 struct PartPlace {
     Mat3 axes;
-    Vec3 origin;   // m
+    Vec3 origin;  // m
 
     friend bool operator==(const PartPlace&, const PartPlace&) = default;
 };
@@ -39,7 +39,7 @@ PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const Pi
 
 /// The ends of a cord in the camera frame: its anchor and its attachment on the body.
 struct CordPlace {
-    Vec3 from, to;   // m
+    Vec3 from, to;  // m
 
     friend bool operator==(const CordPlace&, const CordPlace&) = default;
 };

@@ -11,7 +11,7 @@ namespace tumble {
 /// A point p of this frame (camera frame) is at turn p + shift in the next frame (its camera frame).
 struct RigidMotion {
     Mat3 turn = Mat3::Identity();
-    Vec3 shift = Vec3::Zero();   // m
+    Vec3 shift = Vec3::Zero();  // m
 };
 
 class SurfaceMotion {
@@ -33,8 +33,8 @@ public:
 private:
     Eigen::Vector2d to(const Vec3& next_point, int column, int row) const;
 
-    std::vector<RigidMotion> surfaces_;   // parts, then cords
-    std::vector<char> rests_;             // of each surface
+    std::vector<RigidMotion> surfaces_;  // parts, then cords
+    std::vector<char> rests_;            // of each surface
     std::vector<CordPlace> cords_now_, cords_next_;
     std::size_t parts_;
     bool camera_rests_;

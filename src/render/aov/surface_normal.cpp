@@ -50,7 +50,8 @@ Vec3 normal_of(const CompoundShape&, const PartPlace&, std::uint32_t, const Vec3
 
 }  // namespace
 
-Vec3 part_normal(const ShapeInstance& part, const PartPlace& place, std::uint32_t triangle, const Vec3& ray, double depth) {
+Vec3 part_normal(const ShapeInstance& part, const PartPlace& place, std::uint32_t triangle, const Vec3& ray,
+                 double depth) {
     return std::visit([&](const auto& shape) { return normal_of(shape, place, triangle, ray, depth); }, part.shape);
 }
 

@@ -41,7 +41,8 @@ ScenePlaces make_places(std::span<const ShapeInstance> parts, std::span<const Co
     return places;
 }
 
-VisibilityBufferRenderer::VisibilityBufferRenderer(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords)
+VisibilityBufferRenderer::VisibilityBufferRenderer(std::span<const ShapeInstance> parts,
+                                                   std::span<const CordDescription> cords)
     : parts_(parts), cords_(cords) {}
 
 const VisibilityBuffer& VisibilityBufferRenderer::find(const ScenePlaces& places, const PinholeCamera& camera) {
@@ -57,7 +58,7 @@ const VisibilityBuffer& VisibilityBufferRenderer::find(const ScenePlaces& places
 
 template <class Depths>
 void VisibilityBufferRenderer::find_rows(std::span<const Vec3> hull, std::size_t index, const PinholeCamera& camera,
-                              const Depths& depths_of) {
+                                         const Depths& depths_of) {
     const PixelBounds bounds = pixel_bounds(hull, camera);
     for (int row = bounds.top; !bounds.empty() && row <= bounds.bottom; ++row) {
         const auto count = std::size_t(bounds.last - bounds.first + 1);
@@ -73,7 +74,7 @@ void VisibilityBufferRenderer::find_rows(std::span<const Vec3> hull, std::size_t
 }
 
 void VisibilityBufferRenderer::find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place,
-                               const PinholeCamera& camera) {
+                                          const PinholeCamera& camera) {
     const Vec3 normal = place.axes * plane.normal;
     const double height = -normal.dot(place.origin) - plane.offset;
     // A plane has no corners; its bounds are the whole image, as for a hull that contains the eye.
@@ -83,21 +84,21 @@ void VisibilityBufferRenderer::find_shape(const PlaneShape& plane, std::size_t i
 }
 
 void VisibilityBufferRenderer::find_shape(const BoxShape& box, std::size_t index, const PartPlace& place,
-                               const PinholeCamera& camera) {
+                                          const PinholeCamera& camera) {
     const Vec3 half_size = 0.5 * box.size;
     find_rows(corners_of(place, Vec3::Zero(), half_size), index, camera,
               [&](const RayRow& rays, double* depths) { box_depths(place, half_size, rays, depths); });
 }
 
 void VisibilityBufferRenderer::find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place,
-                               const PinholeCamera& camera) {
+                                          const PinholeCamera& camera) {
     const PartPlace upright{Mat3::Identity(), place.origin};
     find_rows(corners_of(upright, Vec3::Zero(), Vec3::Constant(ball.radius)), index, camera,
               [&](const RayRow& rays, double* depths) { ball_depths(place.origin, ball.radius, rays, depths); });
 }
 
 void VisibilityBufferRenderer::find_shape(const MeshShape& mesh, std::size_t index, const PartPlace& place,
-                               const PinholeCamera& camera) {
+                                          const PinholeCamera& camera) {
     vertices_.clear();
     for (const MeshAsset::Vertex& v : mesh.asset->vertices)
         vertices_.push_back(place.origin + place.axes * Vec3(v.position[0], v.position[1], v.position[2]));

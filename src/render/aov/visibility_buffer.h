@@ -18,9 +18,9 @@ struct VisibilityBuffer {
     static constexpr std::uint32_t nothing = ~0u;
 
     int width = 0, height = 0;
-    std::vector<double> depth;             // m along the camera axis; infinity: background
-    std::vector<std::uint32_t> surface;    // index: the parts, then the cords; or `nothing`
-    std::vector<std::uint32_t> triangle;   // index in a mesh; meaningless for other shapes
+    std::vector<double> depth;            // m along the camera axis; infinity: background
+    std::vector<std::uint32_t> surface;   // index: the parts, then the cords; or `nothing`
+    std::vector<std::uint32_t> triangle;  // index in a mesh; meaningless for other shapes
 
     std::size_t at(int column, int row) const { return std::size_t(row) * std::size_t(width) + std::size_t(column); }
     void clear(int new_width, int new_height);
@@ -47,7 +47,8 @@ private:
     void find_shape(const BoxShape& box, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
     void find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
     void find_shape(const MeshShape& mesh, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
-    void find_shape(const CompoundShape&, std::size_t, const PartPlace&, const PinholeCamera&) {}   // compounds are expanded
+    void find_shape(const CompoundShape&, std::size_t, const PartPlace&, const PinholeCamera&) {
+    }  // compounds are expanded
     void find_cord(std::size_t index, const CordPlace& place, const PinholeCamera& camera);
 
     /// For the pixels within the hull of the points: stores depths that are nearer than the values in the buffer.
@@ -58,9 +59,9 @@ private:
     std::span<const ShapeInstance> parts_;
     std::span<const CordDescription> cords_;
     VisibilityBuffer map_;
-    std::vector<double> ray_x_;      // of each column
-    std::vector<double> depths_;     // of one row
-    std::vector<Vec3> vertices_;     // of one mesh, in the camera frame
+    std::vector<double> ray_x_;   // of each column
+    std::vector<double> depths_;  // of one row
+    std::vector<Vec3> vertices_;  // of one mesh, in the camera frame
 };
 
 }  // namespace tumble

@@ -19,7 +19,7 @@ class Camera {
 public:
     /// `shift`, in pixels, moves the whole image: the mean of several shifted images has smooth edges.
     Camera(const CameraDescription& camera, int width, int height,
-               const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
+           const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
 
     /// The same camera at another place, with the same scale of patterns and fog.
     Camera from(const CameraDescription& camera) const;

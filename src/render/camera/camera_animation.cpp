@@ -29,14 +29,16 @@ std::optional<CameraAnimation::Tracks> CameraAnimation::tracks_of(const CameraDe
     };
     return Tracks{track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.eye; }),
                   track([](const CameraKeyframe& key) -> Eigen::VectorXd { return key.target; }),
-                  track([](const CameraKeyframe& key) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, key.vertical_fov); })};
+                  track([](const CameraKeyframe& key) -> Eigen::VectorXd {
+                      return Eigen::VectorXd::Constant(1, key.vertical_fov);
+                  })};
 }
 
 CameraAnimation::CameraAnimation(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
 
 Vec3 CameraAnimation::up_at(double time) const {
-    constexpr double parallel = 1e-9;   // rad: as for Camera
-    constexpr double back = 1e-4;       // of the time since the last key: close, and far above rounding
+    constexpr double parallel = 1e-9;  // rad: as for Camera
+    constexpr double back = 1e-4;      // of the time since the last key: close, and far above rounding
     const Vec3& up = camera_.up;
     const auto view_at = [&](double t) -> Vec3 { return tracks_->target.at(t) - tracks_->eye.at(t); };
     const Vec3 view = view_at(time);
@@ -45,7 +47,7 @@ Vec3 CameraAnimation::up_at(double time) const {
     double key = camera_.keyframes.front().time;
     for (const CameraKeyframe& k : camera_.keyframes)
         if (k.time < time) key = k.time;
-    const Vec3 across = view_at(time - back * (time - key)).cross(up);   // to the right in the image just before
+    const Vec3 across = view_at(time - back * (time - key)).cross(up);  // to the right in the image just before
     const Vec3 in_passing = across.cross(view);
     return in_passing.norm() > 0.0 ? in_passing : up;
 }

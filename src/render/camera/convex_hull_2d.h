@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-using ScreenPoint = Eigen::Vector2d;   // pixels from the top left corner
+using ScreenPoint = Eigen::Vector2d;  // pixels from the top left corner
 
 /// Twice the area of the triangle a, b, c; positive if it turns from x to y.
 inline double turn(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c) {
@@ -29,7 +29,7 @@ public:
     const ScreenPoint& back() const { return points_[count_ - 1]; }
 
 private:
-    std::array<ScreenPoint, 2 * most> points_;   // an unfinished hull holds points that are removed later
+    std::array<ScreenPoint, 2 * most> points_;  // an unfinished hull holds points that are removed later
     std::size_t count_ = 0;
 };
 

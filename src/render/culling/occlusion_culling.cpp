@@ -1,8 +1,8 @@
 #include "render/culling/occlusion_culling.h"
 
-#include "render/scene/drawable_bounds.h"
-#include "render/culling/software_depth_buffer.h"
 #include "render/camera/convex_hull_2d.h"
+#include "render/culling/software_depth_buffer.h"
+#include "render/scene/drawable_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +108,8 @@ bool CoarseDepthBuffer::hides(std::span<const Vec3> corners) const {
     Projected body;
     if (!project(corners, *view_, body)) return false;
     for (int row = first_cell(body.y0 - cell_margin); row <= last_cell(body.y1 + cell_margin, rows_); ++row)
-        for (int column = first_cell(body.x0 - cell_margin); column <= last_cell(body.x1 + cell_margin, columns_); ++column)
+        for (int column = first_cell(body.x0 - cell_margin); column <= last_cell(body.x1 + cell_margin, columns_);
+             ++column)
             if (!(depth(column, row) < body.nearest)) return false;
     return true;
 }
@@ -116,11 +117,11 @@ bool CoarseDepthBuffer::hides(std::span<const Vec3> corners) const {
 namespace {
 
 // In scenes of many bodies, smaller ones are culled per pixel.
-constexpr double small = 48.0;   // size on the screen, pixels
+constexpr double small = 48.0;  // size on the screen, pixels
 
 struct Candidate {
     std::uint32_t body;
-    float distance;   // m; of the bounding ball
+    float distance;  // m; of the bounding ball
 };
 
 std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot& snapshot, const Camera& view) {
@@ -138,19 +139,22 @@ std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot&
 }
 
 // Adds the faces of a small box to the depth buffer. Returns the faces that may be visible.
-std::uint8_t add_faces(const CoarseDepthBuffer::Corners& corners, const Projected& box, const Camera& view, SoftwareDepthBuffer& cover) {
+std::uint8_t add_faces(const CoarseDepthBuffer::Corners& corners, const Projected& box, const Camera& view,
+                       SoftwareDepthBuffer& cover) {
     std::uint8_t faces = 0;
     std::array<double, 8> inverse_depths;
     for (std::size_t i = 0; i < 8; ++i) inverse_depths[i] = 1.0 / corners[i].dot(view.forward());
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t bit = std::size_t(1) << axis, a = std::size_t(1) << (axis + 1) % 3, b = std::size_t(1) << (axis + 2) % 3;
+        const std::size_t bit = std::size_t(1) << axis, a = std::size_t(1) << (axis + 1) % 3,
+                          b = std::size_t(1) << (axis + 2) % 3;
         const Vec3 along = corners[bit] - corners[0];
         for (std::size_t side = 0; side < 2; ++side) {
             const std::size_t first = side == 1 ? bit : 0;
             if (!(along.dot(corners[first]) * (side == 1 ? 1.0 : -1.0) < 0.0)) continue;
             std::array<SoftwareDepthBuffer::Corner, 4> face;
             std::size_t k = 0;
-            for (const std::size_t i : {first, first | a, first | a | b, first | b}) face[k++] = {box.points[i], inverse_depths[i]};
+            for (const std::size_t i : {first, first | a, first | a | b, first | b})
+                face[k++] = {box.points[i], inverse_depths[i]};
             if (cover.add(face)) faces |= std::uint8_t(1u << (2 * axis + side));
         }
     }
@@ -170,12 +174,14 @@ Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, cons
     const auto corners_of = [&](const Candidate& c) {
         const RenderBody& look = looks.bodies[c.body];
         const BoundingBall ball = bounding_ball(look, snapshot.bodies[c.body], view);
-        return is_box(c) ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
-                         : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
+        return is_box(c)
+                   ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
+                   : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
     };
     const auto is_small = [&](const Candidate& c) {
         const double distance = double(c.distance) - looks.bodies[c.body].bound_radius;
-        return by_pixel && distance > 0.0 && 2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
+        return by_pixel && distance > 0.0 &&
+               2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
     };
     for (const Candidate& candidate : candidates) {  // nearest first: a hidden candidate need not cover other bodies
         if (!is_box(candidate) || is_small(candidate)) continue;
@@ -190,8 +196,10 @@ Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, cons
         const bool small_one = is_small(candidate) && project(corners, view, seen);
         if (is_box(candidate)) {
             std::uint8_t& faces = result.faces[candidate.body];
-            if (!small_one) faces = visible_faces(corners, result.cover);
-            else if (!pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest)) faces = add_faces(corners, seen, view, *pixels);
+            if (!small_one)
+                faces = visible_faces(corners, result.cover);
+            else if (!pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest))
+                faces = add_faces(corners, seen, view, *pixels);
             result.bodies[candidate.body] = faces != 0;
         } else if (small_one) {
             result.bodies[candidate.body] = !pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest);

@@ -4,8 +4,8 @@
 // conservative: the frame is the same to the byte.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
+#include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <array>
@@ -49,7 +49,8 @@ struct Visibility {
 
 /// `one_sample`: the frame has one sample per pixel; many small boxes are then culled per pixel
 /// (software_depth_buffer.h).
-Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view, bool one_sample = false);
+Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+                        bool one_sample = false);
 
 /// Without culling.
 Visibility everything_visible(const RenderScene& looks, const Camera& view);

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 // Rasterization rounds corners to 1/256 pixel.
-constexpr double rounding_margin = 0.02;   // pixels
+constexpr double rounding_margin = 0.02;  // pixels
 
 // Depths that differ by less may compare either way: 24 bits, with the near plane far in front of crowds of small
 // bodies.
@@ -48,20 +48,24 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
     const ScreenPoint u = face[1].at - face[0].at, v = face[3].at - face[0].at;
     const double area = u.x() * v.y() - u.y() * v.x();
     const double du = face[1].inverse_depth - face[0].inverse_depth, dv = face[3].inverse_depth - face[0].inverse_depth;
-    const bool flat = std::abs(area) < 1e-6;   // seen edge-on: its nearest depth is used, and it covers nothing
-    const double along_x = flat ? 0.0 : (du * v.y() - dv * u.y()) / area, along_y = flat ? 0.0 : (dv * u.x() - du * v.x()) / area;
+    const bool flat = std::abs(area) < 1e-6;  // seen edge-on: its nearest depth is used, and it covers nothing
+    const double along_x = flat ? 0.0 : (du * v.y() - dv * u.y()) / area,
+                 along_y = flat ? 0.0 : (dv * u.x() - du * v.x()) / area;
     double nearest = 0.0;
     for (const Corner& c : face) nearest = std::max(nearest, c.inverse_depth);
     const auto inverse_depth = [&](int x, int y) {
         if (flat) return float(nearest);
-        const double at = face[0].inverse_depth + along_x * (x + 0.5 - face[0].at.x()) + along_y * (y + 0.5 - face[0].at.y());
+        const double at =
+            face[0].inverse_depth + along_x * (x + 0.5 - face[0].at.x()) + along_y * (y + 0.5 - face[0].at.y());
         return float(std::min(at, nearest));
     };
     bool seen = false;
-    const int first = std::max(0, int(std::ceil(top - rounding_margin - 0.5))), last = std::min(height_ - 1, int(std::floor(bottom + rounding_margin - 0.5)));
+    const int first = std::max(0, int(std::ceil(top - rounding_margin - 0.5))),
+              last = std::min(height_ - 1, int(std::floor(bottom + rounding_margin - 0.5)));
     for (int y = first; y <= last; ++y) {
         // Near a corner, the line through the row's center can miss points within the margin.
-        const Span middle = span(face, y + 0.5), above = span(face, y + 0.5 - rounding_margin), below = span(face, y + 0.5 + rounding_margin);
+        const Span middle = span(face, y + 0.5), above = span(face, y + 0.5 - rounding_margin),
+                   below = span(face, y + 0.5 + rounding_margin);
         double left = std::min({middle.left, above.left, below.left}) - rounding_margin;
         double right = std::max({middle.right, above.right, below.right}) + rounding_margin;
         for (const Corner& c : face)
@@ -79,7 +83,8 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
             const float here = inverse_depth(x, y);
             const bool within = !flat && x + 0.5 > within_left && x + 0.5 < within_right;
             if (!seen && here * (1.0f + depth_margin) >= row[x] &&
-                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) * double(here) < 1.0 - double(depth_margin)))
+                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) * double(here) <
+                  1.0 - double(depth_margin)))
                 seen = true;
             if (within) row[x] = std::max(row[x], here);
         }
@@ -89,12 +94,15 @@ bool SoftwareDepthBuffer::add(const std::array<Corner, 4>& face) {
 
 bool SoftwareDepthBuffer::hides(double x0, double y0, double x1, double y1, double depth) const {
     const float here = float(1.0 / depth) * (1.0f + depth_margin);
-    const int left = std::max(0, int(std::ceil(x0 - rounding_margin - 0.5))), right = std::min(width_ - 1, int(std::floor(x1 + rounding_margin - 0.5)));
-    const int top = std::max(0, int(std::ceil(y0 - rounding_margin - 0.5))), bottom = std::min(height_ - 1, int(std::floor(y1 + rounding_margin - 0.5)));
+    const int left = std::max(0, int(std::ceil(x0 - rounding_margin - 0.5))),
+              right = std::min(width_ - 1, int(std::floor(x1 + rounding_margin - 0.5)));
+    const int top = std::max(0, int(std::ceil(y0 - rounding_margin - 0.5))),
+              bottom = std::min(height_ - 1, int(std::floor(y1 + rounding_margin - 0.5)));
     for (int y = top; y <= bottom; ++y)
         for (int x = left; x <= right; ++x)
             if (!(here < inverse_depths_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]) &&
-                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) < depth * (1.0 - double(depth_margin))))
+                !(boxes_->depth(x / CoarseDepthBuffer::cell, y / CoarseDepthBuffer::cell) <
+                  depth * (1.0 - double(depth_margin))))
                 return false;
     return true;
 }

@@ -33,7 +33,7 @@ public:
 private:
     const CoarseDepthBuffer* boxes_;
     int width_, height_;
-    std::vector<float> inverse_depths_;   // the nearest in each pixel; 0: infinitely far
+    std::vector<float> inverse_depths_;  // the nearest in each pixel; 0: infinitely far
 };
 
 }  // namespace tumble

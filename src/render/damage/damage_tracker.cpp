@@ -1,8 +1,8 @@
 #include "render/damage/damage_tracker.h"
 
-#include "render/scene/near_plane.h"
 #include "render/damage/plane_damage.h"
 #include "render/damage/volume_damage.h"
+#include "render/scene/near_plane.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    static constexpr int count = 128;   // cells per side
+    static constexpr int count = 128;  // cells per side
 
     template <class Visit>
     void visit(const DrawableBounds& item, double more, Visit see) {
@@ -118,14 +118,16 @@ DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& oc
             if (item_moved[part.body] != 0) continue;
             const DrawableBounds& item = now.items[part.body];
             // With several samples, the pixel center may be outside the face and use a texel at its border.
-            marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high) : face_part(item, part.face));
+            marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high)
+                                           : face_part(item, part.face));
         }
         for (const OcclusionChanges::Patch& patch : occlusion.patches) {
             if (item_moved[patch.body] != 0 || marks.all()) continue;
             const BodyState& state = now.snapshot.bodies[patch.body];
             const Vec3 center = view_->relative(state.origin) + state.orientation * patch.bounds.center();
-            marks.mark_hull(now.one_sample ? box_corners(center, state.orientation.toRotationMatrix(), 0.5 * patch.bounds.extent())
-                                           : now.items[patch.body].corners());
+            marks.mark_hull(now.one_sample
+                                ? box_corners(center, state.orientation.toRotationMatrix(), 0.5 * patch.bounds.extent())
+                                : now.items[patch.body].corners());
         }
     }
     for (std::size_t i = 0; i < bodies; ++i)
@@ -142,16 +144,16 @@ bool DamageTracker::too_near(const FrameState& now) const {
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         const DrawableBounds& item = now.items[i];
         if (!item.exists() || !view_->sees(item.center, item.radius)) continue;
-        const double depth = i < looks_->bodies.size()
-                                 ? least_depth(looks_->bodies[i], *looks_, now.snapshot.bodies[i], {item.center, item.radius}, *view_)
-                                 : item.center.dot(view_->forward()) - item.radius;
+        const double depth = i < looks_->bodies.size() ? least_depth(looks_->bodies[i], *looks_, now.snapshot.bodies[i],
+                                                                     {item.center, item.radius}, *view_)
+                                                       : item.center.dot(view_->forward()) - item.radius;
         if (depth < 1.01 * now.near_distance) return true;
     }
     return false;
 }
 
 void DamageTracker::mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now,
-                                  DirtyTiles& marks) const {
+                                   DirtyTiles& marks) const {
     const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
     const ShadowLight light(scene_->light, now.shadows);
     const double blur = 1.5 * looks_->window_cell;
@@ -160,7 +162,7 @@ void DamageTracker::mark_on_planes(const DrawableBounds& item, std::size_t numbe
 
 // Marks items that stand still behind one that moved, as seen from the sun.
 void DamageTracker::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
-                                 const Visibility& visibility, DirtyTiles& marks) const {
+                                  const Visibility& visibility, DirtyTiles& marks) const {
     const ShadowLight light(scene_->light, now.shadows);
     LightCells cells{light};
     for (std::size_t i = 0; i < now.items.size(); ++i) {
@@ -177,9 +179,12 @@ void DamageTracker::mark_shadowed(const std::vector<char>& item_moved, const Fra
         const RenderBody* look = i < looks_->bodies.size() ? &looks_->bodies[i] : nullptr;
         const bool large = look != nullptr && (look->ground || look->fine_surface >= 0) && now.one_sample &&
                            FaceDamage::suits(now.items[i], now.shadows);
-        if (!large) marks.mark_hull(now.items[i].corners());
-        else if (look->kind == DrawKind::box) grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
-        else volumes.emplace_back(now.items[i], *look, *looks_, now.snapshot.bodies[i], light, *view_);
+        if (!large)
+            marks.mark_hull(now.items[i].corners());
+        else if (look->kind == DrawKind::box)
+            grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
+        else
+            volumes.emplace_back(now.items[i], *look, *looks_, now.snapshot.bodies[i], light, *view_);
     }
     if (grounds.empty() && volumes.empty()) return;
     for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {

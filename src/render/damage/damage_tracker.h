@@ -8,13 +8,13 @@
 // damage is conservative: the frame has the bytes of a full redraw.
 #pragma once
 
-#include "render/scene/drawable_bounds.h"
-#include "render/damage/face_damage.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/damage/dirty_tiles.h"
+#include "render/damage/face_damage.h"
+#include "render/damage/shadow_dirty_tiles.h"
+#include "render/scene/drawable_bounds.h"
 #include "render/scene/plane_patch.h"
 #include "render/shadow/shadow_cascades.h"
-#include "render/damage/shadow_dirty_tiles.h"
-#include "render/damage/dirty_tiles.h"
 
 #include <vector>
 
@@ -24,10 +24,10 @@ namespace tumble {
 struct FrameState {
     const Snapshot& snapshot;
     std::vector<DrawableBounds> items;
-    double near_distance = 0.0;   // m
+    double near_distance = 0.0;  // m
     ShadowCascades shadows;
     std::vector<PlanePatch> planes;
-    bool one_sample = false;   // per pixel, at its center
+    bool one_sample = false;  // per pixel, at its center
 };
 
 class DamageTracker {

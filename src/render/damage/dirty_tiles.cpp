@@ -11,9 +11,9 @@ namespace tumble {
 namespace {
 
 // One pixel for rounding by rasterization, one for the neighbors used by antialiasing, and one spare.
-constexpr double tile_margin = 3.0;   // pixels
+constexpr double tile_margin = 3.0;  // pixels
 
-enum class ScreenArea { before, beside, behind };   // of points, relative to the eye
+enum class ScreenArea { before, beside, behind };  // of points, relative to the eye
 
 ScreenArea screen_area_of(std::span<const Vec3> points, const Camera& view) {
     bool before = false, behind = false;
@@ -53,12 +53,12 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
     if (place == ScreenArea::beside) return mark_all();
     TUMBLE_CHECK_LE(points.size(), FewPoints::most);
     FewPoints corners;
-    double rim = tile_margin;   // pixels
+    double rim = tile_margin;  // pixels
     double leftmost = std::numeric_limits<double>::infinity(), rightmost = -leftmost;
     double top = leftmost, bottom = -leftmost;
     for (const Vec3& p : points) {
         corners.push_back(view_->pixel(p));
-        if (around > 0.0) {   // for points nearer to the eye by this distance, the displacement on the screen is largest
+        if (around > 0.0) {  // for points nearer to the eye by this distance, the displacement on the screen is largest
             const double depth = p.dot(view_->forward()), nearest = depth - around;
             if (nearest < 0.1 * depth) return mark_all();
             rim = std::max(rim, tile_margin + around * p.norm() / (depth * nearest * view_->pixel_size()));
@@ -68,7 +68,7 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
         top = std::min(top, corners.back().y());
         bottom = std::max(bottom, corners.back().y());
     }
-    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;   // the usual case in a heap
+    if (all_marked(leftmost - rim, top - rim, rightmost + rim, bottom + rim)) return;  // the usual case in a heap
     // Small items need no finer test: the tiles around them are marked.
     if (rightmost - leftmost < grid_.cell && bottom - top < grid_.cell) {
         corners = {};

@@ -13,7 +13,7 @@ namespace tumble {
 
 class DirtyTiles {
 public:
-    static constexpr int tile = 16;   // pixels: smaller tiles follow outlines better, but give many small rectangles
+    static constexpr int tile = 16;  // pixels: smaller tiles follow outlines better, but give many small rectangles
 
     explicit DirtyTiles(const Camera& view, int size = tile);
 
@@ -32,18 +32,19 @@ public:
 
     const CellGrid& grid() const { return grid_; }
     std::vector<Rectangle> rectangles() const;
-    std::vector<Rectangle> rectangles_outside(const DirtyTiles& others) const;   // of tiles that are not marked in `others`
+    std::vector<Rectangle> rectangles_outside(
+        const DirtyTiles& others) const;  // of tiles that are not marked in `others`
 
     /// The bounding rectangle of the marked tiles.
     Rectangle bounds() const;
 
 private:
-    bool all_marked(double x0, double y0, double x1, double y1) const;   // in this part of the screen, pixels
+    bool all_marked(double x0, double y0, double x1, double y1) const;  // in this part of the screen, pixels
 
     const Camera* view_;
     CellGrid grid_;
     std::vector<char> marks_;
-    int count_ = 0;   // of marked tiles
+    int count_ = 0;  // of marked tiles
 };
 
 }  // namespace tumble

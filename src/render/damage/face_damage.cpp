@@ -18,7 +18,8 @@ Vec3 row_of(const glm::vec4& row) { return {double(row.x), double(row.y), double
 
 }  // namespace
 
-std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::Vector2d& low,
+                              const Eigen::Vector2d& high) {
     const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
     const Vec3 middle = box.center + (face % 2 == 0 ? -1.0 : 1.0) * box.half_axes.col(axis);
     std::array<Vec3, 4> points;
@@ -50,8 +51,7 @@ std::array<Vec3, 4> FaceDamage::Face::corners() const {
 }
 
 FaceDamage::FaceDamage(const DrawableBounds& box, std::uint8_t faces, const ShadowLight& light, const Camera& view)
-    : light_(light), view_(&view),
-      two_maps_(light.fit.may_look_far(box.center, box.radius)) {
+    : light_(light), view_(&view), two_maps_(light.fit.may_look_far(box.center, box.radius)) {
     for (int face = 0; face < 6; ++face) {
         if ((faces >> face & 1) == 0) continue;
         const int axis = face / 2;
@@ -65,7 +65,7 @@ FaceDamage::FaceDamage(const DrawableBounds& box, std::uint8_t faces, const Shad
         f.v = v / f.half_v;
         f.normal = to_side.normalized();
         f.approach = -f.normal.dot(light.direction);
-        if (f.approach < -1e-6) continue;   // turned away from the sun
+        if (f.approach < -1e-6) continue;  // turned away from the sun
         Mat3 to_map;
         to_map << row_of(light.fit.x).transpose(), row_of(light.fit.y).transpose(), f.normal.transpose();
         f.from_map = to_map.inverse();
@@ -105,11 +105,12 @@ void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) co
 // widths of the near map. A point samples the place of itself displaced along the normal, and some texels around it.
 void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const {
     const ShadowCascades& fit = light_.fit;
-    const double inner = 0.5 - rim_texels / fit.texels, reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
+    const double inner = 0.5 - rim_texels / fit.texels,
+                 reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
     const auto range = [&](const glm::vec4& row) {
         const Vec3 axis = row_of(row);
-        const double at = axis.dot(caster.center) + double(row.w) -
-                          axis.dot(face.normal) * (fit.filter.offset * fit.far_texel);
+        const double at =
+            axis.dot(caster.center) + double(row.w) - axis.dot(face.normal) * (fit.filter.offset * fit.far_texel);
         const double half = (caster.half_axes.transpose() * axis).cwiseAbs().sum() + reach;
         return std::pair(at - half, at + half);
     };
@@ -119,8 +120,9 @@ void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster,
         if (!(left < right && low < high)) return;
         std::array<Vec3, 4> points;
         for (std::size_t i = 0; i < 4; ++i)
-            points[i] = face.from_map * Vec3(((i & 1) != 0 ? right : left) - double(fit.x.w),
-                                             ((i & 2) != 0 ? high : low) - double(fit.y.w), face.normal.dot(face.middle));
+            points[i] =
+                face.from_map * Vec3(((i & 1) != 0 ? right : left) - double(fit.x.w),
+                                     ((i & 2) != 0 ? high : low) - double(fit.y.w), face.normal.dot(face.middle));
         if (face.meets(points, 0.0)) marks.mark_hull(points);
     };
     mark(x0, std::min(x1, 0.5 - inner), y0, y1);

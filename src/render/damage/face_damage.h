@@ -23,11 +23,11 @@ public:
 
 private:
     struct Face {
-        Vec3 middle, u, v;   // m; u, v: unit
-        double half_u, half_v;   // m
+        Vec3 middle, u, v;      // m; u, v: unit
+        double half_u, half_v;  // m
         Vec3 normal;
-        double approach;     // sine of the angle between the light and the face
-        Mat3 from_map;       // place in the near map, and height over the face's plane -> relative to the eye
+        double approach;  // sine of the angle between the light and the face
+        Mat3 from_map;    // place in the near map, and height over the face's plane -> relative to the eye
         bool meets(std::span<const Vec3> points, double around) const;
         std::array<Vec3, 4> corners() const;
     };
@@ -35,7 +35,7 @@ private:
 
     ShadowLight light_;
     const Camera* view_;
-    std::vector<Face> faces_;   // faces towards the sun
+    std::vector<Face> faces_;  // faces towards the sun
     bool two_maps_;
 };
 

@@ -1,7 +1,7 @@
 #include "render/damage/plane_damage.h"
 
-#include "render/scene/plane_axes.h"
 #include "render/camera/convex_hull_2d.h"
+#include "render/scene/plane_axes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ double ShadowLight::filter_reach(double approach) const {
 
 double ShadowLight::margin(const DrawableBounds& item) const {
     const double near = fit.filter.reach * fit.near_texel;
-    if (!fit.may_look_far(item.center, item.radius + near)) return near;   // its shadow is in the near map as well
+    if (!fit.may_look_far(item.center, item.radius + near)) return near;  // its shadow is in the near map as well
     return fit.filter.reach * fit.far_texel;
 }
 
@@ -47,8 +47,8 @@ double ShadowLight::margin_on_plane(const DrawableBounds& item, double approach)
     return margin(item) * std::min(filter_reach(approach) / fit.filter.reach, 1.0);
 }
 
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
-                   const Camera& view, DirtyTiles& marks) {
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur,
+                   const ShadowLight& light, const Camera& view, DirtyTiles& marks) {
     const double height = plane.normal.dot(item.center) + plane.height;
     if (height < -item.radius) return;
     if (reach > 0.0 && height < item.radius + 2.0 * reach && view.sees(item.center, item.radius + 2.0 * reach))
@@ -63,11 +63,11 @@ void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double r
 
 bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
                const Camera& view, const Rectangle& part) {
-    constexpr double margin = 8.0;   // pixels: more than the margin of DirtyTiles
+    constexpr double margin = 8.0;  // pixels: more than the margin of DirtyTiles
     const double height = plane.normal.dot(item.center) + plane.height;
     const auto meets = [&](const Vec3& center, double radius) {
         const double depth = center.dot(view.forward()), nearest = depth - radius;
-        if (nearest < 0.1 * center.norm()) return true;   // near the eye, or far beside it: undecided
+        if (nearest < 0.1 * center.norm()) return true;  // near the eye, or far beside it: undecided
         const ScreenPoint at = view.pixel(center);
         const double around = radius * center.norm() / (depth * nearest * view.pixel_size()) + margin;
         return at.x() + around >= part.x && at.x() - around <= part.x + part.width && at.y() + around >= part.y &&
@@ -78,7 +78,8 @@ bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach
     if (meets(item.center - plane.normal * height, 2.5 * (item.radius + reach + blur))) return true;
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0) return false;
-    return meets(item.center + light.direction * (height / approach), (3.5 * item.radius + light.margin(item)) / approach);
+    return meets(item.center + light.direction * (height / approach),
+                 (3.5 * item.radius + light.margin(item)) / approach);
 }
 
 }  // namespace tumble

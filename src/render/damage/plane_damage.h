@@ -1,10 +1,10 @@
 // Damage by a body on a plane: its shadow and its occlusion.
 #pragma once
 
+#include "render/damage/dirty_tiles.h"
 #include "render/scene/drawable_bounds.h"
 #include "render/scene/plane_patch.h"
 #include "render/shadow/shadow_cascades.h"
-#include "render/damage/dirty_tiles.h"
 
 namespace tumble {
 
@@ -14,7 +14,7 @@ inline constexpr double least_approach = 0.02;
 /// The data of the sun for shadows on planes.
 struct ShadowLight {
     bool shadows = true;
-    Vec3 direction = Vec3::Zero();   // unit, direction in which the light travels
+    Vec3 direction = Vec3::Zero();  // unit, direction in which the light travels
     ShadowCascades fit;
 
     ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit);
@@ -32,8 +32,8 @@ struct ShadowLight {
 
 /// Marks the item's shadow on the plane and its occlusion of the plane within `reach` (m; 0: none), which is blurred by
 /// `blur` (m).
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
-                   const Camera& view, DirtyTiles& marks);
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur,
+                   const ShadowLight& light, const Camera& view, DirtyTiles& marks);
 
 /// False if mark_on_plane() certainly marks nothing in the given part of the frame: true of most bodies if little
 /// changed.

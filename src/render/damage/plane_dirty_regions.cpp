@@ -15,16 +15,16 @@ bool covered(int column, int row, const PlanePatch& plane, const Camera& view, c
     double most_fall = 0.0;  // height / depth at the nearest corner
     for (const int x : {column, column + 1})
         for (const int y : {row, row + 1})
-            most_fall =
-                std::max(most_fall, -plane.normal.dot(view.ray(x * CoarseDepthBuffer::cell, y * CoarseDepthBuffer::cell)));
+            most_fall = std::max(most_fall,
+                                 -plane.normal.dot(view.ray(x * CoarseDepthBuffer::cell, y * CoarseDepthBuffer::cell)));
     return cover.depth(column, row) * most_fall < plane.height * (1.0 - 1e-6);
 }
 
-constexpr int area_block = 4, longest_run = 32;   // texels
+constexpr int area_block = 4, longest_run = 32;  // texels
 
 // Marks the runs of blocks with occlusion in the plane's tile of the atlas.
-void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks, const Snapshot& snapshot,
-                    const Camera& view, DirtyTiles& touched) {
+void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks,
+                    const Snapshot& snapshot, const Camera& view, DirtyTiles& touched) {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
                                      [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (window == atlas.windows.end()) return;
@@ -32,25 +32,29 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
     const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v, eye = view.eye() - state.origin;
     const auto place = [&](int i, int j) -> Vec3 {
-        return u * ((window->low_a + i) * window->cell - u.dot(eye)) + v * ((window->low_b + j) * window->cell - v.dot(eye)) -
-               plane.normal * plane.height;
+        return u * ((window->low_a + i) * window->cell - u.dot(eye)) +
+               v * ((window->low_b + j) * window->cell - v.dot(eye)) - plane.normal * plane.height;
     };
-    const auto mark = [&](int left, int right, int top, int bottom) {   // interpolation: a texel affects its neighbors
-        const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom), place(left - 1, bottom)};
-        if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm())) touched.mark_hull(corners);
+    const auto mark = [&](int left, int right, int top, int bottom) {  // interpolation: a texel affects its neighbors
+        const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom),
+                                          place(left - 1, bottom)};
+        if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm()))
+            touched.mark_hull(corners);
     };
     const auto dark = [&](int i, int j) {
         constexpr std::array<std::uint8_t, area_block> open{255, 255, 255, 255};
         const std::size_t columns = std::size_t(std::min(area_block, window->width - i));
         for (int row = j; row < std::min(j + area_block, window->height); ++row)
-            if (std::memcmp(&atlas.texels[std::size_t(window->y + row) * OcclusionAtlas::width + std::size_t(window->x + i)],
-                            open.data(), columns) != 0)
+            if (std::memcmp(
+                    &atlas.texels[std::size_t(window->y + row) * OcclusionAtlas::width + std::size_t(window->x + i)],
+                    open.data(), columns) != 0)
                 return true;
         return false;
     };
     for (int j = 0; j < window->height; j += area_block)
         for (int i = 0, first = 0; i < window->width; i += area_block) {
-            const bool is_dark = dark(i, j), ends = i + area_block >= window->width || i + area_block - first >= longest_run;
+            const bool is_dark = dark(i, j),
+                       ends = i + area_block >= window->width || i + area_block - first >= longest_run;
             const int end = is_dark ? std::min(i + area_block, window->width) : i;
             if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + area_block, window->height));
             if (!is_dark || ends) first = i + area_block;
@@ -59,9 +63,10 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
 
 }  // namespace
 
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const RenderScene& looks,
-                                          const std::vector<DrawableBounds>& items, const Camera& view,
-                                          const ShadowCascades& shadows, const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene,
+                                          const RenderScene& looks, const std::vector<DrawableBounds>& items,
+                                          const Camera& view, const ShadowCascades& shadows,
+                                          const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
                                           const Snapshot& snapshot, const DirtyTiles& marks) {
     constexpr int per_tile = DirtyTiles::tile / CoarseDepthBuffer::cell;
     static_assert(per_tile * CoarseDepthBuffer::cell == DirtyTiles::tile);

@@ -4,8 +4,8 @@
 
 #include "core/rectangle.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
-#include "render/damage/plane_damage.h"
 #include "render/culling/occlusion_culling.h"
+#include "render/damage/plane_damage.h"
 
 #include <vector>
 
@@ -13,9 +13,10 @@ namespace tumble {
 
 /// Within the marked tiles. `items`: possible casters; `atlas`: texels with occlusion (the AO radius of most bodies
 /// exceeds the visible effect).
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene, const RenderScene& looks,
-                                          const std::vector<DrawableBounds>& items, const Camera& view,
-                                          const ShadowCascades& shadows, const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
+std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene,
+                                          const RenderScene& looks, const std::vector<DrawableBounds>& items,
+                                          const Camera& view, const ShadowCascades& shadows,
+                                          const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
                                           const Snapshot& snapshot, const DirtyTiles& marks);
 
 }  // namespace tumble

@@ -22,8 +22,7 @@ ShadowDirtyTiles::Range ShadowDirtyTiles::range(const DrawableBounds& item, int 
     const double reach = scale * item.radius / (fit_.near_texel * fit_.texels) + 1.5 / fit_.texels;
     const auto cell = [](double at) { return int(std::clamp(std::floor(at * count), -1.0, double(count))); };
     const auto span = [&](const glm::vec4& row, double shift, int& first, int& end) {
-        const double near =
-            row.x * item.center.x() + row.y * item.center.y() + row.z * item.center.z() + double(row.w);
+        const double near = row.x * item.center.x() + row.y * item.center.y() + row.z * item.center.z() + double(row.w);
         const double at = scale * near + shift;
         first = std::max(cell(at - reach), 0);
         end = std::min(cell(at + reach) + 1, count);
@@ -61,9 +60,9 @@ std::vector<Rectangle> ShadowDirtyTiles::rectangles() const {
     const int texels = (fit_.texels + count - 1) / count;
     std::vector<Rectangle> all;
     for (int map = 0; map < maps_; ++map)
-        for (Rectangle part : cell_rectangles({count, count, texels, fit_.texels, fit_.texels}, [&](int column, int row) {
-                 return marks_[std::size_t((map * count + row) * count + column)] != 0;
-             })) {
+        for (Rectangle part : cell_rectangles(
+                 {count, count, texels, fit_.texels, fit_.texels},
+                 [&](int column, int row) { return marks_[std::size_t((map * count + row) * count + column)] != 0; })) {
             part.x += map * fit_.texels;
             all.push_back(part);
         }

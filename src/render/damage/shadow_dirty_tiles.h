@@ -12,7 +12,7 @@ namespace tumble {
 
 class ShadowDirtyTiles {
 public:
-    static constexpr int count = 24;   // cells per side: 32 texels each
+    static constexpr int count = 24;  // cells per side: 32 texels each
 
     explicit ShadowDirtyTiles(const ShadowCascades& fit);
 
@@ -36,8 +36,8 @@ private:
     Range range(const DrawableBounds& item, int map) const;
 
     ShadowCascades fit_;
-    int maps_;                  // 2 with a far map
-    std::vector<char> marks_;   // map by map, row by row
+    int maps_;                 // 2 with a far map
+    std::vector<char> marks_;  // map by map, row by row
 };
 
 }  // namespace tumble

@@ -10,8 +10,8 @@ namespace tumble {
 
 struct CellGrid {
     int columns = 0, rows = 0;
-    int cell = 1;                // pixels
-    int width = 0, height = 0;   // of the frame, pixels; the last column and row may be cut off
+    int cell = 1;               // pixels
+    int width = 0, height = 0;  // of the frame, pixels; the last column and row may be cut off
 };
 
 /// The rectangles of all cells for which `wanted(column, row)` is true, in pixels: runs along a row, extended downward

@@ -6,9 +6,11 @@
 
 namespace tumble {
 
-VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
-                         const ShadowLight& light, const Camera& view)
-    : light_(light), view_(&view), axes_(state.orientation.toRotationMatrix()),
+VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks,
+                           const BodyState& state, const ShadowLight& light, const Camera& view)
+    : light_(light),
+      view_(&view),
+      axes_(state.orientation.toRotationMatrix()),
       two_maps_(light.fit.may_look_far(item.center, item.radius)) {
     if (look.fine_surface < 0) {
         boxes_.push_back({item.center, item.half_axes.colwise().norm()});
@@ -17,14 +19,16 @@ VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, c
     const Vec3 origin = view.relative(state.origin);
     for (const OcclusionLightmap::Group& group : looks.fine_surfaces[std::size_t(look.fine_surface)].groups) {
         const Vec3 center = origin + axes_ * group.bounds.center();
-        if (view.sees(center, 0.5 * group.bounds.extent().norm())) boxes_.push_back({center, 0.5 * group.bounds.extent()});
+        if (view.sees(center, 0.5 * group.bounds.extent().norm()))
+            boxes_.push_back({center, 0.5 * group.bounds.extent()});
     }
 }
 
 // A shadow extends beyond its outline by the filter and the normal offset. Near the border of the near map, or outside
 // it, those of the far one apply.
 void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
-    const double near = light_.fit.filter.reach * light_.fit.near_texel, far = light_.fit.filter.reach * light_.fit.far_texel;
+    const double near = light_.fit.filter.reach * light_.fit.near_texel,
+                 far = light_.fit.filter.reach * light_.fit.far_texel;
     const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
     if (!view_->sees_swept(caster.center, caster.radius + margin, light_.direction)) return;
     for (const Box& box : boxes_) mark_in(box, caster, margin, marks);

@@ -12,20 +12,20 @@ class VolumeDamage {
 public:
     /// `state`: of the item's body.
     VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
-                const ShadowLight& light, const Camera& view);
+                 const ShadowLight& light, const Camera& view);
 
     /// Marks the caster's shadow.
     void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
 
 private:
     struct Box {
-        Vec3 center, half_size;   // m, relative to the eye; m, along the axes
+        Vec3 center, half_size;  // m, relative to the eye; m, along the axes
     };
     void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const;
 
     ShadowLight light_;
     const Camera* view_;
-    Mat3 axes_;                   // columns
+    Mat3 axes_;  // columns
     std::vector<Box> boxes_;
     bool two_maps_;
 };

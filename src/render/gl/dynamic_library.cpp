@@ -37,9 +37,10 @@ DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const std::st
         tried += "\n  " + reason;
     }
     if (!missing)
-        throw RunError(fmt::format("the rendering library cannot be opened (it is in the package {}). Tried:{}", package, tried));
-    throw RunError(
-        fmt::format("the rendering library is missing; install it with 'apt-get install {}'. Tried:{}", package, tried));
+        throw RunError(
+            fmt::format("the rendering library cannot be opened (it is in the package {}). Tried:{}", package, tried));
+    throw RunError(fmt::format("the rendering library is missing; install it with 'apt-get install {}'. Tried:{}",
+                               package, tried));
 }
 
 void* DynamicLibrary::find(const char* symbol) const { return dlsym(handle_, symbol); }

@@ -9,7 +9,8 @@
 namespace tumble {
 namespace {
 
-constexpr int nearest_strip_rows = 64;   // of nearest depths, so that the source of copies stays in the processor's cache
+constexpr int nearest_strip_rows =
+    64;  // of nearest depths, so that the source of copies stays in the processor's cache
 
 int integer(const GlFunctions& gl, GLenum name) {
     GLint value = 0;
@@ -87,7 +88,8 @@ void Framebuffer::close(const std::vector<Rectangle>& rectangles) const {
     for (const Rectangle& r : rectangles)
         for (int y = r.y; y < r.y + r.height; y += nearest_strip_rows) {
             const int rows = std::min(nearest_strip_rows, r.y + r.height - y);
-            gl_->BlitFramebuffer(r.x, 0, r.x + r.width, rows, r.x, y, r.x + r.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+            gl_->BlitFramebuffer(r.x, 0, r.x + r.width, rows, r.x, y, r.x + r.width, y + rows, GL_DEPTH_BUFFER_BIT,
+                                 GL_NEAREST);
         }
 }
 

@@ -53,7 +53,7 @@ private:
     const GlFunctions* gl_;
     int width_, height_, samples_;
     Target background_, drawn_;
-    Target closed_;   // a strip of nearest depths, copied over pixels that are closed: a third of the cost of clearing
+    Target closed_;  // a strip of nearest depths, copied over pixels that are closed: a third of the cost of clearing
     bool whole_open_ = false;         // true if the whole frame can be drawn to
     std::optional<Target> resolved_;  // only with several samples
 };

@@ -2,8 +2,8 @@
 // deliver its functions and stay alive; the drawing code is the same for every backend.
 #pragma once
 
-#include "render/gl/gl_functions.h"
 #include "render/gl/gl_backend.h"
+#include "render/gl/gl_functions.h"
 
 #include <memory>
 

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 constexpr auto between_looks = 500us;
 // longer than the compilation of any shader: the other process has ended, or gets no processor time
 constexpr auto longest_wait = 500ms;
-constexpr auto until_on_disk = 3ms;    // Mesa writes its files in a thread of its own
+constexpr auto until_on_disk = 3ms;  // Mesa writes its files in a thread of its own
 
 }  // namespace
 
@@ -31,7 +31,8 @@ void ShaderCompileSchedule::run(std::span<const std::function<void()>> parts) {
     if (!others) return;
     const auto end = std::chrono::steady_clock::now() + longest_wait;
     const auto all_done = [&] {
-        return std::all_of(states_.begin(), states_.begin() + std::ptrdiff_t(count), [](const auto& s) { return s == done; });
+        return std::all_of(states_.begin(), states_.begin() + std::ptrdiff_t(count),
+                           [](const auto& s) { return s == done; });
     };
     while (!all_done() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(between_looks);
     std::this_thread::sleep_for(until_on_disk);

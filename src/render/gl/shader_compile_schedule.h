@@ -14,7 +14,7 @@ namespace tumble {
 /// Placed in memory that the processes share; zeroed memory is a valid initial state.
 class ShaderCompileSchedule {
 public:
-    static constexpr std::size_t most = 32;   // further shaders are compiled at their first use
+    static constexpr std::size_t most = 32;  // further shaders are compiled at their first use
 
     /// Runs the parts that no other process has taken, in order, then waits for the parts of the others. Every process
     /// must pass the same list, the longest parts first, so that all end at about the same time.
@@ -24,7 +24,7 @@ private:
     enum State : unsigned char { open, taken, done };
 
     std::array<std::atomic<unsigned char>, most> states_{};
-    static_assert(std::atomic<unsigned char>::is_always_lock_free);   // otherwise it would not work between processes
+    static_assert(std::atomic<unsigned char>::is_always_lock_free);  // otherwise it would not work between processes
 };
 
 }  // namespace tumble

@@ -17,10 +17,11 @@ namespace {
 std::filesystem::path own_binary() {
     static const char anchor = 0;
     Dl_info info{};
-    link_map* object = nullptr;   // its name is empty for the program
+    link_map* object = nullptr;  // its name is empty for the program
     const bool known = ::dladdr1(&anchor, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
     std::error_code failed;
-    if (known && object != nullptr && *object->l_name != '\0') return std::filesystem::canonical(object->l_name, failed);
+    if (known && object != nullptr && *object->l_name != '\0')
+        return std::filesystem::canonical(object->l_name, failed);
     return std::filesystem::read_symlink("/proc/self/exe", failed);
 }
 

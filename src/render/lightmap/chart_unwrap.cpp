@@ -19,18 +19,18 @@ constexpr double rim = 1.5;
 
 // A texel shades points within one texel of it, plus a tenth for rounding; there the surface rises by as much across
 // and along.
-constexpr double most_rise = 2.2;   // texels
+constexpr double most_rise = 2.2;  // texels
 
 // Height difference above which two surfaces of one chart at one place are two floors. Two that meet at an edge differ
 // by 1.4 half a texel beyond it.
-constexpr double most_step = 1.5;   // texels
+constexpr double most_step = 1.5;  // texels
 
 struct ChartTriangle {
-    std::array<Eigen::Vector3d, 3> corners;   // texels: the chart's two axes, then the projection axis
-    int side = 0;                             // twice that axis; plus one if it faces along it
+    std::array<Eigen::Vector3d, 3> corners;  // texels: the chart's two axes, then the projection axis
+    int side = 0;                            // twice that axis; plus one if it faces along it
     int chart = -1;
-    Eigen::Vector3d edge[3];                  // distance of (a, b) from each side, inward: x a + y b + z, texels
-    Eigen::Vector3d rise;                     // height over (a, b), in the same form
+    Eigen::Vector3d edge[3];  // distance of (a, b) from each side, inward: x a + y b + z, texels
+    Eigen::Vector3d rise;     // height over (a, b), in the same form
     double outside(double a, double b) const {
         double most = -1e30;
         for (const Eigen::Vector3d& e : edge) most = std::max(most, -(e.x() * a + e.y() * b + e.z()));
@@ -104,17 +104,17 @@ private:
     // By edges between equal positions.
     void find_neighbours() {
         const auto place = [&](std::uint32_t vertex) {
-            const float (&p)[3] = asset_.vertices[vertex].position;
+            const float(&p)[3] = asset_.vertices[vertex].position;
             return std::tie(p[0], p[1], p[2]);
         };
         std::vector<std::uint32_t> order(asset_.vertices.size()), point(order.size());
         std::iota(order.begin(), order.end(), 0u);
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-        for (std::size_t i = 0; i < order.size(); ++i)   // each vertex is represented by the first one at its position
+        for (std::size_t i = 0; i < order.size(); ++i)  // each vertex is represented by the first one at its position
             point[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? point[order[i - 1]] : order[i];
         struct Edge {
             std::uint64_t points;
-            std::uint32_t side;   // of a triangle: three times its index, plus the index of the side
+            std::uint32_t side;  // of a triangle: three times its index, plus the index of the side
         };
         std::vector<Edge> edges;
         edges.reserve(asset_.indices.size());
@@ -123,11 +123,11 @@ private:
             const auto [low, high] = std::minmax({point[asset_.indices[i]], point[asset_.indices[next]]});
             edges.push_back({std::uint64_t(low) << 32 | high, std::uint32_t(i)});
         }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tie(a.points, a.side) < std::tie(b.points, b.side);
-        });
+        std::sort(edges.begin(), edges.end(),
+                  [](const Edge& a, const Edge& b) { return std::tie(a.points, a.side) < std::tie(b.points, b.side); });
         neighbours_.assign(asset_.indices.size(), none);
-        for (std::size_t i = 1; i < edges.size(); ++i)   // where more than two triangles meet, they are paired in another way
+        for (std::size_t i = 1; i < edges.size();
+             ++i)  // where more than two triangles meet, they are paired in another way
             if (edges[i].points == edges[i - 1].points) {
                 neighbours_[edges[i].side] = edges[i - 1].side / 3;
                 neighbours_[edges[i - 1].side] = edges[i].side / 3;
@@ -155,7 +155,9 @@ private:
             ChartTriangle& t = triangles_[open[next]];
             if (t.chart >= 0) continue;
             bool fits = true;
-            const auto place = [&](int a, int b) -> Seen& { return seen[std::size_t(b) * std::size_t(columns) + std::size_t(a)]; };
+            const auto place = [&](int a, int b) -> Seen& {
+                return seen[std::size_t(b) * std::size_t(columns) + std::size_t(a)];
+            };
             visit(t, 0.5, [&](int a, int b, double) {
                 const Seen& there = place(a, b);
                 if (there.chart == chart && std::abs(there.height - t.height(a, b)) > most_step) fits = false;
@@ -217,7 +219,7 @@ private:
     }
 
     void place_vertices() {
-        std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;   // chart copies of each vertex
+        std::vector<std::uint32_t> latest(asset_.vertices.size(), none), before;  // chart copies of each vertex
         std::vector<int> chart;                                                   // chart of each copy
         for (std::size_t i = 0; i < asset_.indices.size(); ++i) {
             const ChartTriangle& t = triangles_[i / 3];
@@ -235,7 +237,8 @@ private:
             const ChartedMesh::Chart& c = result_.charts[std::size_t(t.chart)];
             const auto& from = first_[std::size_t(t.chart)];
             result_.vertices.push_back(asset_.vertices[asset_.indices[i]]);
-            result_.texels.push_back({float(t.corners[i % 3].x() - from[0] + c.x), float(t.corners[i % 3].y() - from[1] + c.y)});
+            result_.texels.push_back(
+                {float(t.corners[i % 3].x() - from[0] + c.x), float(t.corners[i % 3].y() - from[1] + c.y)});
         }
     }
 
@@ -271,7 +274,9 @@ private:
         }
     }
 
-    static void put(const Vec3& from, std::array<float, 3>& to) { to = {float(from.x()), float(from.y()), float(from.z())}; }
+    static void put(const Vec3& from, std::array<float, 3>& to) {
+        to = {float(from.x()), float(from.y()), float(from.z())};
+    }
 
     // Interpolated between the corners' normals, as in shading.
     Vec3 normal_at(std::size_t triangle, double a, double b) const {
@@ -290,17 +295,17 @@ private:
 
     struct Seen {
         int chart = -1;
-        float height = 0.0f;   // texels
+        float height = 0.0f;  // texels
     };
     const MeshAsset& asset_;
     double cell_;
     Vec3 low_ = Vec3::Zero();
-    std::array<int, 3> count_{};   // texels along each axis
+    std::array<int, 3> count_{};  // texels along each axis
     std::vector<ChartTriangle> triangles_;
-    std::vector<std::uint32_t> neighbours_;   // three per triangle
-    std::array<std::vector<Seen>, 3> seen_;   // along each axis: the chart that was entered there last
-    std::vector<int> sides_;                  // of each chart
-    std::vector<std::array<int, 2>> first_;   // first texel of each chart, before packing
+    std::vector<std::uint32_t> neighbours_;  // three per triangle
+    std::array<std::vector<Seen>, 3> seen_;  // along each axis: the chart that was entered there last
+    std::vector<int> sides_;                 // of each chart
+    std::vector<std::array<int, 2>> first_;  // first texel of each chart, before packing
     ChartedMesh result_;
 };
 

@@ -17,19 +17,20 @@ struct ChartedMesh {
     /// A rectangle of texels, from (x, y) of the whole on.
     struct Chart {
         int x, y, width, height;
-        int axis;   // projection axis
+        int axis;  // projection axis
     };
-    double cell = 0.0;           // m, distance of texels
-    int width = 0, height = 0;   // texels
+    double cell = 0.0;          // m, distance of texels
+    int width = 0, height = 0;  // texels
     std::vector<Chart> charts;
-    std::vector<MeshAsset::Vertex> vertices;       // for drawing, one copy per chart
-    std::vector<std::array<float, 2>> texels;      // of each vertex; the center of the first texel is at 0, 0
-    std::vector<std::uint32_t> indices;            // the asset's triangles in their order
+    std::vector<MeshAsset::Vertex> vertices;   // for drawing, one copy per chart
+    std::vector<std::array<float, 2>> texels;  // of each vertex; the center of the first texel is at 0, 0
+    std::vector<std::uint32_t> indices;        // the asset's triangles in their order
 
     /// Of each texel, row by row.
     std::vector<std::array<float, 3>> positions, normals;
-    std::vector<std::array<float, 2>> heights;     // range of heights that the texel shades, along the chart's axis, m; (1, 0)
-                                                   // without a surface within one and a half texels
+    std::vector<std::array<float, 2>>
+        heights;  // range of heights that the texel shades, along the chart's axis, m; (1, 0)
+                  // without a surface within one and a half texels
     bool used(std::size_t texel) const { return heights[texel][0] <= heights[texel][1]; }
 };
 

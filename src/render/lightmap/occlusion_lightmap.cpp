@@ -11,7 +11,8 @@ namespace {
 // Interpolation: points within one texel of a changed texel, plus a tenth for rounding.
 constexpr double to_next = 1.1;
 
-constexpr double steepest_ball = 1.8;   // spacing of the texels of an octahedral map, relative to the mean, near its center lines
+constexpr double steepest_ball =
+    1.8;  // spacing of the texels of an octahedral map, relative to the mean, near its center lines
 
 Vec3 texel_center(const OcclusionLightmap& surface, std::size_t texel) {
     const auto& p = surface.positions[texel];
@@ -19,7 +20,7 @@ Vec3 texel_center(const OcclusionLightmap& surface, std::size_t texel) {
 }
 
 struct Region {
-    int x, y, width, height;   // texels
+    int x, y, width, height;  // texels
 };
 
 // `used(texel)`; `add(texel, bounds)` extends the bounds by the texel's points.
@@ -36,7 +37,7 @@ void add_blocks(OcclusionLightmap& surface, const Region& region, const Used& us
                 add(any, b.bounds);
             }
         if (b.bounds.empty()) return;
-        for (int j = y; j < y + rows; ++j)   // texels without a surface join any block
+        for (int j = y; j < y + rows; ++j)  // texels without a surface join any block
             for (int i = x; i < x + columns; ++i) {
                 if (used(at(i, j))) continue;
                 surface.positions[at(i, j)] = surface.positions[any];
@@ -48,10 +49,12 @@ void add_blocks(OcclusionLightmap& surface, const Region& region, const Used& us
     for (int y = 0; y < region.height; y += OcclusionLightmap::group)
         for (int x = 0; x < region.width; x += OcclusionLightmap::group) {
             surface.groups.push_back({std::uint32_t(surface.blocks.size()), 0, {}});
-            const int end_x = std::min(x + OcclusionLightmap::group, region.width), end_y = std::min(y + OcclusionLightmap::group, region.height);
+            const int end_x = std::min(x + OcclusionLightmap::group, region.width),
+                      end_y = std::min(y + OcclusionLightmap::group, region.height);
             for (int j = y; j < end_y; j += OcclusionLightmap::block)
                 for (int i = x; i < end_x; i += OcclusionLightmap::block)
-                    add_block(region.x + i, region.y + j, std::min(OcclusionLightmap::block, end_x - i), std::min(OcclusionLightmap::block, end_y - j));
+                    add_block(region.x + i, region.y + j, std::min(OcclusionLightmap::block, end_x - i),
+                              std::min(OcclusionLightmap::block, end_y - j));
             surface.groups.back().end = std::uint32_t(surface.blocks.size());
             if (surface.groups.back().first == surface.groups.back().end) surface.groups.pop_back();
         }
@@ -76,15 +79,16 @@ OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts) {
     for (const ChartedMesh::Chart& c : charts.charts) {
         Vec3 around = Vec3::Constant(to_next * charts.cell);
         around[c.axis] = 0.0;
-        add_blocks(surface, {c.x, c.y, c.width, c.height}, [&](std::size_t i) { return charts.used(i); },
-                   [&](std::size_t i, Bounds& bounds) {
-                       Vec3 p = texel_center(surface, i);
-                       for (const float height : charts.heights[i]) {
-                           p[c.axis] = double(height);
-                           bounds.add(p - around);
-                           bounds.add(p + around);
-                       }
-                   });
+        add_blocks(
+            surface, {c.x, c.y, c.width, c.height}, [&](std::size_t i) { return charts.used(i); },
+            [&](std::size_t i, Bounds& bounds) {
+                Vec3 p = texel_center(surface, i);
+                for (const float height : charts.heights[i]) {
+                    p[c.axis] = double(height);
+                    bounds.add(p - around);
+                    bounds.add(p + around);
+                }
+            });
     }
     charts.heights = {};
     return surface;
@@ -103,10 +107,12 @@ OcclusionLightmap fine_surface_of_ball(double radius, int texels) {
         }
     const double apart = steepest_ball * pi * radius / (texels - 1);
     const Vec3 around = Vec3::Constant(to_next * apart);
-    add_blocks(surface, {0, 0, texels, texels}, [](std::size_t) { return true; }, [&](std::size_t i, Bounds& bounds) {
-        bounds.add(texel_center(surface, i) - around);
-        bounds.add(texel_center(surface, i) + around);
-    });
+    add_blocks(
+        surface, {0, 0, texels, texels}, [](std::size_t) { return true; },
+        [&](std::size_t i, Bounds& bounds) {
+            bounds.add(texel_center(surface, i) - around);
+            bounds.add(texel_center(surface, i) + around);
+        });
     return surface;
 }
 

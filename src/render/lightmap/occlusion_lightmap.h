@@ -12,18 +12,18 @@
 namespace tumble {
 
 struct OcclusionLightmap {
-    static constexpr int block = 8;          // texels per side
-    static constexpr int group = 64;         // texels per side of a group of blocks
+    static constexpr int block = 8;   // texels per side
+    static constexpr int group = 64;  // texels per side of a group of blocks
     struct Block {
-        int x, y, width, height;             // texels
-        Bounds bounds;                       // of all points that these texels shade; body frame, m
+        int x, y, width, height;  // texels
+        Bounds bounds;            // of all points that these texels shade; body frame, m
     };
     struct Group {
-        std::uint32_t first, end;            // blocks
+        std::uint32_t first, end;  // blocks
         Bounds bounds;
     };
-    int width = 0, height = 0;               // texels
-    std::vector<std::array<float, 3>> positions, normals;   // of each texel, row by row; body frame, m
+    int width = 0, height = 0;                             // texels
+    std::vector<std::array<float, 3>> positions, normals;  // of each texel, row by row; body frame, m
     std::vector<Block> blocks;
     std::vector<Group> groups;
 };

@@ -14,7 +14,9 @@ namespace tumble {
 inline constexpr std::size_t half_box_mesh = 0, face_mesh = 1, first_ball_mesh = 2, ball_levels = 6;
 inline constexpr std::size_t cylinder_mesh = first_ball_mesh + ball_levels, first_scene_mesh = cylinder_mesh + 1;
 
-inline std::size_t scene_mesh(std::size_t mesh, std::size_t level) { return first_scene_mesh + mesh * mesh_levels + level; }
+inline std::size_t scene_mesh(std::size_t mesh, std::size_t level) {
+    return first_scene_mesh + mesh * mesh_levels + level;
+}
 
 struct Batch {
     std::size_t mesh = 0;

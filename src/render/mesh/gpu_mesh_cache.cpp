@@ -15,7 +15,7 @@ GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& looks)
 }
 
 void GpuMeshCache::make_primitive(std::size_t mesh) {
-    const bool closed = mesh != half_box_mesh;   // it is mirrored as needed, so its winding varies
+    const bool closed = mesh != half_box_mesh;  // it is mirrored as needed, so its winding varies
     const DrawMesh made = mesh == half_box_mesh   ? make_half_box()
                           : mesh == face_mesh     ? make_face()
                           : mesh == cylinder_mesh ? make_cylinder(cylinder_sides)
@@ -31,7 +31,8 @@ void GpuMeshCache::make(std::size_t mesh, MeshLods& details) {
         const ChartedMesh& charts = *look.charts;
         meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, look.closed});
     } else if (level == 0) {
-        meshes_[mesh].emplace(*gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, look.closed});
+        meshes_[mesh].emplace(
+            *gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, look.closed});
     } else {
         const MeshLod& detail = details.at(which, level);
         meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, look.closed});
@@ -64,7 +65,7 @@ void GpuMeshCache::draw_in_view(const Batch& batch) const {
     if (mesh.closed()) return;
     gl_->CullFace(GL_FRONT);
     gl_->Enable(GL_POLYGON_OFFSET_FILL);
-    gl_->PolygonOffset(1.0f, 8.0f);   // slope of the depth per pixel, plus eight steps of the depth buffer
+    gl_->PolygonOffset(1.0f, 8.0f);  // slope of the depth per pixel, plus eight steps of the depth buffer
     mesh.draw(instances_.name(), batch.first, batch.count);
     gl_->Disable(GL_POLYGON_OFFSET_FILL);
     gl_->CullFace(GL_BACK);

@@ -33,7 +33,7 @@ private:
     const GlFunctions* gl_;
     GlObject array_, vertices_, indices_, probes_, texels_;
     GLsizei index_count_;
-    mutable GLuint instances_ = 0;   // the buffer that the vertex array refers to
+    mutable GLuint instances_ = 0;  // the buffer that the vertex array refers to
     bool closed_;
 };
 

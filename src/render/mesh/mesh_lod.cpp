@@ -12,7 +12,7 @@
 namespace tumble {
 namespace {
 
-constexpr double finest_deviation = 1.0 / 512.0;   // of the ball's radius: a mesh with a radius of 128 pixels
+constexpr double finest_deviation = 1.0 / 512.0;  // of the ball's radius: a mesh with a radius of 128 pixels
 
 // A level with fewer triangles saves nothing: setting up a batch costs as much.
 constexpr std::size_t few_triangles = 96;
@@ -26,7 +26,9 @@ constexpr double next_try = 0.6;
 
 using Indices = std::vector<std::uint32_t>;
 
-Vec3 position(const MeshAsset::Vertex& v) { return {double(v.position[0]), double(v.position[1]), double(v.position[2])}; }
+Vec3 position(const MeshAsset::Vertex& v) {
+    return {double(v.position[0]), double(v.position[1]), double(v.position[2])};
+}
 
 std::vector<NearSurface::Triangle> triangles_of(const MeshAsset& asset, const Indices& indices) {
     std::vector<NearSurface::Triangle> triangles;
@@ -40,7 +42,8 @@ bool near_enough(const MeshAsset& asset, const NearSurface& whole, const Indices
     if (fewer.empty()) return false;
     std::vector<NearSurface::Triangle> triangles = triangles_of(asset, fewer);
     for (const auto& [a, b, c] : triangles)
-        for (const Vec3& point : {Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)), Vec3(0.5 * (c + a)), Vec3((a + b + c) / 3.0)})
+        for (const Vec3& point :
+             {Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)), Vec3(0.5 * (c + a)), Vec3((a + b + c) / 3.0)})
             if (!whole.holds(point)) return false;
     const NearSurface surface(std::move(triangles), deviation);
     return std::all_of(asset.vertices.begin(), asset.vertices.end(),
@@ -71,7 +74,8 @@ double deviation_of_level(const RenderBody& look, std::size_t level) {
 
 std::size_t level_for(const RenderBody& look, const RenderScene& looks, double deviation) {
     const std::size_t triangles = looks.meshes[look.mesh].asset->indices.size() / 3;
-    if (looks.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles) return 0;
+    if (looks.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles)
+        return 0;
     std::size_t level = 0;
     while (level + 1 < mesh_levels && deviation_of_level(look, level + 1) <= deviation) ++level;
     return level;
@@ -99,8 +103,9 @@ MeshLod simplify(const RenderMesh& mesh, double deviation) {
             detail.probe_of_vertex.push_back(mesh.probe_of_vertex[old]);
         }
         detail.indices.push_back(place->second);
-        const auto [point, is_new_point] = welded.try_emplace({vertex.position[0], vertex.position[1], vertex.position[2]},
-                                                              std::uint32_t(detail.surface.vertices.size()));
+        const auto [point, is_new_point] =
+            welded.try_emplace({vertex.position[0], vertex.position[1], vertex.position[2]},
+                               std::uint32_t(detail.surface.vertices.size()));
         if (is_new_point) detail.surface.vertices.push_back(position(vertex));
         corners.push_back(point->second);
     }

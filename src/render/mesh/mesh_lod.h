@@ -17,8 +17,8 @@ namespace tumble {
 struct MeshLod {
     std::vector<MeshAsset::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> probe_of_vertex;   // as in RenderMesh
-    TriangleMesh surface;                         // the same triangles with welded vertices, for the outline
+    std::vector<std::uint32_t> probe_of_vertex;  // as in RenderMesh
+    TriangleMesh surface;                        // the same triangles with welded vertices, for the outline
 };
 
 /// largest deviation of the drawn surface from the true one, pixels or texels of a shadow map
@@ -52,7 +52,7 @@ public:
 
 private:
     const RenderScene* looks_;
-    std::vector<std::optional<MeshLod>> details_;   // by mesh
+    std::vector<std::optional<MeshLod>> details_;  // by mesh
 };
 
 /// For tests: like `at`, for a single mesh, with a deviation in m.

@@ -18,7 +18,7 @@ MeshAsset::Vertex vertex(const Vec3& position, const Vec3& normal) {
 
 DrawMesh make_half_box() {
     DrawMesh mesh;
-    for (unsigned i = 1; i < 8; ++i) {   // bit k: on the high side of axis k
+    for (unsigned i = 1; i < 8; ++i) {  // bit k: on the high side of axis k
         const Vec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
         mesh.vertices.push_back(vertex(corner, corner.normalized()));
     }

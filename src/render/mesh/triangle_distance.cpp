@@ -8,7 +8,7 @@ namespace {
 
 // Largest number of cells per side, for any distance.
 constexpr double most_cells = 64.0;
-constexpr std::int64_t row = 1 << 20;   // stride of cell indices
+constexpr std::int64_t row = 1 << 20;  // stride of cell indices
 
 Bounds bounds_of(const NearSurface::Triangle& t) {
     Bounds bounds;
@@ -34,7 +34,8 @@ double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const V
     return sum > 0.0 ? (ap - ab * (vb / sum) - ac * (vc / sum)).norm() : ap.norm();
 }
 
-NearSurface::NearSurface(std::vector<Triangle> triangles, double within) : triangles_(std::move(triangles)), within_(within) {
+NearSurface::NearSurface(std::vector<Triangle> triangles, double within)
+    : triangles_(std::move(triangles)), within_(within) {
     Bounds all;
     for (const Triangle& t : triangles_)
         for (const Vec3& corner : t) all.add(corner);

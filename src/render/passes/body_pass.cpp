@@ -10,8 +10,9 @@ namespace tumble {
 std::vector<std::string> shadow_defines(const ShadowFilter& filter) {
     std::vector<std::string> all = {fmt::format("SHADOW_TEXELS {}.0", shadow_map_texels)};
     if (filter.by_pixel)
-        for (const std::string& define : {std::string("PIXEL_SHADOWS"), fmt::format("LEAST_STEP {:.2f}", least_pixel_step),
-                                          fmt::format("MOST_STEP {:.2f}", most_pixel_step)})
+        for (const std::string& define :
+             {std::string("PIXEL_SHADOWS"), fmt::format("LEAST_STEP {:.2f}", least_pixel_step),
+              fmt::format("MOST_STEP {:.2f}", most_pixel_step)})
             all.push_back(define);
     return all;
 }
@@ -23,14 +24,15 @@ void connect(const ShaderProgram& program) {
 }
 
 BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                                 bool has_cords, bool shadows, const ShadowFilter& filter)
+                   bool has_cords, bool shadows, const ShadowFilter& filter)
     : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
     for (const RenderBody& look : looks.bodies)
         if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& look : looks.bodies)
         if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
             for (const bool lit : {true, false})
-                program({look.kind, look.pattern != Pattern::plain, lit, false, look.kind == DrawKind::mesh && look.fine_surface >= 0});
+                program({look.kind, look.pattern != Pattern::plain, lit, false,
+                         look.kind == DrawKind::mesh && look.fine_surface >= 0});
     if (has_cords) program({DrawKind::mesh, false, true, false, false});
 }
 
@@ -77,12 +79,12 @@ void BodyPass::draw(const GpuMeshCache& meshes, const std::vector<Batch>& batche
 }
 
 std::vector<std::function<void()>> BodyPass::compilations(const GpuMeshCache& meshes,
-                                                                 const std::vector<Batch>& batches) {
+                                                          const std::vector<Batch>& batches) {
     std::vector<std::function<void()>> all;
     for (std::size_t i = 0; i < programs_.size(); ++i)
         all.emplace_back([this, &meshes, &batches, i] {
-            const auto first =
-                std::find_if(batches.begin(), batches.end(), [&](const Batch& b) { return index_of(variant_of(b)) == i; });
+            const auto first = std::find_if(batches.begin(), batches.end(),
+                                            [&](const Batch& b) { return index_of(variant_of(b)) == i; });
             if (first == batches.end()) return;
             program(variant_of(*first)).use();
             Batch one = *first;

@@ -1,8 +1,8 @@
 // Shaders of bodies by kind of mesh, and the bindings that all shaders share.
 #pragma once
 
-#include "render/mesh/gpu_mesh_cache.h"
 #include "render/gl/shader_program.h"
+#include "render/mesh/gpu_mesh_cache.h"
 #include "render/shadow/shadow_cascades.h"
 
 #include <array>
@@ -27,8 +27,8 @@ void connect(const ShaderProgram& program);
 class BodyPass {
 public:
     /// Compiles the shaders that the scene's bodies need; those for bodies that span cascades on first use.
-    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                    bool has_cords, bool shadows, const ShadowFilter& filter);
+    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks, bool has_cords,
+             bool shadows, const ShadowFilter& filter);
 
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
@@ -49,7 +49,7 @@ private:
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    bool metal_boxes_ = false;   // highlights on their bevels flicker without filtering
+    bool metal_boxes_ = false;                               // highlights on their bevels flicker without filtering
     std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and cascade span
 };
 

@@ -2,8 +2,8 @@
 
 #include "core/check.h"
 #include "core/rotation.h"
-#include "render/gl/glm_conversion.h"
 #include "render/antialiasing/surface_ids.h"
+#include "render/gl/glm_conversion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,19 +22,19 @@ constexpr float cord_roughness = 0.7f;
 
 // Draw order: by shells around the eye, the nearest first, and within a shell by mesh and shader. Hidden pixels are
 // mostly rejected, and shader changes are few.
-constexpr double shells_per_doubling = 8.0;   // per doubling of the distance
+constexpr double shells_per_doubling = 8.0;  // per doubling of the distance
 
-constexpr double shell_offset = 100000.0;     // keeps shell numbers positive
+constexpr double shell_offset = 100000.0;  // keeps shell numbers positive
 
 // One item before sorting.
 struct Item {
-    std::uint64_t order;    // key by shell, mesh and shader
-    float distance;         // m
-    std::uint32_t number;   // index of the body; cords follow the bodies
+    std::uint64_t order;   // key by shell, mesh and shader
+    float distance;        // m
+    std::uint32_t number;  // index of the body; cords follow the bodies
     std::uint32_t mesh;
-    std::uint8_t face;      // of a box
+    std::uint8_t face;  // of a box
     bool patterned, lit, wide;
-    bool charted = false;   // given by the mesh
+    bool charted = false;  // given by the mesh
 };
 
 Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
@@ -43,11 +43,17 @@ Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double dis
         in_shells ? std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30))) + shell_offset : 0.0;
     return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 3 | (wide ? 4u : 0u) | (patterned ? 2u : 0u) |
                 (lit ? 1u : 0u),
-            float(distance), std::uint32_t(number), std::uint32_t(mesh), std::uint8_t(face), patterned, lit, wide};
+            float(distance),
+            std::uint32_t(number),
+            std::uint32_t(mesh),
+            std::uint8_t(face),
+            patterned,
+            lit,
+            wide};
 }
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
-std::size_t ball_mesh_for(double radius, double error) {   // m
+std::size_t ball_mesh_for(double radius, double error) {  // m
     std::size_t level = 0;
     double angle = icosahedron_angle;
     while (level + 1 < ball_levels && radius * angle * angle / 8.0 > error) {
@@ -57,8 +63,8 @@ std::size_t ball_mesh_for(double radius, double error) {   // m
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const RenderBody& look, const BodyState& state, const Camera& view,
-                     const OcclusionPlace& place, std::size_t body, bool near_shadows) {
+Instance instance_of(const RenderBody& look, const BodyState& state, const Camera& view, const OcclusionPlace& place,
+                     std::size_t body, bool near_shadows) {
     return {to_glm(view.relative(state.origin), look.bevel),
             to_glm(state.orientation),
             to_glm(look.half_size, look.pattern_cell),
@@ -82,11 +88,15 @@ CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, cons
             turn_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
 }
 
-Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place, const ShadowCascades& shadows) {
+Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place,
+                       const ShadowCascades& shadows) {
     const std::array<double, 3> c = to_linear(cord.color);
     const Vec3 scale(cord.radius, std::max(0.5 * place.length, 1e-3 * cord.radius), cord.radius);
-    return {to_glm(place.middle, 0.0), to_glm(place.turn), to_glm(scale, cord.radius),
-            glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness), glm::vec4(0.0f),
+    return {to_glm(place.middle, 0.0),
+            to_glm(place.turn),
+            to_glm(scale, cord.radius),
+            glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness),
+            glm::vec4(0.0f),
             glm::vec4(0.0f, 0.0f, surface_alpha(number, 0),
                       shadows.near_holds(place.middle, 0.5 * place.length + cord.radius) ? 1.0f : 0.0f)};
 }
@@ -113,10 +123,12 @@ std::size_t mesh_of(const RenderBody& look, const RenderScene& looks, const Boun
 // Level of detail for the resolution of the item's shadow map.
 std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view,
                         const ShadowCascades& shadows) {
-    const double texel = shadows.may_look_far(ball.center, ball.radius) ? std::min(shadows.near_texel, shadows.far_texel)
-                                                                        : shadows.near_texel;
+    const double texel = shadows.may_look_far(ball.center, ball.radius)
+                             ? std::min(shadows.near_texel, shadows.far_texel)
+                             : shadows.near_texel;
     if (look.kind == DrawKind::ball)
-        return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view) : ball_mesh_for(ball.radius, outline_error * texel);
+        return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view)
+                                           : ball_mesh_for(ball.radius, outline_error * texel);
     return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
 }
 
@@ -156,7 +168,8 @@ DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks,
         const bool patterned = look.pattern != Pattern::plain;
         const double distance = ball.center.norm();
         if (casts) {
-            const std::size_t mesh = look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
+            const std::size_t mesh =
+                look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
             casters.push_back(make_item(mesh, false, true, false, distance, i, 0, false));
         }
         if (!in_view) continue;
@@ -178,7 +191,8 @@ DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks,
     for (std::size_t i = 0; i < scene.cords.size(); ++i) {
         cords.push_back(place_cord(scene.cords[i], snapshot, view));
         const double distance = cords.back().middle.norm();
-        if (wanted[bodies + i] != 0) visible.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, true));
+        if (wanted[bodies + i] != 0)
+            visible.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, true));
         if (scene.light.shadows && casting[bodies + i] != 0)
             casters.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, false));
     }

@@ -2,10 +2,10 @@
 // share a mesh form one batch of instances, nearest first, so that hidden pixels are rejected early.
 #pragma once
 
-#include "render/scene/render_scene.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/camera/camera.h"
 #include "render/mesh/batch.h"
-#include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
 #include "sim/snapshot/snapshot.h"
 

@@ -7,7 +7,8 @@
 
 namespace tumble {
 bool sun_is_up(const SceneDescription& scene) {
-    constexpr double steepest_ground = 0.5;   // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
+    constexpr double steepest_ground =
+        0.5;  // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
     for (const BodyDescription& body : scene.bodies) {
         const auto* plane = std::get_if<PlaneShape>(&body.shape);
         if (plane == nullptr || body.type != BodyType::fixed) continue;
@@ -33,7 +34,9 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, co
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
                                 float(shadows.filter.offset));
     u.haze = glm::vec4(float(1.0 / (view.fog_distance() * view.fog_distance())), float(view.pixel_size()), 0.0f, 0.0f);
-    if (widen_rods) u.haze.z = float(widest_rod_pixels * view.pixel_size()), u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
+    if (widen_rods)
+        u.haze.z = float(widest_rod_pixels * view.pixel_size()),
+        u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;
 }

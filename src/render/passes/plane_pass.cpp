@@ -1,9 +1,9 @@
 #include "render/passes/plane_pass.h"
 
-#include "render/gl/glm_conversion.h"
-#include "render/scene/plane_axes.h"
 #include "render/antialiasing/surface_ids.h"
+#include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
+#include "render/scene/plane_axes.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -40,7 +40,7 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 }  // namespace
 
 PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                           bool shadows, const ShadowFilter& filter)
+                     bool shadows, const ShadowFilter& filter)
     : gl_(&gl),
       shaders_(shaders),
       shadows_(shadows),
@@ -75,7 +75,8 @@ std::vector<std::string> PlanePass::touched() const {
 
 std::vector<std::function<void()>> PlanePass::compilations() const {
     std::vector<std::function<void()>> all;
-    const auto add = [&](const ShaderProgram& program, GLenum nearer) {   // llvmpipe compiles the shader for each such comparison
+    const auto add = [&](const ShaderProgram& program,
+                         GLenum nearer) {  // llvmpipe compiles the shader for each such comparison
         all.emplace_back([this, &program, nearer] {
             program.use();
             gl_->DepthFunc(nearer);
@@ -109,8 +110,8 @@ void PlanePass::draw_open(const std::vector<PlanePatch>& planes, const RenderSce
 }
 
 void PlanePass::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                                const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                                const Camera& view, bool far_shadows) {
+                             const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+                             const Camera& view, bool far_shadows) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
@@ -118,7 +119,8 @@ void PlanePass::draw_touched(const std::vector<PlanePatch>& planes, const std::v
         if (areas[i].empty()) continue;
         const Pattern pattern = looks.bodies[planes[i].body].pattern;
         Programs& programs = *planes_[std::size_t(pattern)];
-        if (far_shadows && !programs.touched_far) programs.touched_far.emplace(make(pattern, with(touched(), {"FAR_MAP"})));
+        if (far_shadows && !programs.touched_far)
+            programs.touched_far.emplace(make(pattern, with(touched(), {"FAR_MAP"})));
         const ShaderProgram& program = far_shadows ? *programs.touched_far : programs.touched;
         upload_polygon(planes[i].corners);
         set_uniforms(program, planes[i], planes, looks);
@@ -133,7 +135,7 @@ void PlanePass::draw_touched(const std::vector<PlanePatch>& planes, const std::v
 }
 
 void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
-                                const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
+                             const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
     const RenderBody& look = looks.bodies[plane.body];
     program.use();
     program.set("plane_normal", to_glm(plane.normal, plane.height));
@@ -151,7 +153,7 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
 }
 
 void PlanePass::set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                              const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const {
+                           const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const {
     const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
                                      [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (window == atlas.windows.end()) {  // texel 0, 0 is unoccluded

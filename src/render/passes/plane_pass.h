@@ -1,9 +1,9 @@
 // Draws the infinite planes, and the sky where no plane is.
 #pragma once
 
-#include "render/gl/gl_object.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/damage/plane_dirty_regions.h"
+#include "render/gl/gl_object.h"
 #include "render/gl/shader_program.h"
 
 #include <array>
@@ -17,8 +17,8 @@ namespace tumble {
 
 class PlanePass {
 public:
-    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                 bool shadows, const ShadowFilter& filter);
+    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks, bool shadows,
+              const ShadowFilter& filter);
 
     /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
     void draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const;
@@ -38,7 +38,7 @@ public:
 private:
     struct Programs {
         ShaderProgram open, touched;
-        std::optional<ShaderProgram> touched_far;   // once the far shadow map is in use
+        std::optional<ShaderProgram> touched_far;  // once the far shadow map is in use
     };
     ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
     std::vector<std::string> touched() const;

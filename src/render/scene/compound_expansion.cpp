@@ -9,7 +9,7 @@ CompoundExpansion::CompoundExpansion(const SceneDescription& scene) : scene_(sce
     const auto compound = [](const BodyDescription& body) { return std::holds_alternative<CompoundShape>(body.shape); };
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(), compound)) return;
     scene_.bodies.clear();
-    std::vector<std::size_t> first;   // first drawn body of each body
+    std::vector<std::size_t> first;  // first drawn body of each body
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
         first.push_back(scene_.bodies.size());

@@ -24,13 +24,13 @@ public:
 
 private:
     struct Part {
-        std::size_t body;   // index in the original scene
-        Vec3 position = Vec3::Zero();       // body frame
+        std::size_t body;              // index in the original scene
+        Vec3 position = Vec3::Zero();  // body frame
         Quat rotation = Quat::Identity();
     };
     SceneDescription scene_;
-    std::set<std::shared_ptr<const MeshAsset>> assets_;   // of freed bodies
-    std::vector<Part> parts_;   // one per drawn body; empty without compounds
+    std::set<std::shared_ptr<const MeshAsset>> assets_;  // of freed bodies
+    std::vector<Part> parts_;                            // one per drawn body; empty without compounds
     Snapshot snapshot_;
 };
 

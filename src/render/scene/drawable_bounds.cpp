@@ -33,8 +33,10 @@ std::array<Vec3, 8> DrawableBounds::corners() const {
     for (std::size_t i = 0; i < 8; ++i) {
         corners[i] = center;
         for (int k = 0; k < 3; ++k)
-            if ((i >> k & 1) != 0) corners[i] += half_axes.col(k);
-            else corners[i] -= half_axes.col(k);
+            if ((i >> k & 1) != 0)
+                corners[i] += half_axes.col(k);
+            else
+                corners[i] -= half_axes.col(k);
     }
     return corners;
 }
@@ -49,13 +51,12 @@ std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3
 }
 
 std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
-                                        const Snapshot& snapshot, const Camera& view) {
+                                             const Snapshot& snapshot, const Camera& view) {
     std::vector<DrawableBounds> items;
     items.reserve(looks.bodies.size() + scene.cords.size());
     for (std::size_t i = 0; i < looks.bodies.size(); ++i)
         items.push_back(body_item(looks.bodies[i], looks, snapshot.bodies[i], view));
-    for (const CordDescription& cord : scene.cords)
-        items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
+    for (const CordDescription& cord : scene.cords) items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
     return items;
 }
 

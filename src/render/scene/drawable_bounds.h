@@ -1,8 +1,8 @@
 // Bounds of drawable items: one per body (empty for planes and hidden bodies), then one per cord.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
+#include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <array>
@@ -11,16 +11,16 @@
 namespace tumble {
 
 struct DrawableBounds {
-    Mat3 half_axes;                // of a bounding box: from its center to the centers of its high sides, m
-    Vec3 center;                   // of that box and of a bounding ball, m, relative to the eye
-    double radius = -1.0;          // m; negative: not drawn
+    Mat3 half_axes;        // of a bounding box: from its center to the centers of its high sides, m
+    Vec3 center;           // of that box and of a bounding ball, m, relative to the eye
+    double radius = -1.0;  // m; negative: not drawn
     /// Corners of the box, m, relative to the eye: corner i is on the high side of axis k if bit k of i is set.
     std::array<Vec3, 8> corners() const;
     bool exists() const { return radius >= 0.0; }
 };
 
 std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
-                                        const Snapshot& snapshot, const Camera& view);
+                                             const Snapshot& snapshot, const Camera& view);
 
 /// The corners of a box.
 std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size);

@@ -23,7 +23,8 @@ constexpr double large_part = 0.01;
 constexpr double beyond_large = 2.0;
 
 // Distance from a point to the bounding box of a body, m; 0 inside.
-double gap_to(const Vec3& eye, const RenderBody& look, const Vec3& origin, const Quat& rotation, const RenderScene& looks) {
+double gap_to(const Vec3& eye, const RenderBody& look, const Vec3& origin, const Quat& rotation,
+              const RenderScene& looks) {
     const Vec3& half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
     const Vec3 from = rotation.conjugate() * (eye - origin) - look.bound_center;
     return (from.cwiseAbs() - half_size).cwiseMax(0.0).norm();
@@ -56,7 +57,7 @@ double fog_distance(const SceneDescription& scene, const RenderScene& looks, dou
     double haze = half_fog * viewing_distance;
     const auto seen_from = [&](const CameraDescription& camera) {
         const Camera view(camera, scene.output.width, scene.output.height);
-        const double least_slope = large_part * view.pixel_size() * view.height();   // of a body's width to its distance
+        const double least_slope = large_part * view.pixel_size() * view.height();  // of a body's width to its distance
         const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation) {
             const Vec3 center = view.relative(origin + rotation * look.bound_center);
             const bool large = 2.0 * look.bound_radius >= least_slope * center.norm();

@@ -42,7 +42,7 @@ void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
     });
     std::vector<std::size_t> grounds;
     ReceiverExtent rest;
-    double largest_reach = std::numeric_limits<double>::infinity();   // the smallest body is no receiver
+    double largest_reach = std::numeric_limits<double>::infinity();  // the smallest body is no receiver
     for (const std::size_t i : by_size) {
         const RenderBody& look = looks.bodies[i];
         if (2.0 * look.bound_radius > ground_of_rest * std::max(rest.size(), least_rest * largest_reach)) {
@@ -51,7 +51,8 @@ void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
         }
         const BodyDescription& body = scene.bodies[i];
         rest.add(body.position + body.rotation * look.bound_center, look.bound_radius);
-        for (const Keyframe& key : body.keyframes) rest.add(key.position + key.rotation * look.bound_center, look.bound_radius);
+        for (const Keyframe& key : body.keyframes)
+            rest.add(key.position + key.rotation * look.bound_center, look.bound_radius);
         largest_reach = std::isfinite(largest_reach) ? std::max(largest_reach, look.reach) : look.reach;
     }
     if (grounds.size() <= most_grounds)
@@ -81,11 +82,11 @@ double RestHeightEstimate::fall(const Vec3& point, const Vec3& down) const {
         const double approach = -plane.normal.dot(down), height = plane.normal.dot(point) - plane.offset;
         if (approach > 1e-6 && height > 0.0) fall = std::min(fall, height / approach);
     }
-    for (const Block& block : blocks_) {   // between the planes of its sides, axis by axis
+    for (const Block& block : blocks_) {  // between the planes of its sides, axis by axis
         const Vec3 from = block.rotation.conjugate() * (point - block.center), way = block.rotation.conjugate() * down;
         double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
         for (int k = 0; k < 3; ++k) {
-            const double side = way[k] < 0.0 ? -block.half_size[k] : block.half_size[k];   // exit point
+            const double side = way[k] < 0.0 ? -block.half_size[k] : block.half_size[k];  // exit point
             const double speed = std::abs(way[k]) < 1e-12 ? std::copysign(1e-12, way[k]) : way[k];
             enter = std::max(enter, (-side - from[k]) / speed);
             leave = std::min(leave, (side - from[k]) / speed);

@@ -19,9 +19,9 @@ public:
 
 private:
     struct Block {
-        Vec3 center, half_size;   // m
+        Vec3 center, half_size;  // m
         Quat rotation;
-        bool hollow;              // a mesh: a body may come to rest as low as the lower side of its bounds
+        bool hollow;  // a mesh: a body may come to rest as low as the lower side of its bounds
     };
     std::vector<PlaneShape> planes_;
     std::vector<Block> blocks_;

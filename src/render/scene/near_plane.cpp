@@ -20,7 +20,7 @@ double least_depth(const RenderBody& look, const RenderScene& looks, const BodyS
     const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
     const Vec3 eye = state.orientation.conjugate() * -ball.center;
     const double gap = (eye.cwiseAbs() - half_size).cwiseMax(0.0).norm();
-    double longest = 1.0;   // of rays whose component along the axis is 1
+    double longest = 1.0;  // of rays whose component along the axis is 1
     for (const double x : {0.0, double(view.width())})
         for (const double y : {0.0, double(view.height())}) longest = std::max(longest, view.ray(x, y).norm());
     return std::max(depth, gap / longest);

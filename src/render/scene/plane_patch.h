@@ -3,8 +3,8 @@
 // depth is linear as well, so a flat polygon in clip space carries the exact depth out to infinity.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
+#include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <glm/vec3.hpp>

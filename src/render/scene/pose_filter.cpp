@@ -41,19 +41,19 @@ PoseFilter::PoseFilter(const SceneDescription& scene)
       view_(scene.camera, scene.output.width, scene.output.height) {
     for (const BodyDescription& body : scene.bodies)
         radii_.push_back(body.surface.visible ? radius_of(body.shape) : 0.0);
-    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);   // it moves everything that is drawn
+    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);  // it moves everything that is drawn
     for (const CordDescription& cord : scene.cords)
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
 }
 
 bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
     const double radius = radii_[body];
-    if (radius == 0.0) return true;   // not drawn
+    if (radius == 0.0) return true;  // not drawn
     const double way = (state.origin - drawn.origin).norm();
     const double turn = std::min((state.orientation.coeffs() - drawn.orientation.coeffs()).norm(),
                                  (state.orientation.coeffs() + drawn.orientation.coeffs()).norm());
     if (way == 0.0 && turn == 0.0) return true;
-    const double nearest = view_.relative(drawn.origin).norm() - radius;   // m, from the eye; of a plane: -infinity
+    const double nearest = view_.relative(drawn.origin).norm() - radius;  // m, from the eye; of a plane: -infinity
     return way + 2.0 * radius * turn <= drawn_tolerance * view_.pixel_size() * nearest;
 }
 
@@ -73,7 +73,8 @@ bool PoseFilter::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
     bool moved = std::exchange(first_, false);
     if (moved)
-        for (const BodyState& state : snapshot.bodies) drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
+        for (const BodyState& state : snapshot.bodies)
+            drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
     if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;
     CameraDescription camera = path_.at(snapshot);
     if (!same_place(camera, camera_)) {

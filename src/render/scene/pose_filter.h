@@ -12,8 +12,8 @@
 // redraw see the same poses. Needs no OpenGL.
 #pragma once
 
-#include "render/camera/camera_animation.h"
 #include "render/camera/camera.h"
+#include "render/camera/camera_animation.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
@@ -21,7 +21,7 @@
 
 namespace tumble {
 
-inline constexpr double drawn_tolerance = 0.02;   // pixels: far below what smooth edges show, far above rounding
+inline constexpr double drawn_tolerance = 0.02;  // pixels: far below what smooth edges show, far above rounding
 
 class PoseFilter {
 public:
@@ -36,7 +36,7 @@ private:
     struct Pose {
         Vec3 origin;
         Quat orientation;
-        Vec3 center_of_mass;   // which a camera may follow
+        Vec3 center_of_mass;  // which a camera may follow
     };
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 
@@ -47,9 +47,9 @@ private:
     CameraDescription camera_;
     std::optional<std::size_t> followed_;
     Camera view_;
-    std::vector<double> radii_;   // m, of each body around its origin; 0: not drawn; infinite: a plane
-    std::vector<Pose> drawn_;     // empty before the first call
-    bool first_ = true;           // no call yet; a scene may have no bodies
+    std::vector<double> radii_;  // m, of each body around its origin; 0: not drawn; infinite: a plane
+    std::vector<Pose> drawn_;    // empty before the first call
+    bool first_ = true;          // no call yet; a scene may have no bodies
 };
 
 }  // namespace tumble

@@ -74,7 +74,7 @@ void set_shape(RenderBody& look, const MeshShape& mesh, RenderScene& looks) {
     look.pattern_cell = pattern_cell_of_radius * look.reach;
 }
 
-void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}   // expanded by compound_expansion.h
+void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}  // expanded by compound_expansion.h
 
 }  // namespace
 

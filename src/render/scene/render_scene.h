@@ -3,8 +3,8 @@
 
 #include "core/vector.h"
 #include "render/camera/camera.h"
-#include "render/lightmap/occlusion_lightmap.h"
 #include "render/lightmap/chart_unwrap.h"
+#include "render/lightmap/occlusion_lightmap.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
@@ -32,10 +32,11 @@ struct RenderBody {
     glm::vec3 color{1.0f};             // linear light
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
-    bool ground = false;               // a large receiver, see large_receivers.h
-    bool fixed = false;                // never moves
-    bool undarkened = false;           // without AO: too large for its number of texels, which would give wrong values
-    std::ptrdiff_t fine_surface = -1;  // index into RenderScene::fine_surfaces; -1: none. A mesh with a lightmap has charts
+    bool ground = false;      // a large receiver, see large_receivers.h
+    bool fixed = false;       // never moves
+    bool undarkened = false;  // without AO: too large for its number of texels, which would give wrong values
+    std::ptrdiff_t fine_surface =
+        -1;  // index into RenderScene::fine_surfaces; -1: none. A mesh with a lightmap has charts
 };
 
 /// A box inside a mesh, which stands for it as an occluder; body frame.
@@ -52,24 +53,24 @@ struct VertexSample {
 
 struct RenderMesh {
     const MeshAsset* asset = nullptr;
-    bool closed = true;   // and facing outward; otherwise both sides are visible
+    bool closed = true;  // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
     std::vector<VertexSample> probes;
     std::vector<std::uint32_t> probe_of_vertex;
-    std::vector<VertexSample> coarse_probes;          // for meshes that are small on the screen
+    std::vector<VertexSample> coarse_probes;  // for meshes that are small on the screen
     std::vector<std::uint32_t> coarse_of_probe;
-    std::optional<ChartedMesh> charts;              // drawn with these and shaded with its lightmap
+    std::optional<ChartedMesh> charts;  // drawn with these and shaded with its lightmap
 };
 
 struct RenderScene {
     std::vector<RenderBody> bodies;  // in scene order
     std::vector<RenderMesh> meshes;  // without repetition, in order of first use
     std::vector<OcclusionLightmap> fine_surfaces;
-    std::vector<std::size_t> planes;   // indices of the planes
-    double typical_reach = 1.0;    // m, median AO radius of the bodies without large receivers
-    std::size_t mesh_triangles = 0;    // of all bodies together
-    double window_cell = 0.25;     // m, texel size of plane tiles; a power of two
+    std::vector<std::size_t> planes;  // indices of the planes
+    double typical_reach = 1.0;       // m, median AO radius of the bodies without large receivers
+    std::size_t mesh_triangles = 0;   // of all bodies together
+    double window_cell = 0.25;        // m, texel size of plane tiles; a power of two
 };
 
 /// From this number of bodies on, small ones are culled per pixel and get coarse AO; with fewer bodies this saves

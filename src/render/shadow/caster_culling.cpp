@@ -7,10 +7,10 @@
 namespace tumble {
 namespace {
 
-constexpr int cell = 4;                  // texels: boxes of a large heap are some thirty across
-constexpr double texel_margin = 0.5;           // texels; rasterization rounds to 1/256, a far texel is at most a quarter
-constexpr double depth_margin = 5e-4;    // of the depth range; interpolation on steep faces has smaller errors
-constexpr std::size_t fewest = 200;        // casters: in a heap of a hundred none is hidden
+constexpr int cell = 4;                // texels: boxes of a large heap are some thirty across
+constexpr double texel_margin = 0.5;   // texels; rasterization rounds to 1/256, a far texel is at most a quarter
+constexpr double depth_margin = 5e-4;  // of the depth range; interpolation on steep faces has smaller errors
+constexpr std::size_t fewest = 200;    // casters: in a heap of a hundred none is hidden
 
 Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
     const auto dot = [&](const glm::vec4& row) { return row.x * v.x() + row.y * v.y() + row.z * v.z(); };
@@ -20,10 +20,13 @@ Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
 }  // namespace
 
 CasterCulling::CasterCulling(const ShadowCascades& fit)
-    : fit_(&fit), count_((fit.texels + cell - 1) / cell), depths_(std::size_t(count_) * std::size_t(count_), infinity) {}
+    : fit_(&fit),
+      count_((fit.texels + cell - 1) / cell),
+      depths_(std::size_t(count_) * std::size_t(count_), infinity) {}
 
 Vec3 CasterCulling::place(const Vec3& point) const {
-    return to_map(*fit_, point) + Vec3(fit_->texels * double(fit_->x.w), fit_->texels * double(fit_->y.w), double(fit_->z.w));
+    return to_map(*fit_, point) +
+           Vec3(fit_->texels * double(fit_->x.w), fit_->texels * double(fit_->y.w), double(fit_->z.w));
 }
 
 CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const {
@@ -35,7 +38,7 @@ CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const 
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &a = axes[(k + 1) % 3], &b = axes[(k + 2) % 3];
         const double length = std::hypot(axes[k].x(), axes[k].y());
-        o.strips[k] = {0.0, 0.0, infinity};   // of an edge parallel to the light
+        o.strips[k] = {0.0, 0.0, infinity};  // of an edge parallel to the light
         if (length > 0.0) {
             const double u = -axes[k].y() / length, v = axes[k].x() / length;
             o.strips[k] = {u, v, std::abs(u * a.x() + v * a.y()) + std::abs(u * b.x() + v * b.y())};
@@ -43,17 +46,19 @@ CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const 
         const Vec3 normal = a.cross(b);
         o.fronts[k] = {-infinity, 0.0, 0.0};  // of a face seen edge-on
         if (normal.z() != 0.0)
-            o.fronts[k] = {center.z() - std::abs(normal.dot(axes[k]) / normal.z()), -normal.x() / normal.z(), -normal.y() / normal.z()};
+            o.fronts[k] = {center.z() - std::abs(normal.dot(axes[k]) / normal.z()), -normal.x() / normal.z(),
+                           -normal.y() / normal.z()};
     }
     return o;
 }
 
 template <class See>
 bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
-    const int first_row = int(std::floor((o.v - o.reach_v - texel_margin) / cell)), last_row = int(std::floor((o.v + o.reach_v + texel_margin) / cell));
+    const int first_row = int(std::floor((o.v - o.reach_v - texel_margin) / cell)),
+              last_row = int(std::floor((o.v + o.reach_v + texel_margin) / cell));
     for (int row = first_row; row <= last_row; ++row) {
         const double y = (row + 0.5) * cell - o.v;
-        double low = -infinity, high = infinity;   // range of cell centers, texels from the center of the hexagon
+        double low = -infinity, high = infinity;  // range of cell centers, texels from the center of the hexagon
         for (const Outline::Strip& s : o.strips) {
             const double rim = 0.5 * cell * (std::abs(s.u) + std::abs(s.v)) + texel_margin;
             const double half = wholly ? s.half - rim : s.half + rim;
@@ -67,7 +72,8 @@ bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
             high = std::min(high, middle + width);
         }
         if (!(low < high)) continue;
-        if (!see(row, int(std::ceil((o.u + low) / cell - 0.5)), int(std::floor((o.u + high) / cell - 0.5)))) return false;
+        if (!see(row, int(std::ceil((o.u + low) / cell - 0.5)), int(std::floor((o.u + high) / cell - 0.5))))
+            return false;
     }
     return true;
 }
@@ -80,7 +86,8 @@ void CasterCulling::add(const DrawableBounds& box) {
             const double x = (column + 0.5) * cell - o.u, y = (row + 0.5) * cell - o.v;
             double deepest = o.nearest;
             for (const Outline::Front& f : o.fronts)
-                deepest = std::max(deepest, f.depth + f.du * x + f.dv * y + 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
+                deepest =
+                    std::max(deepest, f.depth + f.du * x + f.dv * y + 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
             double& depth = depths_[std::size_t(row * count_ + column)];
             depth = std::min(depth, std::min(deepest, o.furthest));
         }
@@ -100,7 +107,8 @@ bool CasterCulling::hides(const DrawableBounds& item) const {
             const double x = (column + 0.5) * cell - o.u, y = (row + 0.5) * cell - o.v;
             double nearest = o.nearest;
             for (const Outline::Front& f : o.fronts)
-                nearest = std::max(nearest, f.depth + f.du * x + f.dv * y - 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
+                nearest =
+                    std::max(nearest, f.depth + f.du * x + f.dv * y - 0.5 * cell * (std::abs(f.du) + std::abs(f.dv)));
             if (!(depths_[std::size_t(row * count_ + column)] + depth_margin < nearest)) return false;
         }
         return true;
@@ -122,8 +130,10 @@ void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBou
     });
     CasterCulling cover(fit);
     for (const Caster& caster : casters) {
-        if (cover.hides(items[caster.item])) casting[caster.item] = 0;
-        else if (caster.item < looks.bodies.size() && looks.bodies[caster.item].kind == DrawKind::box) cover.add(items[caster.item]);
+        if (cover.hides(items[caster.item]))
+            casting[caster.item] = 0;
+        else if (caster.item < looks.bodies.size() && looks.bodies[caster.item].kind == DrawKind::box)
+            cover.add(items[caster.item]);
     }
 }
 

@@ -4,8 +4,8 @@
 // conservative: the maps are the same to the bit.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/scene/drawable_bounds.h"
+#include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
 
 #include <array>
@@ -26,17 +26,17 @@ private:
     // A box seen from the sun: a hexagon in texels from its center, and three fronts, the deepest of which counts.
     struct Outline {
         struct Strip {
-            double u, v, half;         // the points with |u x + v y| < half; (u, v) is a unit vector
+            double u, v, half;  // the points with |u x + v y| < half; (u, v) is a unit vector
         };
         struct Front {
-            double depth, du, dv;      // 0 to 1; at the center, and its derivatives per texel
+            double depth, du, dv;  // 0 to 1; at the center, and its derivatives per texel
         };
-        double u, v, reach_v;          // texels
+        double u, v, reach_v;  // texels
         double nearest, furthest;
         std::array<Strip, 3> strips;
         std::array<Front, 3> fronts;
     };
-    Vec3 place(const Vec3& point) const;   // texels, and the depth
+    Vec3 place(const Vec3& point) const;  // texels, and the depth
     Outline outline(const DrawableBounds& item) const;
 
     // Calls see(row, first column, last column) for the cells that are within the hexagon completely, or at least
@@ -45,7 +45,7 @@ private:
     static bool for_each_row(const Outline& o, bool wholly, See see);
 
     const ShadowCascades* fit_;
-    int count_;                        // cells per side
+    int count_;  // cells per side
     std::vector<double> depths_;
 };
 

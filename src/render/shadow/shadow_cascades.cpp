@@ -1,7 +1,7 @@
 #include "render/shadow/shadow_cascades.h"
 
-#include "render/scene/distance_outliers.h"
 #include "render/gl/glm_conversion.h"
+#include "render/scene/distance_outliers.h"
 #include "render/scene/large_receivers.h"
 
 #include <algorithm>
@@ -51,23 +51,24 @@ struct CascadeExtent {
 /// Place of a body at the start, or after landing.
 struct CascadePlace {
     Vec3 center;
-    double radius, distance;   // m; of its ball; from the eye
+    double radius, distance;  // m; of its ball; from the eye
 };
 
 struct Held {
     std::size_t count;
-    double size_of_all;   // m, across the light
+    double size_of_all;  // m, across the light
 };
 
 /// Number of the places, sorted by distance, that the near map is fitted to.
-Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size, int texels) {
+Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis, const Vec3& y_axis, double pixel_size,
+                    int texels) {
     CascadeExtent x, y;
     std::size_t fine = 0, finest = 0;
     double blur = 0.0, least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < places.size(); ++i) {
         x.add(x_axis.dot(places[i].center), places[i].radius);
         y.add(y_axis.dot(places[i].center), places[i].radius);
-        blur = near_margin * std::max(x.size(), y.size()) / texels / (pixel_size * places[i / 8].distance);   // pixels
+        blur = near_margin * std::max(x.size(), y.size()) / texels / (pixel_size * places[i / 8].distance);  // pixels
         if (blur <= fine_pixels) fine = i + 1;
         if (blur < least) least = blur, finest = i + 1;
     }
@@ -81,7 +82,8 @@ double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log
 }  // namespace
 
 double ShadowCascades::far_along() const {
-    return filter.by_pixel ? 0.5 * std::max(least_pixel_step, most_pixel_step * near_texel / far_texel) + 1.0 : filter.along;
+    return filter.by_pixel ? 0.5 * std::max(least_pixel_step, most_pixel_step * near_texel / far_texel) + 1.0
+                           : filter.along;
 }
 
 bool ShadowCascades::near_holds(const Vec3& center, double radius) const {
@@ -130,9 +132,10 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     for (const CascadePlace& p : places) distances.push_back(p.distance);
     const double limit = far_limit(distances);
     std::erase_if(places, [&](const CascadePlace& p) { return p.distance + p.radius > limit; });
-    double least = 0.0;   // of the near map: bodies outside it must be within the far one
+    double least = 0.0;  // of the near map: bodies outside it must be within the far one
     if (!turns) {
-        std::stable_sort(places.begin(), places.end(), [](const CascadePlace& a, const CascadePlace& b) { return a.distance < b.distance; });
+        std::stable_sort(places.begin(), places.end(),
+                         [](const CascadePlace& a, const CascadePlace& b) { return a.distance < b.distance; });
         const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
         places.resize(held.count);
         least = least_of_all * held.size_of_all;
@@ -158,11 +161,12 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
 }
 
 ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
-                           const Vec3& carried) const {
+                                  const Vec3& carried) const {
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
-    CascadeExtent x, y, z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
+    CascadeExtent x, y,
+        z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
     for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
         const RenderBody& look = looks.bodies[i];
         if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;

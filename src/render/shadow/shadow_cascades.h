@@ -6,8 +6,8 @@
 // that shadows do not flicker. Everything depends on the scene and the one snapshot only, not on earlier frames.
 #pragma once
 
-#include "render/scene/render_scene.h"
 #include "render/camera/camera.h"
+#include "render/scene/render_scene.h"
 
 #include <glm/vec4.hpp>
 
@@ -15,11 +15,11 @@ namespace tumble {
 
 /// Sampling of a shadow map (shaders/shadow.glsl). Lengths in texels.
 struct ShadowFilter {
-    bool by_pixel;     // true if a texel is smaller than a pixel, so that the filter width is that of the pixel
-    double along;      // PCF kernel radius along each axis, texels
-    double across;     // PCF kernel radius over both axes, texels
-    double offset;     // normal offset bias, texels, against acne without gaps at contacts
-    double reach;      // distance from a shadow's outline within which a point may be affected, texels
+    bool by_pixel;  // true if a texel is smaller than a pixel, so that the filter width is that of the pixel
+    double along;   // PCF kernel radius along each axis, texels
+    double across;  // PCF kernel radius over both axes, texels
+    double offset;  // normal offset bias, texels, against acne without gaps at contacts
+    double reach;   // distance from a shadow's outline within which a point may be affected, texels
     friend bool operator==(const ShadowFilter&, const ShadowFilter&) = default;
 };
 
@@ -56,7 +56,7 @@ public:
 
     /// `carried`: displacement of the camera with a followed body, m; the near map moves with it, by whole texels.
     ShadowCascades fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
-                  const Vec3& carried = Vec3::Zero()) const;
+                       const Vec3& carried = Vec3::Zero()) const;
 
     const ShadowFilter& filter() const { return filter_; }
 

@@ -7,7 +7,8 @@
 namespace tumble {
 namespace {
 
-constexpr int farthest_strip_rows = 64;   // of farthest depths, so that the source of copies stays in the processor's cache
+constexpr int farthest_strip_rows =
+    64;  // of farthest depths, so that the source of copies stays in the processor's cache
 
 }  // namespace
 
@@ -31,8 +32,7 @@ ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders
 
 void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& texture, int width, int height) const {
     gl_->BindTexture(GL_TEXTURE_2D, texture.name());
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                    nullptr);
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -57,10 +57,11 @@ void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, empty_framebuffer_.name());
     gl_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
     for (const Rectangle& p : parts) {
-        const int x = p.x % shadow_map_texels;   // no part is in both maps
+        const int x = p.x % shadow_map_texels;  // no part is in both maps
         for (int y = p.y; y < p.y + p.height; y += farthest_strip_rows) {
             const int rows = std::min(farthest_strip_rows, p.y + p.height - y);
-            gl_->BlitFramebuffer(x, 0, x + p.width, rows, p.x, y, p.x + p.width, y + rows, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+            gl_->BlitFramebuffer(x, 0, x + p.width, rows, p.x, y, p.x + p.width, y + rows, GL_DEPTH_BUFFER_BIT,
+                                 GL_NEAREST);
         }
     }
 }

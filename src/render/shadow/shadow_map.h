@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/rectangle.h"
-#include "render/mesh/gpu_mesh_cache.h"
 #include "render/gl/shader_program.h"
+#include "render/mesh/gpu_mesh_cache.h"
 
 #include <filesystem>
 
@@ -33,7 +33,8 @@ private:
     const GlFunctions* gl_;
     ShaderProgram program_;
     GlObject texture_, framebuffer_;
-    GlObject empty_texture_, empty_framebuffer_;   // a strip of farthest depths, copied over the parts of a map to redraw
+    GlObject empty_texture_,
+        empty_framebuffer_;  // a strip of farthest depths, copied over the parts of a map to redraw
 };
 
 }  // namespace tumble

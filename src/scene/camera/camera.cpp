@@ -1,9 +1,9 @@
 #include "scene/camera/camera.h"
 
-#include "scene/keys/body_index.h"
 #include "scene/camera/default_camera.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/body_index.h"
 #include "scene/keys/motion.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ struct ViewKeys {
 
 void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewKeys& given, const TomlTable& table) {
     const Vec3 view = target - eye;
-    constexpr double parallel = 1e-6;   // rad: within this angle of `up` the roll is undefined
+    constexpr double parallel = 1e-6;  // rad: within this angle of `up` the roll is undefined
     if (view.norm() == 0.0) {
         if (given.eye) given.eye->fail("must not be at the target");
         if (given.target) given.target->fail("must not be at the eye");
@@ -25,9 +25,9 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewK
     }
     if (view.normalized().cross(up.normalized()).norm() >= parallel) return;
     const SourcePosition& origin = given.up       ? given.up->origin()
-                           : given.eye    ? given.eye->origin()
-                           : given.target ? given.target->origin()
-                                          : table.origin();
+                                   : given.eye    ? given.eye->origin()
+                                   : given.target ? given.target->origin()
+                                                  : table.origin();
     origin.fail(
         "does not fit: the camera looks along its up direction, which leaves its roll undefined; "
         "choose another up");
@@ -35,10 +35,14 @@ void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewK
 
 void read_place(const TomlTable& table, CameraDescription& camera, const ViewKeys& given) {
     const Vec3 offset = camera.eye - camera.target;
-    if (given.target) camera.target = given.target->vector(limits::coordinate);
-    else if (camera.follow) camera.target = camera.follow_start;
-    if (given.eye) camera.eye = given.eye->vector(limits::coordinate);
-    else if (given.target || camera.follow) camera.eye = camera.target + offset;
+    if (given.target)
+        camera.target = given.target->vector(limits::coordinate);
+    else if (camera.follow)
+        camera.target = camera.follow_start;
+    if (given.eye)
+        camera.eye = given.eye->vector(limits::coordinate);
+    else if (given.target || camera.follow)
+        camera.eye = camera.target + offset;
     check_view(camera.eye, camera.target, camera.up, given, table);
 }
 
@@ -88,8 +92,7 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     const auto table = root.find_table("camera");
     if (!table) return default_camera(scene, lens, duration);
 
-    table->expect_keys(
-        {"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
+    table->expect_keys({"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
     const ViewKeys given{table->find("eye"), table->find("target"), table->find("up")};
     if (given.up) lens.up = given.up->direction();
     table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);

@@ -8,10 +8,10 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_places = 24;           // a third of them is as informative as all of a thousand
-constexpr std::size_t most_triangles = 200'000;   // of fixed meshes: a tenth of a second; above this number the test is skipped,
-constexpr std::size_t most_pieces = 20'000;       // as above this number of fixed shapes
-
+constexpr std::size_t most_places = 24;  // a third of them is as informative as all of a thousand
+constexpr std::size_t most_triangles =
+    200'000;  // of fixed meshes: a tenth of a second; above this number the test is skipped,
+constexpr std::size_t most_pieces = 20'000;  // as above this number of fixed shapes
 
 /// Entry of a line into a box at the origin (the slabs of Kay and Kajiya 1986), as a multiple of `way`; infinity
 /// without a hit.
@@ -74,7 +74,8 @@ CameraVisibility::CameraVisibility(const SceneDescription& scene) {
 void CameraVisibility::add(const Shape& shape, const Vec3& position, const Quat& rotation) {
     if (std::holds_alternative<PlaneShape>(shape)) return;
     if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
-        for (const CompoundPart& part : *compound->parts) add(part.shape, position + rotation * part.position, rotation * part.rotation);
+        for (const CompoundPart& part : *compound->parts)
+            add(part.shape, position + rotation * part.position, rotation * part.rotation);
         return;
     }
     const Bounds bounds = local_bounds(shape);

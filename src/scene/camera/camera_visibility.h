@@ -15,11 +15,11 @@ public:
 
 private:
     struct Piece {
-        Vec3 center;            // m; of the bounding box
+        Vec3 center;  // m; of the bounding box
         Vec3 half_size;
-        Vec3 origin;            // of the body frame
+        Vec3 origin;  // of the body frame
         Quat rotation;
-        const Shape* shape;     // a box, ball or mesh
+        const Shape* shape;  // a box, ball or mesh
     };
     void add(const Shape& shape, const Vec3& position, const Quat& rotation);
     /// Distance to the first fixed body along `way`, as a multiple of it; infinity without one.
@@ -27,7 +27,7 @@ private:
     void find_places(const SceneDescription& scene);
 
     std::vector<Piece> pieces_;
-    std::vector<Vec3> places_;   // of some moving bodies, vertically below their initial positions
+    std::vector<Vec3> places_;  // of some moving bodies, vertically below their initial positions
 };
 
 }  // namespace tumble

@@ -1,9 +1,9 @@
 #include "scene/camera/default_camera.h"
 
 #include "core/deterministic_math.h"
+#include "scene/camera/camera_visibility.h"
 #include "scene/camera/throw_preview.h"
 #include "scene/description/shape_bounds.h"
-#include "scene/camera/camera_visibility.h"
 
 #include <algorithm>
 #include <array>
@@ -15,20 +15,21 @@ namespace tumble {
 namespace {
 
 // Composition, chosen by eye on the demo scenes.
-constexpr double azimuth = 28.0;       // degrees to the right of the front
-constexpr double elevation = 17.0;     // degrees above the horizon: the ground fills the lower two thirds
-constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};   // degrees; tried where fixed bodies hide the bodies in them
-constexpr double enough = 0.6;         // share of the landing places that must be visible
-constexpr double used_part = 0.86;     // of the image's half width and height; the rest is a margin
+constexpr double azimuth = 28.0;    // degrees to the right of the front
+constexpr double elevation = 17.0;  // degrees above the horizon: the ground fills the lower two thirds
+constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};  // degrees; tried where fixed bodies hide the bodies in them
+constexpr double enough = 0.6;                           // share of the landing places that must be visible
+constexpr double used_part = 0.86;                       // of the image's half width and height; the rest is a margin
 constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all moving bodies is ground
 
-constexpr double least_distance = 0.2; // of the scene's diagonal, between the eye and the nearest point
-constexpr int centring_passes = 4;     // each leaves a small part of the error, because near points move more than far ones
+constexpr double least_distance = 0.2;  // of the scene's diagonal, between the eye and the nearest point
+constexpr int centring_passes =
+    4;  // each leaves a small part of the error, because near points move more than far ones
 
 constexpr double degrees = pi / 180.0;
 
 struct Axes {
-    Vec3 right, up, forward;   // unit, right-handed as seen by the camera (forward into the image)
+    Vec3 right, up, forward;  // unit, right-handed as seen by the camera (forward into the image)
 };
 
 Axes view_axes(const Vec3& up, double above) {
@@ -60,8 +61,8 @@ Bounds bounds_of(const std::vector<Vec3>& points) {
 
 /// A fixed plane that bodies can land on.
 struct Ground {
-    Vec3 normal;     // unit, world frame
-    double offset;   // m, along the normal
+    Vec3 normal;    // unit, world frame
+    double offset;  // m, along the normal
 };
 
 std::vector<Ground> grounds_below(const SceneDescription& scene, const Vec3& down) {
@@ -70,7 +71,7 @@ std::vector<Ground> grounds_below(const SceneDescription& scene, const Vec3& dow
         const auto* plane = std::get_if<PlaneShape>(&body.shape);
         if (!plane) continue;
         const Vec3 normal = body.rotation * plane->normal;
-        if (-normal.dot(down) < 0.5) continue;   // steeper than 60 degrees: a wall
+        if (-normal.dot(down) < 0.5) continue;  // steeper than 60 degrees: a wall
         grounds.push_back({normal, plane->offset + normal.dot(body.position)});
     }
     return grounds;
@@ -98,7 +99,7 @@ public:
     }
 
 private:
-    std::map<const void*, Bounds> known_;   // only for lookups, never iterated over
+    std::map<const void*, Bounds> known_;  // only for lookups, never iterated over
 };
 
 std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
@@ -187,7 +188,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
 
 CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
     std::vector<Vec3> points = points_of_note(scene, seconds);
-    if (points.empty()) {   // default extent, at the origin
+    if (points.empty()) {  // default extent, at the origin
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }
     const CameraVisibility sight(scene);

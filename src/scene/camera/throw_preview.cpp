@@ -8,21 +8,21 @@
 namespace tumble {
 namespace {
 
-constexpr int preview_steps = 600;             // per trajectory: 8 ms each for a throw of 5 s
-constexpr int steps_a_point = 12;              // fifty points approximate a smooth curve
-constexpr std::size_t most_pairs = 10'000;     // of thrown and other bodies: some 50 ms
-constexpr double farthest_of_size = 60.0;      // of the body's diameter: it is then about 20 pixels of 1280
-constexpr double farthest_of_all = 2.0;        // of the extent of all moving bodies
+constexpr int preview_steps = 600;          // per trajectory: 8 ms each for a throw of 5 s
+constexpr int steps_a_point = 12;           // fifty points approximate a smooth curve
+constexpr std::size_t most_pairs = 10'000;  // of thrown and other bodies: some 50 ms
+constexpr double farthest_of_size = 60.0;   // of the body's diameter: it is then about 20 pixels of 1280
+constexpr double farthest_of_all = 2.0;     // of the extent of all moving bodies
 
 struct Plane {
-    Vec3 normal;     // unit, world frame
-    double offset;   // m
+    Vec3 normal;    // unit, world frame
+    double offset;  // m
     const BodyDescription* body;
 };
 
 /// The bounding box of a body.
 struct Block {
-    Vec3 center, half_size;   // m
+    Vec3 center, half_size;  // m
     Quat rotation;
     const BodyDescription* body;
 };
@@ -41,7 +41,8 @@ Obstacles obstacles_of(const SceneDescription& scene) {
             continue;
         }
         const Bounds local = local_bounds(body.shape);
-        all.blocks.push_back({body.position + body.rotation * local.center(), 0.5 * local.extent(), body.rotation, &body});
+        all.blocks.push_back(
+            {body.position + body.rotation * local.center(), 0.5 * local.extent(), body.rotation, &body});
     }
     return all;
 }
@@ -57,10 +58,14 @@ Vec3 gap_to(const Block& block, const Vec3& point) {
 class Flight {
 public:
     Flight(const Block& start, const Obstacles& obstacles)
-        : body_(*start.body), obstacles_(obstacles), at_(start.center), velocity_(body_.velocity),
+        : body_(*start.body),
+          obstacles_(obstacles),
+          at_(start.center),
+          velocity_(body_.velocity),
           inner_(start.half_size.minCoeff()) {
-        for (const Block& block : obstacles.blocks)   // blocks that contain the initial position do not stop the body
-            if (block.body != &body_ && (block.body->type == BodyType::fixed || gap_to(block, at_).norm() > 1.01 * inner_))
+        for (const Block& block : obstacles.blocks)  // blocks that contain the initial position do not stop the body
+            if (block.body != &body_ &&
+                (block.body->type == BodyType::fixed || gap_to(block, at_).norm() > 1.01 * inner_))
                 met_.push_back(&block);
     }
 
@@ -92,7 +97,7 @@ private:
         const double kick = (1.0 + std::max(body_.restitution, other.restitution)) * approach;
         velocity_ += kick * normal;
         if (std::holds_alternative<SphereShape>(body_.shape)) return;
-        const Vec3 along = velocity_ - normal * normal.dot(velocity_);   // Coulomb friction
+        const Vec3 along = velocity_ - normal * normal.dot(velocity_);  // Coulomb friction
         const double speed = along.norm(), loss = std::sqrt(body_.friction * other.friction) * kick;
         velocity_ -= along * (loss < speed ? loss / speed : 1.0);
     }
@@ -101,7 +106,7 @@ private:
     const Obstacles& obstacles_;
     std::vector<const Block*> met_;
     Vec3 at_, velocity_;
-    double inner_;   // m: radius of the inscribed ball
+    double inner_;  // m: radius of the inscribed ball
 };
 
 }  // namespace
@@ -114,7 +119,8 @@ std::vector<Vec3> flight_points(const SceneDescription& scene, double seconds) {
     Bounds moving;
     for (const Block& block : obstacles.blocks)
         if (block.body->type != BodyType::fixed)
-            for (const double side : {-1.0, 1.0}) moving.add(block.center + Vec3::Constant(side * block.half_size.norm()));
+            for (const double side : {-1.0, 1.0})
+                moving.add(block.center + Vec3::Constant(side * block.half_size.norm()));
     for (const Block& start : obstacles.blocks) {
         if (!thrown(*start.body)) continue;
         const double radius = start.half_size.norm();
@@ -124,7 +130,8 @@ std::vector<Vec3> flight_points(const SceneDescription& scene, double seconds) {
             if ((flight.at() - start.center).norm() > farthest) break;
             if (i % steps_a_point != 0) continue;
             for (int corner = 0; corner < 8; ++corner)
-                points.push_back(flight.at() + radius * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+                points.push_back(flight.at() +
+                                 radius * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
         }
     }
     return points;

@@ -37,86 +37,86 @@ struct SimulationSettings {
     ImpactLaw impact_law = ImpactLaw::propagating;
     ContactSolverChoice contact_solver = ContactSolverChoice::by_island;
     RotationForm rotation = RotationForm::quaternion;
-    bool sleep = true;              // resting bodies leave the loop until another body touches them
+    bool sleep = true;  // resting bodies leave the loop until another body touches them
     std::uint64_t seed = 1;
 };
 
 struct OutputSettings {
-    int width = 1280, height = 720;   // pixels
-    double fps = 60.0;                // frames per second
-    int samples = 4;                  // samples per pixel
+    int width = 1280, height = 720;  // pixels
+    double fps = 60.0;               // frames per second
+    int samples = 4;                 // samples per pixel
 };
 
 /// Interpolation between keyframes.
 enum class Interpolation { smooth, linear };
 
 struct CameraKeyframe {
-    double time = 0.0;            // s, increasing
+    double time = 0.0;  // s, increasing
     Vec3 eye = Vec3::Zero(), target = Vec3::Zero();
-    double vertical_fov = 40.0;   // degrees
+    double vertical_fov = 40.0;  // degrees
 };
 
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
 /// (render/camera/camera_animation.h).
 struct CameraDescription {
     Vec3 eye, target, up{0.0, 1.0, 0.0};
-    double vertical_fov = 40.0;   // degrees
-    std::vector<CameraKeyframe> keyframes;   // empty: it stands still
+    double vertical_fov = 40.0;             // degrees
+    std::vector<CameraKeyframe> keyframes;  // empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
-    double orbit = 0.0;           // degrees/s about the target, counter-clockwise seen from the tip of `up`
-    std::optional<std::size_t> follow;       // index into bodies
-    Vec3 follow_start = Vec3::Zero();        // pose of that body's origin at the start
+    double orbit = 0.0;                 // degrees/s about the target, counter-clockwise seen from the tip of `up`
+    std::optional<std::size_t> follow;  // index into bodies
+    Vec3 follow_start = Vec3::Zero();   // pose of that body's origin at the start
     Quat follow_start_rotation = Quat::Identity();
 
     bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
 };
 
 struct LightDescription {
-    Vec3 direction{-0.4, -1.0, -0.3};   // direction in which the light travels; any length
+    Vec3 direction{-0.4, -1.0, -0.3};  // direction in which the light travels; any length
     bool shadows = true;
 };
 
 /// A uniform wind and the moving air: F = 1/2 density drag A |w - v| (w - v) at the center of mass, where A is the
 /// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). Without a wind table there is no air.
 struct WindDescription {
-    Vec3 velocity = Vec3::Zero();   // m/s
-    double density = 1.2;           // kg/m^3
-    double drag = 1.0;              // drag coefficient
+    Vec3 velocity = Vec3::Zero();  // m/s
+    double density = 1.2;          // kg/m^3
+    double drag = 1.0;             // drag coefficient
 };
 
 /// A force at a point of a body over a time span [start, end) in s (notes eq. 6).
 struct ForceDescription {
-    std::size_t body = 0;             // index into bodies
-    Vec3 point = Vec3::Zero();        // body frame, from the body's origin
-    Vec3 force = Vec3::Zero();        // N
-    bool body_frame = false;          // true: the force rotates with the body; false: a world vector
+    std::size_t body = 0;       // index into bodies
+    Vec3 point = Vec3::Zero();  // body frame, from the body's origin
+    Vec3 force = Vec3::Zero();  // N
+    bool body_frame = false;    // true: the force rotates with the body; false: a world vector
     double start = 0.0;
-    double end = 0.0;                 // infinity: forever
+    double end = 0.0;  // infinity: forever
 };
 
 enum class BodyType { dynamic, fixed, kinematic };
 
 /// Content of a mesh file, in the file's frame times the body's scale. Shared by the bodies that use it.
 struct MeshAsset {
-    std::string file;                 // resolved path
-    TriangleMesh surface;             // welded: for masses, hulls and contact
+    std::string file;      // resolved path
+    TriangleMesh surface;  // welded: for masses, hulls and contact
     struct Vertex {
         float position[3];
-        float normal[3];              // unit; computed if the file has none
+        float normal[3];  // unit; computed if the file has none
     };
-    std::vector<Vertex> vertices;     // for drawing
+    std::vector<Vertex> vertices;  // for drawing
     std::vector<std::uint32_t> indices;
 };
 
 struct PlaneShape {
-    Vec3 normal{0.0, 1.0, 0.0};   // unit, body frame
-    double offset = 0.0;          // m: points p with normal . p = offset; solid below
+    Vec3 normal{0.0, 1.0, 0.0};  // unit, body frame
+    double offset = 0.0;         // m: points p with normal . p = offset; solid below
 };
 struct BoxShape {
-    Vec3 size;                    // full edge lengths, m
+    Vec3 size;  // full edge lengths, m
 };
 struct SphereShape {
-    double radius;                // m
+    double radius;  // m
 };
 struct MeshShape {
     std::shared_ptr<const MeshAsset> asset;
@@ -124,16 +124,16 @@ struct MeshShape {
 struct CompoundPart;
 /// Several shapes that form one body, such as a table, a ring or an L. Shared by the bodies that use it.
 struct CompoundShape {
-    std::shared_ptr<const std::vector<CompoundPart>> parts;   // at least one
+    std::shared_ptr<const std::vector<CompoundPart>> parts;  // at least one
 };
 using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape, CompoundShape>;
 
 struct CompoundPart {
-    Shape shape;                      // a box, a sphere or a mesh; a mesh collides as its convex hull
-    Vec3 position = Vec3::Zero();     // of the part's origin, body frame, m
-    Quat rotation = Quat::Identity(); // of the part, body frame
-    std::optional<double> density;    // kg/m^3, overrides the body's
-    std::optional<Color> color;       // overrides the body's
+    Shape shape;                       // a box, a sphere or a mesh; a mesh collides as its convex hull
+    Vec3 position = Vec3::Zero();      // of the part's origin, body frame, m
+    Quat rotation = Quat::Identity();  // of the part, body frame
+    std::optional<double> density;     // kg/m^3, overrides the body's
+    std::optional<Color> color;        // overrides the body's
 };
 
 enum class Pattern { plain, grid, checker };
@@ -141,70 +141,70 @@ enum class Pattern { plain, grid, checker };
 /// Appearance of a body.
 struct Surface {
     Color color{200, 200, 200};
-    double roughness = 0.6;       // 0 mirror .. 1 chalk
-    double metallic = 0.0;        // 0 or 1, or between
-    Pattern pattern = Pattern::plain;   // planes default to grid
+    double roughness = 0.6;            // 0 mirror .. 1 chalk
+    double metallic = 0.0;             // 0 or 1, or between
+    Pattern pattern = Pattern::plain;  // planes default to grid
     bool visible = true;
 };
 
 /// A pose of a kinematic body's origin at a time.
 struct Keyframe {
-    double time = 0.0;            // s, increasing
+    double time = 0.0;  // s, increasing
     Vec3 position = Vec3::Zero();
     Quat rotation = Quat::Identity();
 };
 
 struct BodyDescription {
-    std::string name;             // given, or the index in the expanded list
+    std::string name;  // given, or the index in the expanded list
     BodyType type = BodyType::dynamic;
     Shape shape;
     Surface surface;
-    double density = 1000.0;      // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
-    std::optional<double> mass;   // kg
-    double restitution = 0.5;     // 0..1; a pair uses the larger
-    double friction = 0.0;        // >= 0; a pair uses sqrt(a b)
-    Vec3 position = Vec3::Zero(); // of the body's origin
+    double density = 1000.0;  // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
+    std::optional<double> mass;    // kg
+    double restitution = 0.5;      // 0..1; a pair uses the larger
+    double friction = 0.0;         // >= 0; a pair uses sqrt(a b)
+    Vec3 position = Vec3::Zero();  // of the body's origin
     Quat rotation = Quat::Identity();
-    Vec3 velocity = Vec3::Zero();         // m/s, of the center of mass
-    Vec3 angular_velocity = Vec3::Zero(); // rad/s
-    std::optional<IntegratorKind> integrator;   // overrides the simulation's, to compare two in one scene
-    std::vector<Keyframe> keyframes;      // kinematic bodies only; empty: it stands still
+    Vec3 velocity = Vec3::Zero();              // m/s, of the center of mass
+    Vec3 angular_velocity = Vec3::Zero();      // rad/s
+    std::optional<IntegratorKind> integrator;  // overrides the simulation's, to compare two in one scene
+    std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
 };
 
 /// A thin cord without effect on the simulation: from a fixed point to a point of a body.
 struct CordDescription {
     std::size_t body = 0;
-    Vec3 point = Vec3::Zero();    // body frame, from the body's origin
-    Vec3 anchor = Vec3::Zero();   // world frame
-    double radius = 0.01;         // m
+    Vec3 point = Vec3::Zero();   // body frame, from the body's origin
+    Vec3 anchor = Vec3::Zero();  // world frame
+    double radius = 0.01;        // m
     Color color{60, 60, 60};
 };
 
 /// When a simulation makes frames: frame n shows n / fps.
 struct FrameTiming {
-    double fps = 60.0;          // frames in a second of the scene's motion
+    double fps = 60.0;  // frames in a second of the scene's motion
     int steps_per_frame = 1;
 
-    double step() const { return 1.0 / (fps * steps_per_frame); }   // s
+    double step() const { return 1.0 / (fps * steps_per_frame); }  // s
     /// Frames up to `duration` (s), which is forgiven its rounding: 4.35 s at 100 fps have 436.
     std::int64_t frame_count(double duration) const;
 };
 
 struct SceneDescription {
-    std::string file;             // path of the scene file, for messages
+    std::string file;  // path of the scene file, for messages
     std::string title;
     SimulationSettings simulation;
     OutputSettings output;
-    CameraDescription camera;     // the file's, or the default camera
+    CameraDescription camera;  // the file's, or the default camera
     LightDescription light;
     std::optional<WindDescription> wind;
     std::vector<ForceDescription> forces;
-    std::vector<BodyDescription> bodies;   // with grids and scatters expanded
+    std::vector<BodyDescription> bodies;  // with grids and scatters expanded
     std::vector<CordDescription> cords;
 
     FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }
-    double step() const { return timing().step(); }   // s
+    double step() const { return timing().step(); }  // s
     std::int64_t frame_count() const { return timing().frame_count(simulation.duration); }
 };
 

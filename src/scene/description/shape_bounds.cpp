@@ -19,7 +19,7 @@ Bounds local_bounds(const Shape& shape) {
         return {Vec3::Constant(-ball->radius), Vec3::Constant(ball->radius)};
     }
     if (const auto* mesh = std::get_if<MeshShape>(&shape)) return mesh->asset->surface.bounds();
-    Bounds bounds;   // of a compound
+    Bounds bounds;  // of a compound
     visit_extent(shape, Vec3::Zero(), Quat::Identity(), [&](const Vec3& p, double r) {
         bounds.add(p.array() - r);
         bounds.add(p.array() + r);
@@ -33,15 +33,16 @@ BoundingSphere bounding_sphere(const Shape& shape) {
     const Bounds bounds = local_bounds(shape);
     BoundingSphere sphere{bounds.center(), 0.5 * bounds.extent().norm()};
     if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
-        double farthest = 0.0;   // square of the distance
+        double farthest = 0.0;  // square of the distance
         for (const Vec3& v : mesh->asset->surface.vertices) {
             farthest = std::max(farthest, (v - sphere.center).squaredNorm());
         }
         sphere.radius = std::sqrt(farthest);
     } else if (std::holds_alternative<CompoundShape>(shape)) {
         sphere.radius = 0.0;
-        visit_extent(shape, Vec3::Zero(), Quat::Identity(),
-                     [&](const Vec3& p, double r) { sphere.radius = std::max(sphere.radius, (p - sphere.center).norm() + r); });
+        visit_extent(shape, Vec3::Zero(), Quat::Identity(), [&](const Vec3& p, double r) {
+            sphere.radius = std::max(sphere.radius, (p - sphere.center).norm() + r);
+        });
     }
     return sphere;
 }

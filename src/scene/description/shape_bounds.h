@@ -6,8 +6,8 @@
 namespace tumble {
 
 struct BoundingSphere {
-    Vec3 center = Vec3::Zero();   // body frame
-    double radius = 0.0;          // m
+    Vec3 center = Vec3::Zero();  // body frame
+    double radius = 0.0;         // m
 };
 
 /// Address of the shared data of a mesh or a compound; null for other shapes.

@@ -1,9 +1,9 @@
 #include "scene/keys/arrays.h"
 
 #include "core/deterministic_math.h"
-#include "scene/toml/limits.h"
-#include "scene/keys/scatter_places.h"
 #include "scene/description/shape_bounds.h"
+#include "scene/keys/scatter_places.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +63,7 @@ void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest&
     if (request.min_scale > request.max_scale) value->fail("must have the smaller factor first");
     const Vec3 extent = local_bounds(shape.shape).extent();
     if (!limits::size.contains(request.max_scale * extent.maxCoeff()) ||
-        (!shared_data(shape.shape) &&
-         !limits::size.contains(request.min_scale * extent.minCoeff()))) {
+        (!shared_data(shape.shape) && !limits::size.contains(request.min_scale * extent.minCoeff()))) {
         value->fail(fmt::format("makes copies of unusable size (a length {})", limits::size.requirement()));
     }
 }
@@ -95,7 +94,7 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
 void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& place, Random& turn,
                      std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
-    std::map<const void*, BoundingSphere> known;   // computed once for each mesh or compound; only for lookups
+    std::map<const void*, BoundingSphere> known;  // computed once for each mesh or compound; only for lookups
     for (BodyDescription& copy : copies) {
         if (scatter.random_rotation) copy.rotation = turn.rotation();
         BoundingSphere sphere;
@@ -139,8 +138,10 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
         arrangement.origin().fail("is for bodies of finite size (given a plane, which is endless)");
     }
     CopiesRequest request{{}, arrangement.origin(), 1.0, 1.0, {}};
-    if (grid) request.arrangement = read_grid(*grid);
-    else request.arrangement = read_scatter(*scatter);
+    if (grid)
+        request.arrangement = read_grid(*grid);
+    else
+        request.arrangement = read_scatter(*scatter);
     read_scale(body, shape, request);
     if (const auto colors = body.find("colors")) {
         for (const TomlValue& color : colors->items()) request.colors.push_back(color.color());
@@ -167,8 +168,10 @@ std::vector<BodyDescription> make_copies(const CopiesRequest& request, const Bod
         copy.shape = scaled(shape, draw_scale(request, shares, size), meshes);
         if (!request.colors.empty()) copy.surface.color = request.colors[look.index(request.colors.size())];
     }
-    if (const auto* grid = std::get_if<GridRequest>(&request.arrangement)) place_in_grid(*grid, place, turn, copies);
-    else place_scattered(std::get<ScatterRequest>(request.arrangement), request.origin, place, turn, copies);
+    if (const auto* grid = std::get_if<GridRequest>(&request.arrangement))
+        place_in_grid(*grid, place, turn, copies);
+    else
+        place_scattered(std::get<ScatterRequest>(request.arrangement), request.origin, place, turn, copies);
     return copies;
 }
 

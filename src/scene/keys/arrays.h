@@ -14,24 +14,24 @@
 namespace tumble {
 
 struct GridRequest {
-    std::array<int, 3> count{1, 1, 1};   // along x, y, z
-    Vec3 spacing = Vec3::Zero();         // m between neighbors' origins
-    Vec3 jitter = Vec3::Zero();          // m: largest displacement of a copy to either side
-    double tilt = 0.0;                   // degrees: largest rotation of a copy about a random axis
+    std::array<int, 3> count{1, 1, 1};  // along x, y, z
+    Vec3 spacing = Vec3::Zero();        // m between neighbors' origins
+    Vec3 jitter = Vec3::Zero();         // m: largest displacement of a copy to either side
+    double tilt = 0.0;                  // degrees: largest rotation of a copy about a random axis
 };
 
 struct ScatterRequest {
     int count = 1;
-    Vec3 size = Vec3::Zero();      // m, of the box that contains the copies' origins
+    Vec3 size = Vec3::Zero();  // m, of the box that contains the copies' origins
     bool random_rotation = true;
-    double clearance = 0.0;        // m between the copies' bounding spheres
+    double clearance = 0.0;  // m between the copies' bounding spheres
 };
 
 struct CopiesRequest {
     std::variant<GridRequest, ScatterRequest> arrangement;
-    SourcePosition origin;                       // of the grid or scatter, for errors
+    SourcePosition origin;  // of the grid or scatter, for errors
     double min_scale = 1.0, max_scale = 1.0;
-    std::vector<Color> colors;           // empty: all have the body's color
+    std::vector<Color> colors;  // empty: all have the body's color
 };
 
 /// Reads grid, scatter, scale and colors of a body's table; empty for a single body.

@@ -2,14 +2,14 @@
 
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
-#include "scene/toml/limits.h"
 #include "scene/keys/motion.h"
 #include "scene/keys/run_settings.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
-#include <set>
 #include <iterator>
+#include <set>
 #include <string>
 
 namespace tumble {
@@ -82,9 +82,29 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
     std::uint64_t number = 0;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {
         table.set_title("[[body]]");
-        table.expect_keys({"name", "type", "shape", "material", "color", "roughness", "metallic", "pattern", "visible",
-                           "density", "mass", "restitution", "friction", "position", "rotation", "velocity",
-                           "angular_velocity", "keyframes", "interpolation", "integrator", "grid", "scatter", "scale",
+        table.expect_keys({"name",
+                           "type",
+                           "shape",
+                           "material",
+                           "color",
+                           "roughness",
+                           "metallic",
+                           "pattern",
+                           "visible",
+                           "density",
+                           "mass",
+                           "restitution",
+                           "friction",
+                           "position",
+                           "rotation",
+                           "velocity",
+                           "angular_velocity",
+                           "keyframes",
+                           "interpolation",
+                           "integrator",
+                           "grid",
+                           "scatter",
+                           "scale",
                            "colors"});
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, body_types);

@@ -9,8 +9,10 @@ namespace tumble {
 BodyIndex::BodyIndex(const std::vector<BodyDescription>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const bool is_own_index = bodies[i].name == std::to_string(i);
-        if (!is_own_index) index_[bodies[i].name] = i;
-        else index_.try_emplace(bodies[i].name, i);
+        if (!is_own_index)
+            index_[bodies[i].name] = i;
+        else
+            index_.try_emplace(bodies[i].name, i);
     }
 }
 

@@ -1,8 +1,8 @@
 #include "scene/keys/compound.h"
 
-#include "scene/toml/limits.h"
 #include "scene/keys/motion.h"
 #include "scene/keys/shapes.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,8 @@ CompoundPart within(const CompoundPart& outer, const CompoundPart& inner) {
 
 }  // namespace
 
-CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
+CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder,
+                            MeshCache& meshes) {
     table.expect_keys({"type", "parts"});
     const TomlValue list = table.require("parts");
     auto parts = std::make_shared<std::vector<CompoundPart>>();

@@ -10,6 +10,7 @@
 namespace tumble {
 
 /// Reads the parts of a body of that type. Nested compounds are flattened.
-CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes);
+CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder,
+                            MeshCache& meshes);
 
 }  // namespace tumble

@@ -34,8 +34,8 @@ void read_forces(const TomlTable& root, SceneDescription& scene) {
         table.read("start", force.start, limits::time);
         table.read("end", force.end, limits::time);
         if (force.end <= force.start) {
-            table.find(table.has("end") ? "end" : "start")->fail(
-                fmt::format("makes the force end before it starts, at {} s", number_text(force.start)));
+            table.find(table.has("end") ? "end" : "start")
+                ->fail(fmt::format("makes the force end before it starts, at {} s", number_text(force.start)));
         }
         scene.forces.push_back(force);
     }

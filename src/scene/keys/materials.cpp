@@ -14,16 +14,15 @@ constexpr Choice<Pattern> patterns[] = {
     {"checker", Pattern::checker},
 };
 
-constexpr Color default_color{0xcf, 0x9a, 0x5b};         // light wood: contrasts with ground and sky
-constexpr Color default_plane_color{0xd6, 0xd8, 0xda};   // light gray, on which shadows and grid lines are visible
+constexpr Color default_color{0xcf, 0x9a, 0x5b};        // light wood: contrasts with ground and sky
+constexpr Color default_plane_color{0xd6, 0xd8, 0xda};  // light gray, on which shadows and grid lines are visible
 
 }  // namespace
 
 Material Material::overridden_by(const Material& over) const {
     const auto either = [](const auto& mine, const auto& theirs) { return theirs ? theirs : mine; };
-    return {either(color, over.color),         either(density, over.density),
-            either(restitution, over.restitution), either(friction, over.friction),
-            either(roughness, over.roughness), either(metallic, over.metallic),
+    return {either(color, over.color),       either(density, over.density),     either(restitution, over.restitution),
+            either(friction, over.friction), either(roughness, over.roughness), either(metallic, over.metallic),
             either(pattern, over.pattern)};
 }
 

@@ -13,7 +13,7 @@ namespace tumble {
 /// Properties given by a material, or by a body itself. Missing ones stay empty, because the defaults of planes differ.
 struct Material {
     std::optional<Color> color;
-    std::optional<double> density;       // kg/m^3
+    std::optional<double> density;  // kg/m^3
     std::optional<double> restitution;
     std::optional<double> friction;
     std::optional<double> roughness;

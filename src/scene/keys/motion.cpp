@@ -21,7 +21,7 @@ Quat rotation_about_axis(const TomlTable& table) {
 }
 
 Quat rotation_from_numbers(const TomlValue& value) {
-    constexpr Range component{-1e6, 1e6, ""};   // far above a unit quaternion, with a finite square
+    constexpr Range component{-1e6, 1e6, ""};  // far above a unit quaternion, with a finite square
     const auto item = value.items(4, "numbers w, x, y, z (or a table with axis and angle)");
     const Quat q(item[0].number(component), item[1].number(component), item[2].number(component),
                  item[3].number(component));

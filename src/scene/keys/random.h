@@ -17,12 +17,12 @@ public:
     /// The stream of one body table of a scene with that seed.
     Random(std::uint64_t seed, std::uint64_t body, Purpose purpose);
 
-    double unit();                                    // uniform in [0, 1), 53 bits
+    double unit();  // uniform in [0, 1), 53 bits
     double between(double low, double high);
-    std::size_t index(std::size_t count);             // uniform in 0 .. count - 1
-    Vec3 in_box(const Vec3& half);                    // each component within +-half
-    Vec3 direction();                                 // uniform on the unit sphere
-    Quat rotation();                                  // uniform over all rotations (Marsaglia 1972)
+    std::size_t index(std::size_t count);  // uniform in 0 .. count - 1
+    Vec3 in_box(const Vec3& half);         // each component within +-half
+    Vec3 direction();                      // uniform on the unit sphere
+    Quat rotation();                       // uniform over all rotations (Marsaglia 1972)
 
 private:
     std::mt19937_64 engine_;

@@ -59,8 +59,8 @@ void override_number(const std::optional<double>& given, const char* option, std
 }
 
 void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
-    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law", "contact_solver",
-                       "rotation", "sleep", "seed"});
+    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law",
+                       "contact_solver", "rotation", "sleep", "seed"});
     read_time(table, "duration", time.duration, limits::duration);
     read_time(table, "step", time.step, limits::step);
     if (const auto value = table.find("steps_per_frame")) {
@@ -92,8 +92,8 @@ void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& ti
     }
     read_time(table, "fps", time.fps, limits::fps);
     if (const auto value = table.find("samples")) {
-        const std::int64_t samples = value->integer(std::numeric_limits<std::int64_t>::min(),
-                                                    std::numeric_limits<std::int64_t>::max());
+        const std::int64_t samples =
+            value->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
         check_samples(samples, value->origin());
         output.samples = static_cast<int>(samples);
     }
@@ -148,8 +148,10 @@ int steps_in_a_frame(const TimeRequest& time, double fps) {
         const double more = std::max(1.0, std::ceil(ratio)), fewer = std::max(1.0, std::floor(ratio));
         const double shorter = 1.0 / (fps * more), longer = 1.0 / (fps * fewer);
         const double nearest = std::fabs(shorter - step) <= std::fabs(longer - step) ? shorter : longer;
-        origin.fail(fmt::format("does not fit: a step must divide the frame's 1/{} s; the nearest that does is {} s "
-                                "(given a step of {} s)", number_text(fps), number_text(nearest), number_text(step)));
+        origin.fail(
+            fmt::format("does not fit: a step must divide the frame's 1/{} s; the nearest that does is {} s "
+                        "(given a step of {} s)",
+                        number_text(fps), number_text(nearest), number_text(step)));
     }
     return static_cast<int>(steps);
 }
@@ -161,10 +163,10 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
     // file.
     const bool blame_fps =
         !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
-    (blame_fps ? time.fps : time.duration)->origin.fail(
-        fmt::format("makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
-                    number_text(duration), number_text(fps), frames, limits::frames,
-                    number_text(blame_fps ? fps : duration)));
+    (blame_fps ? time.fps : time.duration)
+        ->origin.fail(fmt::format(
+            "makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
+            number_text(duration), number_text(fps), frames, limits::frames, number_text(blame_fps ? fps : duration)));
 }
 
 }  // namespace

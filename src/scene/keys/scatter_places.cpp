@@ -60,7 +60,7 @@ private:
 
     const std::vector<BoundingSphere>& spheres_;
     double clearance_;
-    double cell_;   // m
+    double cell_;  // m
     std::unordered_map<std::uint64_t, std::vector<Placed>> cells_;
 };
 

@@ -1,8 +1,8 @@
 // Random places for spheres in a box without contact: random sequential addition (Renyi 1958).
 #pragma once
 
-#include "scene/keys/random.h"
 #include "scene/description/shape_bounds.h"
+#include "scene/keys/random.h"
 
 #include <cstdint>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace tumble {
 
 struct ScatterPlaces {
-    std::vector<Vec3> offsets;   // from the center of the box, in the order of the spheres; fewer if they do not fit
+    std::vector<Vec3> offsets;  // from the center of the box, in the order of the spheres; fewer if they do not fit
 };
 
 /// An offset for each sphere, uniform in the box of that full size. It is redrawn (up to `attempts` times per sphere)

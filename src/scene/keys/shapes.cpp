@@ -15,11 +15,8 @@ namespace {
 enum class ShapeKind { plane, box, sphere, mesh, compound };
 
 constexpr Choice<ShapeKind> shape_kinds[] = {
-    {"plane", ShapeKind::plane},
-    {"box", ShapeKind::box},
-    {"sphere", ShapeKind::sphere},
-    {"mesh", ShapeKind::mesh},
-    {"compound", ShapeKind::compound},
+    {"plane", ShapeKind::plane}, {"box", ShapeKind::box},           {"sphere", ShapeKind::sphere},
+    {"mesh", ShapeKind::mesh},   {"compound", ShapeKind::compound},
 };
 
 // One convex hull of the mesh, or one of each object of the file.
@@ -71,7 +68,8 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
 }
 
 /// Each object of the file as a part.
-CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request, MeshCache& meshes) {
+CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request,
+                           MeshCache& meshes) {
     const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh_file, request.mesh_scale);
     auto made = std::make_shared<std::vector<CompoundPart>>();
     const auto scale = table.find("scale");
@@ -106,8 +104,9 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
         check_mesh_size(mesh, scale ? *scale : file);
         request.shape = MeshShape{mesh.asset};
     } catch (const MeshError& error) {
-        throw InputError(file.origin().where, fmt::format("mesh \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
-                                                          safe_path(request.mesh_file)));
+        throw InputError(file.origin().where,
+                         fmt::format("mesh \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
+                                     safe_path(request.mesh_file)));
     }
     return request;
 }

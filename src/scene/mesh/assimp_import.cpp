@@ -2,11 +2,11 @@
 
 #include "scene/mesh/mesh_transform.h"
 
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
 
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -28,9 +28,9 @@ namespace {
 
 // Bytes beyond the program's own: importers take about ten times the file, plus fixed tables.
 constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
-constexpr unsigned import_seconds = 60;             // the largest allowed mesh takes about ten
-constexpr unsigned deepest_node = 1000;             // nested transforms: a file with more is made to exhaust the stack
-constexpr std::size_t words_shown = 120;            // characters of assimp's own message
+constexpr unsigned import_seconds = 60;   // the largest allowed mesh takes about ten
+constexpr unsigned deepest_node = 1000;   // nested transforms: a file with more is made to exhaust the stack
+constexpr std::size_t words_shown = 120;  // characters of assimp's own message
 
 /// Hides all other files, so that a mesh consists of one file only.
 class NoOtherFiles : public Assimp::IOSystem {
@@ -85,7 +85,7 @@ void add_node(const aiNode& node, const aiScene& scene, const MeshTransform& par
 
 MeshFile import(std::string_view bytes, const std::string& extension) {
     Assimp::Importer importer;
-    importer.SetIOHandler(new NoOtherFiles);   // the importer deletes it
+    importer.SetIOHandler(new NoOtherFiles);  // the importer deletes it
     // Only assimp's check of the data is used: welding, normals and triangulation follow later.
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, extension.c_str() + 1);
@@ -105,7 +105,7 @@ void write_all(int file, const void* data, std::size_t size) {
     while (size > 0) {
         const ssize_t n = ::write(file, at, size);
         if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) ::_exit(1);   // no parent is left to read it
+        if (n <= 0) ::_exit(1);  // no parent is left to read it
         at += n;
         size -= static_cast<std::size_t>(n);
     }
@@ -128,7 +128,8 @@ void write_list(int file, const std::vector<T>& list) {
     std::ifstream("/proc/self/statm") >> pages;
     rlimit memory{};
     if (::getrlimit(RLIMIT_AS, &memory) == 0) {
-        memory.rlim_cur = std::min(memory.rlim_max, pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory(bytes.size()));
+        memory.rlim_cur = std::min(memory.rlim_max,
+                                   pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory(bytes.size()));
         ::setrlimit(RLIMIT_AS, &memory);
     }
     std::signal(SIGALRM, SIG_DFL);
@@ -231,7 +232,8 @@ MeshFile import_with_assimp(std::string_view bytes, const std::string& extension
     const std::string answer = read_all(ends[0]);
     ::close(ends[0]);
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
     if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * words_shown));
     return checked_mesh(std::string_view(answer).substr(1));

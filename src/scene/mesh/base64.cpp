@@ -26,7 +26,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
     std::string bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t bits = 0;
-    int count = 0;   // number of bits in the buffer
+    int count = 0;  // number of bits in the buffer
     for (const char letter : text) {
         const std::uint8_t digit = digits[std::uint8_t(letter)];
         if (digit == no_digit) return std::nullopt;

@@ -2,8 +2,8 @@
 
 #include "scene/mesh/base64.h"
 #include "scene/mesh/input_file.h"
-#include "scene/toml/limits.h"
 #include "scene/mesh/mesh_file.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -21,19 +21,22 @@ enum class Component { int8 = 5120, uint8 = 5121, int16 = 5122, uint16 = 5123, u
 std::size_t size_of(Component type) {
     switch (type) {
         case Component::int8:
-        case Component::uint8: return 1;
+        case Component::uint8:
+            return 1;
         case Component::int16:
-        case Component::uint16: return 2;
+        case Component::uint16:
+            return 2;
         case Component::uint32:
-        case Component::float32: break;
+        case Component::float32:
+            break;
     }
     return 4;
 }
 
 Component component_type(const Json& holder) {
     const std::uint64_t number = require_whole(holder, "componentType");
-    for (const Component type : {Component::int8, Component::uint8, Component::int16, Component::uint16, Component::uint32,
-                                 Component::float32})
+    for (const Component type : {Component::int8, Component::uint8, Component::int16, Component::uint16,
+                                 Component::uint32, Component::float32})
         if (number == std::uint64_t(type)) return type;
     throw MeshError(fmt::format("has an unknown \"componentType\" of {}", number));
 }
@@ -41,7 +44,7 @@ Component component_type(const Json& holder) {
 template <class Number>
 Number take(const char* at) {
     Number value;
-    std::memcpy(&value, at, sizeof value);   // x86-64 is little-endian, like glTF
+    std::memcpy(&value, at, sizeof value);  // x86-64 is little-endian, like glTF
     return value;
 }
 
@@ -53,24 +56,34 @@ float whole_as_float(const char* at, bool normalized) {
 
 float component(const char* at, Component type, bool normalized) {
     switch (type) {
-        case Component::int8: return whole_as_float<std::int8_t>(at, normalized);
-        case Component::uint8: return whole_as_float<std::uint8_t>(at, normalized);
-        case Component::int16: return whole_as_float<std::int16_t>(at, normalized);
-        case Component::uint16: return whole_as_float<std::uint16_t>(at, normalized);
-        case Component::uint32: return whole_as_float<std::uint32_t>(at, normalized);
-        case Component::float32: break;
+        case Component::int8:
+            return whole_as_float<std::int8_t>(at, normalized);
+        case Component::uint8:
+            return whole_as_float<std::uint8_t>(at, normalized);
+        case Component::int16:
+            return whole_as_float<std::int16_t>(at, normalized);
+        case Component::uint16:
+            return whole_as_float<std::uint16_t>(at, normalized);
+        case Component::uint32:
+            return whole_as_float<std::uint32_t>(at, normalized);
+        case Component::float32:
+            break;
     }
     return take<float>(at);
 }
 
 std::uint32_t index_value(const char* at, Component type) {
     switch (type) {
-        case Component::uint8: return take<std::uint8_t>(at);
-        case Component::uint16: return take<std::uint16_t>(at);
-        case Component::uint32: return take<std::uint32_t>(at);
+        case Component::uint8:
+            return take<std::uint8_t>(at);
+        case Component::uint16:
+            return take<std::uint16_t>(at);
+        case Component::uint32:
+            return take<std::uint32_t>(at);
         case Component::int8:
         case Component::int16:
-        case Component::float32: break;
+        case Component::float32:
+            break;
     }
     throw MeshError("has indices that are not unsigned whole numbers");
 }
@@ -93,7 +106,8 @@ std::string without_percents(std::string_view uri) {
 /// The file after following links; it must be in the folder (after following links) or below.
 std::filesystem::path within(const std::filesystem::path& folder, const std::string& name) {
     const std::filesystem::path asked(name);
-    if (name.empty() || name.find('\0') != name.npos || asked.is_absolute()) throw MeshError("is not a file of its folder");
+    if (name.empty() || name.find('\0') != name.npos || asked.is_absolute())
+        throw MeshError("is not a file of its folder");
     std::error_code error;
     const auto top = std::filesystem::canonical(folder.empty() ? "." : folder, error);
     const auto file = error ? std::filesystem::path() : std::filesystem::canonical(top / asked, error);
@@ -105,7 +119,7 @@ std::filesystem::path within(const std::filesystem::path& folder, const std::str
     return file;
 }
 
-constexpr std::size_t uri_shown = 60;   // characters of a name in a message
+constexpr std::size_t uri_shown = 60;  // characters of a name in a message
 
 }  // namespace
 
@@ -119,9 +133,9 @@ struct GltfBuffers::Elements {
     Component type;
     bool normalized;
     std::uint64_t count;
-    std::size_t size, stride;   // bytes
-    std::string_view bytes;     // empty: all are zero
-    Sparse sparse;              // elements with other values
+    std::size_t size, stride;  // bytes
+    std::string_view bytes;    // empty: all are zero
+    Sparse sparse;             // elements with other values
 };
 
 std::string GltfBuffers::load_file(std::string_view uri) {
@@ -144,7 +158,8 @@ std::string GltfBuffers::load(const Json& buffer) {
     const std::string_view text = uri->get_ref<const std::string&>();
     if (!text.starts_with("data:")) return load_file(text);
     const std::string_view head = text.substr(0, text.find(','));
-    if (head.size() == text.size() || !head.ends_with(";base64")) throw MeshError("has a buffer with a data: URI without base64");
+    if (head.size() == text.size() || !head.ends_with(";base64"))
+        throw MeshError("has a buffer with a data: URI without base64");
     auto bytes = decode_base64(text.substr(head.size() + 1));
     if (!bytes) throw MeshError("has a buffer with broken base64");
     return std::move(*bytes);
@@ -172,8 +187,9 @@ std::string_view GltfBuffers::view(const Json& holder, std::size_t& stride) {
     const std::uint64_t first = find_whole(view, "byteOffset").value_or(0), length = require_whole(view, "byteLength");
     const std::uint64_t skipped = find_whole(holder, "byteOffset").value_or(0);
     stride = find_whole(view, "byteStride").value_or(0);
-    constexpr std::uint64_t longest_stride = 252;   // bytes, glTF 2.0's own
-    if (stride > longest_stride) throw MeshError(fmt::format("has a \"byteStride\" of {} (at most {})", stride, longest_stride));
+    constexpr std::uint64_t longest_stride = 252;  // bytes, glTF 2.0's own
+    if (stride > longest_stride)
+        throw MeshError(fmt::format("has a \"byteStride\" of {} (at most {})", stride, longest_stride));
     if (first > bytes.size() || length > bytes.size() - first || skipped > length)
         throw MeshError(fmt::format("has a buffer view beyond its buffer of {} bytes", bytes.size()));
     return bytes.substr(first, length).substr(skipped);
@@ -207,7 +223,7 @@ GltfBuffers::Elements GltfBuffers::elements(std::uint64_t accessor, std::size_t 
         if (stride > 0) result.stride = stride;
     }
     if (const Json* sparse = find_member(item, "sparse")) result.sparse = sparse_of(*sparse, result);
-    if (result.count > bytes_read_)   // elements without a buffer view are zeros, which need no bytes
+    if (result.count > bytes_read_)  // elements without a buffer view are zeros, which need no bytes
         throw MeshError(fmt::format("has an accessor of {} elements in {} bytes", result.count, bytes_read_));
     if (has_view) check_extent(result.bytes, result.count, result.size, result.stride);
     return result;
@@ -220,7 +236,7 @@ GltfBuffers::Sparse GltfBuffers::sparse_of(const Json& sparse, const Elements& e
     result.count = require_whole(sparse, "count");
     if (result.count > elements.count) throw MeshError("has a sparse accessor that changes more elements than it has");
     result.index_type = component_type(*indices);
-    std::size_t stride = 0;   // sparse data are packed
+    std::size_t stride = 0;  // sparse data are packed
     result.indices = view(*indices, stride);
     result.values = view(*values, stride);
     if (result.count > bytes_read_) throw MeshError(fmt::format("has a sparse accessor of {} elements", result.count));
@@ -237,8 +253,10 @@ std::vector<Element> GltfBuffers::read(std::uint64_t accessor, std::size_t compo
         for (std::uint64_t i = 0; i < all.count; ++i) result[i] = convert(all.bytes.data() + i * all.stride, all);
     for (std::uint64_t i = 0; i < all.sparse.count; ++i) {
         const Sparse& sparse = all.sparse;
-        const std::uint32_t changed = index_value(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
-        if (changed >= all.count) throw MeshError(fmt::format("has a sparse index of {} of {} elements", changed, all.count));
+        const std::uint32_t changed =
+            index_value(sparse.indices.data() + i * size_of(sparse.index_type), sparse.index_type);
+        if (changed >= all.count)
+            throw MeshError(fmt::format("has a sparse index of {} of {} elements", changed, all.count));
         result[changed] = convert(sparse.values.data() + i * all.size, all);
     }
     return result;
@@ -257,7 +275,8 @@ std::vector<std::array<float, 3>> GltfBuffers::vectors(std::uint64_t accessor) {
 }
 
 std::vector<std::uint32_t> GltfBuffers::indices(std::uint64_t accessor) {
-    return read<std::uint32_t>(accessor, 1, [](const char* at, const Elements& all) { return index_value(at, all.type); });
+    return read<std::uint32_t>(accessor, 1,
+                               [](const char* at, const Elements& all) { return index_value(at, all.type); });
 }
 
 }  // namespace tumble

@@ -45,10 +45,10 @@ private:
     const Json& document_;
     std::string_view binary_;
     std::filesystem::path folder_;
-    std::uint64_t bytes_read_;        // of the file and its buffers
-    std::int64_t files_read_ = 0;     // bytes of other files
+    std::uint64_t bytes_read_;     // of the file and its buffers
+    std::int64_t files_read_ = 0;  // bytes of other files
     std::vector<std::filesystem::path> other_files_;
-    std::map<std::uint64_t, std::string> loaded_;   // buffers by their index
+    std::map<std::uint64_t, std::string> loaded_;  // buffers by their index
 };
 
 }  // namespace tumble

@@ -16,7 +16,7 @@ namespace {
 Eigen::Matrix4f local_transform(const Json& node) {
     Eigen::Matrix4f result = Eigen::Matrix4f::Identity();
     if (const auto matrix = find_floats(node, "matrix", 16)) {
-        for (int i = 0; i < 16; ++i) result(i % 4, i / 4) = (*matrix)[std::size_t(i)];   // column by column
+        for (int i = 0; i < 16; ++i) result(i % 4, i / 4) = (*matrix)[std::size_t(i)];  // column by column
         return result;
     }
     if (const auto t = find_floats(node, "translation", 3)) result.topRightCorner<3, 1>() << (*t)[0], (*t)[1], (*t)[2];
@@ -24,8 +24,8 @@ Eigen::Matrix4f local_transform(const Json& node) {
         const float x = (*q)[0], y = (*q)[1], z = (*q)[2], w = (*q)[3];
         Eigen::Matrix4f turn = Eigen::Matrix4f::Identity();
         turn.topLeftCorner<3, 3>() << 1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y - z * w), 2.0f * (x * z + y * w),
-            2.0f * (x * y + z * w), 1.0f - 2.0f * (x * x + z * z), 2.0f * (y * z - x * w),
-            2.0f * (x * z - y * w), 2.0f * (y * z + x * w), 1.0f - 2.0f * (x * x + y * y);
+            2.0f * (x * y + z * w), 1.0f - 2.0f * (x * x + z * z), 2.0f * (y * z - x * w), 2.0f * (x * z - y * w),
+            2.0f * (y * z + x * w), 1.0f - 2.0f * (x * x + y * y);
         result = result * turn;
     }
     if (const auto s = find_floats(node, "scale", 3)) {
@@ -53,7 +53,7 @@ public:
         const auto scene = find_whole(document_, "scene").value_or(0);
         std::vector<Visit> open;
         push(whole_numbers(require_item(document_, "scenes", scene), "nodes"), {}, open);
-        while (!open.empty()) {   // depth first, with an explicit stack, because a file may have any depth
+        while (!open.empty()) {  // depth first, with an explicit stack, because a file may have any depth
             const Visit visit = open.back();
             open.pop_back();
             const Json& node = require_item(document_, "nodes", visit.node);
@@ -90,11 +90,11 @@ private:
         for (const Json& item : *list) {
             const std::uint64_t mode = find_whole(item, "mode").value_or(4);
             if (mode > 6) throw MeshError(fmt::format("has an unknown \"mode\" of {}", mode));
-            if (mode < 4) continue;   // points and lines
+            if (mode < 4) continue;  // points and lines
             const Json* extensions = find_member(item, "extensions");
             if (extensions && find_member(*extensions, draco)) throw UnsupportedGltf(cannot_be_read(draco));
             const Json* attributes = find_member(item, "attributes");
-            if (!attributes || !find_member(*attributes, "POSITION")) continue;   // nothing to draw
+            if (!attributes || !find_member(*attributes, "POSITION")) continue;  // nothing to draw
             Primitive primitive{};
             primitive.mode = Mode(mode);
             primitive.positions = require_whole(*attributes, "POSITION");
@@ -129,7 +129,8 @@ private:
 
         const auto corner = [&](std::uint64_t at) {
             const std::uint64_t v = primitive.indices ? indices[at] : at;
-            if (v >= positions.size()) throw MeshError(fmt::format("has a face with vertex {} of {}", v, positions.size()));
+            if (v >= positions.size())
+                throw MeshError(fmt::format("has a face with vertex {} of {}", v, positions.size()));
             MeshFile::Corner result{first + static_cast<std::uint32_t>(v), Vec3::Zero()};
             if (!normals.empty()) result.normal = transform.normal(normals[v]);
             return result;
@@ -161,7 +162,9 @@ private:
 void check_extensions(const Json& document) {
     const Json* required = find_member(document, "extensionsRequired");
     if (!required || !required->is_array()) return;
-    const auto needs = [&](const char* name) { return std::find(required->begin(), required->end(), name) != required->end(); };
+    const auto needs = [&](const char* name) {
+        return std::find(required->begin(), required->end(), name) != required->end();
+    };
     if (needs(SceneReader::draco)) throw UnsupportedGltf(SceneReader::cannot_be_read(SceneReader::draco));
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
         if (needs(name)) throw MeshError(SceneReader::cannot_be_read(name));
@@ -184,25 +187,29 @@ Chunks split_glb(std::string_view bytes) {
     const auto take = [&] {
         std::uint32_t number = 0;
         if (bytes.size() < sizeof number) throw MeshError("is a GLB file that ends early");
-        std::memcpy(&number, bytes.data(), sizeof number);   // x86-64 is little-endian, like GLB
+        std::memcpy(&number, bytes.data(), sizeof number);  // x86-64 is little-endian, like GLB
         bytes.remove_prefix(sizeof number);
         return number;
     };
     const std::size_t whole = bytes.size();
-    take();   // "glTF"
-    if (const std::uint32_t version = take(); version != 2) throw MeshError(fmt::format("is GLB version {}, not 2", version));
+    take();  // "glTF"
+    if (const std::uint32_t version = take(); version != 2)
+        throw MeshError(fmt::format("is GLB version {}, not 2", version));
     const std::uint32_t length = take(), head = 12;
     if (length > whole || length < head)
         throw MeshError(fmt::format("is a GLB file of {} bytes that names {} as its length", whole, length));
     bytes = bytes.substr(0, length - head);
     Chunks chunks;
-    constexpr std::uint32_t json_kind = 0x4e4f534a, binary_kind = 0x004e4942;   // "JSON", "BIN"
+    constexpr std::uint32_t json_kind = 0x4e4f534a, binary_kind = 0x004e4942;  // "JSON", "BIN"
     for (bool first = true; !bytes.empty(); first = false) {
         const std::uint32_t size = take(), kind = take();
         if (first != (kind == json_kind)) throw MeshError("is a GLB file whose one JSON chunk does not come first");
-        if (size > bytes.size()) throw MeshError(fmt::format("has a chunk of {} bytes where {} are left", size, bytes.size()));
-        if (first) chunks.json = bytes.substr(0, size);
-        else if (kind == binary_kind && chunks.binary.empty()) chunks.binary = bytes.substr(0, size);
+        if (size > bytes.size())
+            throw MeshError(fmt::format("has a chunk of {} bytes where {} are left", size, bytes.size()));
+        if (first)
+            chunks.json = bytes.substr(0, size);
+        else if (kind == binary_kind && chunks.binary.empty())
+            chunks.binary = bytes.substr(0, size);
         bytes.remove_prefix(size);
     }
     return chunks;

@@ -1,7 +1,7 @@
 #include "scene/mesh/gltf_json.h"
 
-#include "scene/toml/limits.h"
 #include "scene/mesh/mesh_file.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,7 @@ private:
 
 Json parse_json(std::string_view text) {
     Counter counter;
-    Json::sax_parse(text.begin(), text.end(), &counter);   // a syntax error is found again below
+    Json::sax_parse(text.begin(), text.end(), &counter);  // a syntax error is found again below
     if (counter.too_many()) throw MeshError(fmt::format("holds more than {} JSON values", limits::json_values));
     try {
         return Json::parse(text.begin(), text.end());
@@ -92,7 +92,8 @@ std::vector<std::uint64_t> whole_numbers(const Json& object, const char* name) {
 std::optional<std::vector<float>> find_floats(const Json& object, const char* name, std::size_t count) {
     const Json* array = find_array(object, name);
     if (!array) return std::nullopt;
-    if (array->size() != count) throw MeshError(fmt::format("has a \"{}\" of {} numbers, not {}", name, array->size(), count));
+    if (array->size() != count)
+        throw MeshError(fmt::format("has a \"{}\" of {} numbers, not {}", name, array->size(), count));
     std::vector<float> result;
     for (const Json& item : *array) {
         if (!item.is_number()) throw MeshError(fmt::format("has a \"{}\" with something that is not a number", name));

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
+#include <cerrno>
+#include <system_error>
 
 namespace tumble {
 namespace {
@@ -48,7 +48,7 @@ std::string read_regular_file(const std::filesystem::path& file, std::int64_t li
         if (size > limit) throw MeshError(fmt::format("is larger than {} MiB", limit >> 20));
     };
     check_size(state.st_size);
-    std::string bytes(static_cast<std::size_t>(state.st_size) + 1, '\0');   // one more, to detect the end of the file
+    std::string bytes(static_cast<std::size_t>(state.st_size) + 1, '\0');  // one more, to detect the end of the file
     std::size_t size = 0;
     while (true) {
         const ssize_t got = read(opened.number(), bytes.data() + size, bytes.size() - size);

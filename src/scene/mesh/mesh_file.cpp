@@ -3,11 +3,11 @@
 #include "scene/mesh/assimp_import.h"
 #include "scene/mesh/gltf_file.h"
 #include "scene/mesh/input_file.h"
-#include "scene/toml/limits.h"
 #include "scene/mesh/obj_file.h"
 #include "scene/mesh/ply_file.h"
 #include "scene/mesh/polygon.h"
 #include "scene/mesh/stl_file.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +49,8 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
     const bool gltf = extension == ".gltf" || extension == ".glb";
     const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
     if (!own && !assimp_reads(extension))
-        throw MeshError("is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
+        throw MeshError(
+            "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     const std::string bytes = read_regular_file(file, limits::mesh_bytes);
     if (bytes.empty()) throw MeshError("is empty");
     if (!own) return import(bytes, extension, imports);
@@ -62,7 +63,7 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
 
 void MeshFile::add_position(const Vec3& position) {
     constexpr double farthest = 1e30;
-    if (!(position.array().abs() <= farthest).all()) {   // false for NaN, which maxCoeff() may pass over
+    if (!(position.array().abs() <= farthest).all()) {  // false for NaN, which maxCoeff() may pass over
         throw MeshError("holds a coordinate that is not a finite number, or beyond 1e30");
     }
     check_more_positions(1);
@@ -74,7 +75,7 @@ void MeshFile::begin_object() {
 }
 
 void MeshFile::add_polygon(const std::vector<Corner>& corners) {
-    if (corners.size() < 3) return;   // points and lines
+    if (corners.size() < 3) return;  // points and lines
     check_corners(corners.size());
     check_more_triangles(corners.size() - 2);
     if (corners.size() == 3) return add_triangle({corners[0], corners[1], corners[2]});
@@ -99,7 +100,7 @@ void MeshFile::check_more_triangles(std::uint64_t more) const {
 }
 
 void MeshFile::check_more_positions(std::uint64_t more) const {
-    constexpr std::uint64_t most = 3 * limits::mesh_triangles;   // a corner each
+    constexpr std::uint64_t most = 3 * limits::mesh_triangles;  // a corner each
     if (more > most || positions.size() + more > most) throw MeshError(fmt::format("has more than {} vertices", most));
 }
 
@@ -121,13 +122,14 @@ MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports) 
     MeshFile mesh = read_bytes(file, lower_extension(file), imports);
     if (mesh.triangles.empty()) throw MeshError("holds no triangles");
     if (mesh.objects.empty() || mesh.objects.front() != 0) mesh.objects.insert(mesh.objects.begin(), 0);
-    if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();   // an object of points and lines
+    if (mesh.objects.back() == mesh.triangles.size()) mesh.objects.pop_back();  // an object of points and lines
     return mesh;
 }
 
 std::string readable(std::string_view text, std::size_t longest) {
     std::string result(text.substr(0, longest));
-    for (char& c : result) if (c < ' ' || c > '~') c = '?';
+    for (char& c : result)
+        if (c < ' ' || c > '~') c = '?';
     return text.size() > longest ? result + "..." : result;
 }
 

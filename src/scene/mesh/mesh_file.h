@@ -22,13 +22,13 @@ struct MeshError : std::runtime_error {
 /// outside.
 struct MeshFile {
     struct Corner {
-        std::uint32_t position = 0;      // index into positions
-        Vec3 normal = Vec3::Zero();      // unit, or zero if the file has none
+        std::uint32_t position = 0;  // index into positions
+        Vec3 normal = Vec3::Zero();  // unit, or zero if the file has none
     };
-    std::vector<Vec3> positions;         // not welded
+    std::vector<Vec3> positions;  // not welded
     std::vector<std::array<Corner, 3>> triangles;
-    std::vector<std::size_t> objects;    // the first triangle of each object of the file, ascending
-    std::vector<std::filesystem::path> other_files;   // additional files that were opened: a glTF's buffers
+    std::vector<std::size_t> objects;                // the first triangle of each object of the file, ascending
+    std::vector<std::filesystem::path> other_files;  // additional files that were opened: a glTF's buffers
 
     /// Throws MeshError if the position is not finite or beyond 1e30 (its square would overflow), or if there are too
     /// many.

@@ -1,8 +1,8 @@
 #include "scene/mesh/mesh_loader.h"
 
-#include "scene/toml/limits.h"
 #include "scene/mesh/mesh_normals.h"
 #include "scene/mesh/mesh_winding.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 namespace tumble {
 namespace {
 
-constexpr double weld_tolerance = 1e-9;   // of the mesh's size: rounding of a transform, far below any modeled detail
-constexpr double flat = 1e-14;            // of longest edge squared: a smaller area of a triangle is only rounding
+constexpr double weld_tolerance = 1e-9;  // of the mesh's size: rounding of a transform, far below any modeled detail
+constexpr double flat = 1e-14;           // of longest edge squared: a smaller area of a triangle is only rounding
 
 using Corners = std::array<MeshFile::Corner, 3>;
 
@@ -29,7 +29,7 @@ public:
         return {std::int64_t(std::floor(c.x())), std::int64_t(std::floor(c.y())), std::int64_t(std::floor(c.z()))};
     }
     std::vector<std::uint32_t>& operator[](const std::array<std::int64_t, 3>& cell) {
-        std::uint64_t key = 0;   // two cells with one key are harmless, because distances are tested
+        std::uint64_t key = 0;  // two cells with one key are harmless, because distances are tested
         for (const std::int64_t c : cell) key = (key ^ std::uint64_t(c)) * 0x9e3779b97f4a7c15u + (key >> 29);
         return cells_[key];
     }
@@ -50,7 +50,8 @@ bool has_area(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
 TriangleMesh compact(const std::vector<Vec3>& positions, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     constexpr std::uint32_t unused = ~std::uint32_t(0);
     std::vector<std::uint32_t> number(positions.size(), unused);
-    for (const auto& t : triangles) for (const std::uint32_t v : t) number[v] = 0;
+    for (const auto& t : triangles)
+        for (const std::uint32_t v : t) number[v] = 0;
     TriangleMesh mesh;
     for (std::size_t v = 0; v < positions.size(); ++v) {
         if (number[v] == unused) continue;
@@ -65,7 +66,7 @@ TriangleMesh compact(const std::vector<Vec3>& positions, const std::vector<std::
 void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
     const TriangleMesh& mesh = asset.surface;
     const auto made = crease_normals(mesh);
-    std::map<std::pair<std::uint32_t, std::array<float, 3>>, std::uint32_t> drawn;   // (vertex, normal) -> drawn vertex
+    std::map<std::pair<std::uint32_t, std::array<float, 3>>, std::uint32_t> drawn;  // (vertex, normal) -> drawn vertex
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 face = face_normal(mesh, t);
         for (int i = 0; i < 3; ++i) {
@@ -87,7 +88,8 @@ void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
 LoadedMesh scaled(const LoadedMesh& mesh, double scale) {
     auto asset = std::make_shared<MeshAsset>(*mesh.asset);
     for (Vec3& v : asset->surface.vertices) v *= scale;
-    for (MeshAsset::Vertex& v : asset->vertices) for (float& x : v.position) x = float(x * scale);
+    for (MeshAsset::Vertex& v : asset->vertices)
+        for (float& x : v.position) x = float(x * scale);
     Closedness closedness = mesh.closedness;
     closedness.signed_volume *= scale * scale * scale;
     return {std::move(asset), closedness};
@@ -101,7 +103,7 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
     std::vector<std::uint32_t> result(positions.size());
     if (positions.empty()) return result;
     const double tolerance = std::max(weld_tolerance * bounds.extent().norm(), 1e-300);
-    Lattice lattice(bounds.min, 4.0 * tolerance);   // mostly one cell per search
+    Lattice lattice(bounds.min, 4.0 * tolerance);  // mostly one cell per search
     for (std::uint32_t v = 0; v < positions.size(); ++v) {
         const Vec3& p = positions[v];
         const auto low = lattice.cell_of(p.array() - tolerance), high = lattice.cell_of(p.array() + tolerance);
@@ -125,7 +127,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     std::vector<Corners> corners;
     for (const Corners& t : read.triangles) {
         const std::array<std::uint32_t, 3> welded{same[t[0].position], same[t[1].position], same[t[2].position]};
-        if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;   // collapsed
+        if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;  // collapsed
         triangles.push_back(welded);
         corners.push_back(t);
     }
@@ -179,7 +181,8 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     for (std::size_t t = first; t < last; ++t) {
         Corners corners = whole.triangles[t];
         for (MeshFile::Corner& corner : corners) {
-            const auto [entry, is_new] = renumbered.try_emplace(corner.position, std::uint32_t(object.positions.size()));
+            const auto [entry, is_new] =
+                renumbered.try_emplace(corner.position, std::uint32_t(object.positions.size()));
             if (is_new) object.positions.push_back(whole.positions[corner.position]);
             corner.position = entry->second;
         }
@@ -188,7 +191,8 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     return object;
 }
 
-MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read, MeshImports imports) {
+MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read,
+                       MeshImports imports) {
     MeshFile mesh = read_mesh_file(file, imports);
     if (read != nullptr) {
         read->push_back(file);
@@ -207,7 +211,8 @@ std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std
                                           MeshImports imports) {
     const MeshFile whole = read_and_note(file, read, imports);
     if (whole.objects.size() > std::size_t(limits::parts))
-        throw MeshError(fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
+        throw MeshError(
+            fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
     for (std::size_t i = 0; i < whole.objects.size(); ++i) result.push_back(loaded(object_of(whole, i), file));
     return result;

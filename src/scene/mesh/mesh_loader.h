@@ -16,7 +16,7 @@ namespace tumble {
 /// A mesh and its properties.
 struct LoadedMesh {
     std::shared_ptr<const MeshAsset> asset;
-    Closedness closedness;   // of the surface before triangles without area were dropped; its volume is in m^3
+    Closedness closedness;  // of the surface before triangles without area were dropped; its volume is in m^3
 };
 
 /// Loads each file once, and makes each (file, scale) once, so that bodies share data.
@@ -36,7 +36,7 @@ public:
 private:
     MeshImports imports_;
     std::vector<std::filesystem::path> read_;
-    std::map<std::filesystem::path, LoadedMesh> files_;                      // at scale 1
+    std::map<std::filesystem::path, LoadedMesh> files_;  // at scale 1
     std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
     std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
     // The keys are addresses of the data that the values keep alive; only for lookups.

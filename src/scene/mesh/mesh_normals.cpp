@@ -5,13 +5,14 @@
 namespace tumble {
 namespace {
 
-constexpr double crease_angle = 40.0;   // degrees: a tube of 10 sides is smooth, one of 8 has edges
+constexpr double crease_angle = 40.0;  // degrees: a tube of 10 sides is smooth, one of 8 has edges
 
-constexpr std::size_t most_faces_at_a_vertex = 2000;   // a larger fan is drawn flat, because its cost grows with the square
+constexpr std::size_t most_faces_at_a_vertex =
+    2000;  // a larger fan is drawn flat, because its cost grows with the square
 
 struct Incidence {
     std::uint32_t triangle;
-    double angle;   // rad, of the triangle at the vertex
+    double angle;  // rad, of the triangle at the vertex
 };
 
 double corner_angle(const TriangleMesh& mesh, std::size_t triangle, int corner) {

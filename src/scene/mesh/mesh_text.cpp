@@ -17,7 +17,7 @@ bool is_line_end(char c) { return c == '\n' || c == '\r' || c == '\f' || c == '\
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 constexpr double tenths[] = {1.0,  1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
-                             1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};   // 10 to the power of -i
+                             1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};  // 10 to the power of -i
 
 /// 10 to the power of an integer, rounded once.
 float power_of_ten(int exponent) {
@@ -40,7 +40,7 @@ struct Cursor {
     }
     /// The digits up to `most`, as a number; the others are skipped. `used`: number of used digits.
     double digits(int most, int& used) {
-        double value = 0.0;   // exact up to 15 digits, more than a float can represent
+        double value = 0.0;  // exact up to 15 digits, more than a float can represent
         for (used = 0; is_digit(peek()); skip(1)) {
             if (used == most) continue;
             value = value * 10.0 + (peek() - '0');
@@ -52,15 +52,14 @@ struct Cursor {
 
 bool starts_with_word(std::string_view text, std::string_view lower) {
     if (text.size() < lower.size()) return false;
-    for (std::size_t i = 0; i < lower.size(); ++i) if ((text[i] | 0x20) != lower[i]) return false;
+    for (std::size_t i = 0; i < lower.size(); ++i)
+        if ((text[i] | 0x20) != lower[i]) return false;
     return true;
 }
 
 }  // namespace
 
-bool TextWords::at_line_end() const {
-    return at_ == text_.size() || is_line_end(text_[at_]) || text_[at_] == '#';
-}
+bool TextWords::at_line_end() const { return at_ == text_.size() || is_line_end(text_[at_]) || text_[at_] == '#'; }
 
 bool TextWords::skip_continuation() {
     if (at_ + 1 >= text_.size() || text_[at_] != '\\') return false;
@@ -72,7 +71,8 @@ bool TextWords::skip_continuation() {
 }
 
 std::string_view TextWords::word() {
-    while (at_ < text_.size() && (is_blank(text_[at_]) ? (++at_, true) : skip_continuation())) {}
+    while (at_ < text_.size() && (is_blank(text_[at_]) ? (++at_, true) : skip_continuation())) {
+    }
     if (at_line_end()) return {};
     const std::size_t first = at_;
     while (at_ < text_.size() && !is_blank(text_[at_]) && !is_line_end(text_[at_])) {
@@ -122,7 +122,7 @@ float mesh_number(std::string_view word, std::size_t line) {
             c.skip(1);
             const bool small = c.take('-');
             if (!small) c.take('+');
-            constexpr int largest = 100;   // with a larger one any float is 0 or infinite
+            constexpr int largest = 100;  // with a larger one any float is 0 or infinite
             const int exponent = static_cast<int>(std::min<double>(c.digits(all, used), largest));
             if (value != 0.0f) value *= power_of_ten(small ? -exponent : exponent);
         }

@@ -31,6 +31,8 @@ Vec3 MeshTransform::point(const std::array<float, 3>& p) const {
     return linear_ * Vec3(as_written(p[0]), as_written(p[1]), as_written(p[2])) + offset_;
 }
 
-Vec3 MeshTransform::normal(const std::array<float, 3>& n) const { return unit_or_zero(normals_ * Vec3(n[0], n[1], n[2])); }
+Vec3 MeshTransform::normal(const std::array<float, 3>& n) const {
+    return unit_or_zero(normals_ * Vec3(n[0], n[1], n[2]));
+}
 
 }  // namespace tumble

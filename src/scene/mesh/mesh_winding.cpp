@@ -7,8 +7,8 @@ namespace {
 
 /// One component, wound like its first triangle.
 struct Piece {
-    double volume = 0.0;        // m^3
-    double turned_area = 0.0;   // of triangles that are turned, less that of the others, m^2
+    double volume = 0.0;       // m^3
+    double turned_area = 0.0;  // of triangles that are turned, less that of the others, m^2
     bool disagrees = false, closed = true;
     bool to_turn() const { return closed ? volume < 0.0 : turned_area > 0.0; }
 };
@@ -17,7 +17,7 @@ struct Piece {
 
 std::vector<char> triangles_to_turn(const TriangleMesh& mesh) {
     const MeshComponents sheets = find_sheets(mesh.triangles);
-    std::vector<Piece> pieces(mesh.triangles.size());   // at the first triangle of each
+    std::vector<Piece> pieces(mesh.triangles.size());  // at the first triangle of each
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (sheets.sheet[t] == MeshComponents::none) continue;
         Piece& piece = pieces[sheets.sheet[t]];

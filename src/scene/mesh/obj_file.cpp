@@ -1,8 +1,8 @@
 #include "scene/mesh/obj_file.h"
 
-#include "scene/toml/limits.h"
 #include "scene/mesh/mesh_text.h"
 #include "scene/mesh/mesh_transform.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,12 @@ void visit_lines(std::string_view bytes, const Visit& visit) {
     do {
         const std::string_view keyword = words.word();
         if (keyword.empty()) continue;
-        if (in_curve) in_curve = keyword != "end";
-        else if (keyword == "cstype") in_curve = true;
-        else visit(keyword, words);
+        if (in_curve)
+            in_curve = keyword != "end";
+        else if (keyword == "cstype")
+            in_curve = true;
+        else
+            visit(keyword, words);
     } while (words.next_line());
 }
 
@@ -43,7 +46,7 @@ Points read_points(std::string_view bytes) {
             return;
         }
         const std::string_view fourth = words.word();
-        if (!fourth.empty() && words.word().empty()) {   // x y z w; more are a color
+        if (!fourth.empty() && words.word().empty()) {  // x y z w; more are a color
             const float w = mesh_number(fourth, line);
             for (float& coordinate : point) coordinate /= w;
         }
@@ -57,11 +60,16 @@ public:
     explicit FaceReader(const Points& points) : points_(points), number_(points.positions.size(), none) {}
 
     void read_line(std::string_view keyword, TextWords& words) {
-        if (keyword == "v") ++positions_seen_;
-        else if (keyword == "vn") ++normals_seen_;
-        else if (keyword == "f") read_face(words);
-        else if (keyword == "l" || keyword == "p") read_points_or_line(words);
-        else if (keyword == "o" || keyword == "g") read_name(keyword, words.word());
+        if (keyword == "v")
+            ++positions_seen_;
+        else if (keyword == "vn")
+            ++normals_seen_;
+        else if (keyword == "f")
+            read_face(words);
+        else if (keyword == "l" || keyword == "p")
+            read_points_or_line(words);
+        else if (keyword == "o" || keyword == "g")
+            read_name(keyword, words.word());
     }
     MeshFile take() { return std::move(mesh_); }
 
@@ -94,7 +102,7 @@ private:
         const std::size_t first = word.find('/'), second = word.find('/', first == word.npos ? first : first + 1);
         const std::size_t v = index(word.substr(0, first), positions_seen_, points_.positions.size(), "vertex");
         MeshFile::Corner result;
-        if (number_[v] == none) {   // numbered by their first use
+        if (number_[v] == none) {  // numbered by their first use
             number_[v] = static_cast<std::uint32_t>(mesh_.positions.size());
             mesh_.add_position(transform_.point(points_.positions[v]));
         }
@@ -119,8 +127,8 @@ private:
     }
 
     const Points& points_;
-    const MeshTransform transform_;       // identity
-    std::vector<std::uint32_t> number_;   // index of a position in the mesh, or none
+    const MeshTransform transform_;      // identity
+    std::vector<std::uint32_t> number_;  // index of a position in the mesh, or none
     MeshFile mesh_;
     std::vector<MeshFile::Corner> polygon_;
     std::size_t positions_seen_ = 0, normals_seen_ = 0;
@@ -130,7 +138,7 @@ private:
 }  // namespace
 
 MeshFile read_obj(std::string_view bytes) {
-    const Points points = read_points(bytes);   // first, because a face may name a point that comes after it
+    const Points points = read_points(bytes);  // first, because a face may name a point that comes after it
     FaceReader reader(points);
     visit_lines(bytes, [&](std::string_view keyword, TextWords& words) { reader.read_line(keyword, words); });
     return reader.take();

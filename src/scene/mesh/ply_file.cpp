@@ -25,18 +25,18 @@ constexpr Choice<Encoding> encodings[] = {
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 constexpr Choice<Type> types[] = {
-    {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},   {"uint8", Type::uint8},
-    {"short", Type::int16},   {"int16", Type::int16},     {"ushort", Type::uint16}, {"uint16", Type::uint16},
-    {"int", Type::int32},     {"int32", Type::int32},     {"uint", Type::uint32},   {"uint32", Type::uint32},
+    {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},    {"uint8", Type::uint8},
+    {"short", Type::int16},   {"int16", Type::int16},     {"ushort", Type::uint16},  {"uint16", Type::uint16},
+    {"int", Type::int32},     {"int32", Type::int32},     {"uint", Type::uint32},    {"uint32", Type::uint32},
     {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64},
 };
 
-constexpr std::size_t header_bytes = 64 << 10;   // a hundred elements; a longer header would only take time
+constexpr std::size_t header_bytes = 64 << 10;  // a hundred elements; a longer header would only take time
 
 struct Property {
     std::string_view name;
     Type type;
-    std::optional<Type> list_count;   // type of a list's length
+    std::optional<Type> list_count;  // type of a list's length
 };
 struct Element {
     std::string_view name;
@@ -50,7 +50,8 @@ struct Header {
 
 template <class Value>
 Value named(std::string_view name, std::span<const Choice<Value>> choices, const char* what) {
-    for (const auto& choice : choices) if (choice.name == name) return choice.value;
+    for (const auto& choice : choices)
+        if (choice.name == name) return choice.value;
     throw MeshError(fmt::format("has a header with an unknown {}", what));
 }
 
@@ -132,7 +133,7 @@ public:
 private:
     double next_word() {
         while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
-        if (at_ < data_.size() && data_[at_] == '+') ++at_;   // from_chars accepts no plus
+        if (at_ < data_.size() && data_[at_] == '+') ++at_;  // from_chars accepts no plus
         if (at_ == data_.size()) throw MeshError("ends early");
         const char* first = data_.data() + at_;
         double value = 0.0;
@@ -148,7 +149,7 @@ private:
         if (bytes_left() < sizeof(Number)) throw MeshError("ends early");
         char bytes[sizeof(Number)];
         std::memcpy(bytes, data_.data() + at_, sizeof bytes);
-        if (encoding_ == Encoding::big_endian) std::reverse(bytes, bytes + sizeof bytes);   // x86-64 is little-endian
+        if (encoding_ == Encoding::big_endian) std::reverse(bytes, bytes + sizeof bytes);  // x86-64 is little-endian
         at_ += sizeof bytes;
         Number value;
         std::memcpy(&value, bytes, sizeof bytes);
@@ -157,14 +158,22 @@ private:
 
     double next_binary(Type type) {
         switch (type) {
-            case Type::int8: return take<std::int8_t>();
-            case Type::uint8: return take<std::uint8_t>();
-            case Type::int16: return take<std::int16_t>();
-            case Type::uint16: return take<std::uint16_t>();
-            case Type::int32: return take<std::int32_t>();
-            case Type::uint32: return take<std::uint32_t>();
-            case Type::float32: return as_written(take<float>());
-            case Type::float64: break;
+            case Type::int8:
+                return take<std::int8_t>();
+            case Type::uint8:
+                return take<std::uint8_t>();
+            case Type::int16:
+                return take<std::int16_t>();
+            case Type::uint16:
+                return take<std::uint16_t>();
+            case Type::int32:
+                return take<std::int32_t>();
+            case Type::uint32:
+                return take<std::uint32_t>();
+            case Type::float32:
+                return as_written(take<float>());
+            case Type::float64:
+                break;
         }
         return take<double>();
     }
@@ -222,7 +231,7 @@ MeshFile read_ply(std::string_view bytes) {
     Body body(bytes, header.encoding);
 
     MeshFile mesh;
-    std::vector<Vec3> normals;   // one per vertex, or none at all
+    std::vector<Vec3> normals;  // one per vertex, or none at all
     for (const Element& element : header.elements) {
         const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
         const auto position = triple(element, {"x", "y", "z"}), normal = triple(element, {"nx", "ny", "nz"});
@@ -230,7 +239,7 @@ MeshFile read_ply(std::string_view bytes) {
         if (!corners) corners = property_index(element, "vertex_index", true);
         if (is_vertex && !position) throw MeshError("has vertices without x, y and z");
         if (is_face && !corners) throw MeshError("has faces without vertex_indices");
-        if (element.properties.empty() && element.count > 0) continue;   // empty rows
+        if (element.properties.empty() && element.count > 0) continue;  // empty rows
 
         std::vector<double> scalar(element.properties.size());
         std::vector<std::vector<double>> list(element.properties.size());

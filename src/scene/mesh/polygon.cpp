@@ -57,7 +57,8 @@ public:
         cell_size_ = extent / double(side_);
         cells_.resize(side_ * side_);
         for (std::uint32_t i = 0; i < points.size(); ++i) {
-            auto& cell = cells_[row_or_column(points[i].y() - min_.y()) * side_ + row_or_column(points[i].x() - min_.x())];
+            auto& cell =
+                cells_[row_or_column(points[i].y() - min_.y()) * side_ + row_or_column(points[i].x() - min_.x())];
             place_[i] = {std::uint32_t(&cell - cells_.data()), std::uint32_t(cell.size())};
             cell.push_back(i);
         }
@@ -118,7 +119,7 @@ private:
         std::uint32_t cell, at;
     };
     const std::vector<Point>& points_;
-    std::vector<Place> place_;   // of each point
+    std::vector<Place> place_;  // of each point
     std::vector<std::vector<std::uint32_t>> cells_;
     Point min_;
     double cell_size_ = 0.0;
@@ -130,8 +131,14 @@ private:
 class EarCutter {
 public:
     explicit EarCutter(const std::vector<Point>& points)
-        : points_(points), grid_(points), before_(points.size()), after_(points.size()), asked_(points.size(), true),
-          gone_(points.size(), false), waiting_(points.size()), left_(points.size()) {
+        : points_(points),
+          grid_(points),
+          before_(points.size()),
+          after_(points.size()),
+          asked_(points.size(), true),
+          gone_(points.size(), false),
+          waiting_(points.size()),
+          left_(points.size()) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             before_[i] = i > 0 ? i - 1 : std::uint32_t(points.size()) - 1;
             after_[i] = i + 1 < points.size() ? i + 1 : 0;
@@ -154,11 +161,14 @@ public:
     }
 
 private:
-    std::array<std::uint32_t, 3> triangle(std::uint32_t corner) const { return {before_[corner], corner, after_[corner]}; }
+    std::array<std::uint32_t, 3> triangle(std::uint32_t corner) const {
+        return {before_[corner], corner, after_[corner]};
+    }
 
     std::optional<std::uint32_t> next_ear(std::uint32_t start) {
         const auto search = [&](std::size_t from, std::size_t to) -> std::optional<std::uint32_t> {
-            for (auto found = std::find(asked_.begin() + std::ptrdiff_t(from), asked_.begin() + std::ptrdiff_t(to), true);
+            for (auto found =
+                     std::find(asked_.begin() + std::ptrdiff_t(from), asked_.begin() + std::ptrdiff_t(to), true);
                  found != asked_.begin() + std::ptrdiff_t(to);
                  found = std::find(found, asked_.begin() + std::ptrdiff_t(to), true)) {
                 const auto corner = std::uint32_t(found - asked_.begin());
@@ -193,9 +203,9 @@ private:
     const std::vector<Point>& points_;
     PointGrid grid_;
     std::vector<std::uint32_t> before_, after_;
-    std::vector<bool> asked_;                           // corners that may be ears
+    std::vector<bool> asked_;  // corners that may be ears
     std::vector<bool> gone_;
-    std::vector<std::vector<std::uint32_t>> waiting_;   // for each point, corners with it in their triangle
+    std::vector<std::vector<std::uint32_t>> waiting_;  // for each point, corners with it in their triangle
     std::size_t left_;
 };
 

@@ -41,9 +41,10 @@ MeshFile read_text(std::string_view bytes) {
     MeshFile mesh;
     const MeshTransform in_place;
     Words words(bytes);
-    int corners = 3;   // of the facet; outside a facet no vertex is expected
+    int corners = 3;  // of the facet; outside a facet no vertex is expected
     const auto end_facet = [&] {
-        if (corners != 3) throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, words.line()));
+        if (corners != 3)
+            throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, words.line()));
     };
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
         if (word == "solid") {
@@ -88,12 +89,15 @@ MeshFile read_stl(std::string_view bytes) {
     std::uint32_t facets = 0;
     const bool long_enough = bytes.size() >= binary_header_bytes + count_bytes;
     if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);
-    if (long_enough && bytes.size() == binary_header_bytes + count_bytes + facets * facet_bytes) return read_binary(bytes);
+    if (long_enough && bytes.size() == binary_header_bytes + count_bytes + facets * facet_bytes)
+        return read_binary(bytes);
     if (Words(bytes).next() == "solid") return read_text(bytes);
-    if (!long_enough) throw MeshError("is no STL file: it does not begin with \"solid\" and is too short for a binary one");
-    throw MeshError(fmt::format("is no STL file: it does not begin with \"solid\", and a binary one of {} facets would have {} "
-                                "bytes (it has {})",
-                                facets, binary_header_bytes + count_bytes + facets * facet_bytes, bytes.size()));
+    if (!long_enough)
+        throw MeshError("is no STL file: it does not begin with \"solid\" and is too short for a binary one");
+    throw MeshError(
+        fmt::format("is no STL file: it does not begin with \"solid\", and a binary one of {} facets would have {} "
+                    "bytes (it has {})",
+                    facets, binary_header_bytes + count_bytes + facets * facet_bytes, bytes.size()));
 }
 
 }  // namespace tumble

@@ -45,8 +45,8 @@ std::string quoted_list(const std::vector<std::string_view>& names) {
 }
 
 std::string suggestion(std::string_view given, const std::vector<std::string_view>& known) {
-    constexpr std::size_t readable_list = 12;     // names in a message
-    constexpr std::size_t longest_guess = 64;     // characters: the cost is the product of both lengths
+    constexpr std::size_t readable_list = 12;  // names in a message
+    constexpr std::size_t longest_guess = 64;  // characters: the cost is the product of both lengths
     std::size_t best = std::string_view::npos;
     std::string_view nearest;
     for (std::string_view name : known) {

@@ -10,42 +10,44 @@
 namespace tumble::limits {
 
 // -- Files
-inline constexpr std::int64_t scene_bytes = 256 << 20;    // a file of a million bodies is about 100 MB
-inline constexpr std::int64_t key_parts = 16;             // a.b.c has three, and a scene needs no more; each is a table in the one
-                                                          // before, and tables are destroyed by recursion
-inline constexpr std::int64_t mesh_bytes = 256 << 20;     // up to ten times the file in memory while it is read; also the limit of
-                                                          // the sum of all other files that contain a glTF's buffers
-inline constexpr std::int64_t json_values = 10'000'000;   // of a glTF file: 16 to 100 bytes of memory each
-inline constexpr std::int64_t mesh_triangles = 5'000'000; // 32-bit indices and about a gigabyte when welded
+inline constexpr std::int64_t scene_bytes = 256 << 20;  // a file of a million bodies is about 100 MB
+inline constexpr std::int64_t key_parts = 16;  // a.b.c has three, and a scene needs no more; each is a table in the one
+                                               // before, and tables are destroyed by recursion
+inline constexpr std::int64_t mesh_bytes =
+    256 << 20;  // up to ten times the file in memory while it is read; also the limit of
+                // the sum of all other files that contain a glTF's buffers
+inline constexpr std::int64_t json_values = 10'000'000;    // of a glTF file: 16 to 100 bytes of memory each
+inline constexpr std::int64_t mesh_triangles = 5'000'000;  // 32-bit indices and about a gigabyte when welded
 
-inline constexpr std::int64_t polygon_corners = 2000;     // cutting one takes time proportional to their square in the worst case
+inline constexpr std::int64_t polygon_corners =
+    2000;  // cutting one takes time proportional to their square in the worst case
 
 // -- Time
-inline constexpr Range duration{0.0, 1e9, "s"};           // thirty years
-inline constexpr Range fps{1e-9, 1e6, "frames per second"};   // 1e6: the format's; below: 1/fps is a valid time
-inline constexpr std::int64_t frames = 10'000'000;        // two days of film at 60 fps, 7 digits of frame number
+inline constexpr Range duration{0.0, 1e9, "s"};              // thirty years
+inline constexpr Range fps{1e-9, 1e6, "frames per second"};  // 1e6: the format's; below: 1/fps is a valid time
+inline constexpr std::int64_t frames = 10'000'000;           // two days of film at 60 fps, 7 digits of frame number
 inline constexpr std::int64_t steps_per_frame = 1'000'000;
 inline constexpr Range step{0.0, 1e9, "s", true};
-inline constexpr double step_tolerance = 1e-9;            // s: tolerance for the division of a frame into steps (the format's)
-inline constexpr Range time{0.0, 1e9, "s"};               // of keyframes and forces
+inline constexpr double step_tolerance = 1e-9;  // s: tolerance for the division of a frame into steps (the format's)
+inline constexpr Range time{0.0, 1e9, "s"};     // of keyframes and forces
 
 // -- Output
-inline constexpr std::int64_t image_side = 16'384;        // pixels: the largest texture of common OpenGL drivers
+inline constexpr std::int64_t image_side = 16'384;  // pixels: the largest texture of common OpenGL drivers
 
 // -- Amounts
-inline constexpr std::int64_t bodies = 1'000'000;         // about half a gigabyte of description
-inline constexpr std::int64_t parts = 512;                // of one body: a part and a triangle (mesh_triangles) together
-                                                          // number a contact in 32 bits
-inline constexpr std::int64_t scatter_attempts = 1000;    // number of draws of a place for a copy:
-                                                          // at the densest random packing (38 % of the volume,
-                                                          // Renyi 1958, Torquato 2006) about this number is needed
+inline constexpr std::int64_t bodies = 1'000'000;       // about half a gigabyte of description
+inline constexpr std::int64_t parts = 512;              // of one body: a part and a triangle (mesh_triangles) together
+                                                        // number a contact in 32 bits
+inline constexpr std::int64_t scatter_attempts = 1000;  // number of draws of a place for a copy:
+                                                        // at the densest random packing (38 % of the volume,
+                                                        // Renyi 1958, Torquato 2006) about this number is needed
 
 // -- Lengths. A meter has an error of 1e-7 m at 1e9 m, already too large for a simulation.
 inline constexpr Range coordinate{-1e9, 1e9, "m"};
 inline constexpr Range size{1e-9, 1e9, "m"};
 inline constexpr Range size_or_zero{0.0, 1e9, "m"};
 inline constexpr Range mesh_scale{1e-9, 1e9, ""};
-inline constexpr Range copy_scale{1e-3, 1e3, ""};         // a thousandth to a thousandfold
+inline constexpr Range copy_scale{1e-3, 1e3, ""};  // a thousandth to a thousandfold
 
 // -- Motion: a million km/s is faster than light; the others keep energies finite.
 inline constexpr Range velocity{-1e9, 1e9, "m/s"};
@@ -54,20 +56,20 @@ inline constexpr Range acceleration{-1e9, 1e9, "m/s^2"};
 inline constexpr Range force{-1e15, 1e15, "N"};
 
 // -- Matter
-inline constexpr Range mass{0.0, 1e30, "kg", true};       // half a sun
-inline constexpr Range density{0.0, 1e20, "kg/m^3", true};// beyond a neutron star's 1e18
+inline constexpr Range mass{0.0, 1e30, "kg", true};         // half a sun
+inline constexpr Range density{0.0, 1e20, "kg/m^3", true};  // beyond a neutron star's 1e18
 inline constexpr Range air_density{0.0, 1e6, "kg/m^3"};
 inline constexpr Range drag{0.0, 1e3, ""};
 inline constexpr Range restitution{0.0, 1.0, ""};
-inline constexpr Range friction{0.0, 1e6, ""};            // a coefficient of 1e6 never slips
-inline constexpr Range fraction{0.0, 1.0, ""};            // roughness, metallic
+inline constexpr Range friction{0.0, 1e6, ""};  // a coefficient of 1e6 never slips
+inline constexpr Range fraction{0.0, 1.0, ""};  // roughness, metallic
 
 // -- Angles and directions
-inline constexpr Range angle{-1e6, 1e6, "degrees"};       // the reduction of sincos keeps all its digits far beyond
-inline constexpr Range orbit{-1e6, 1e6, "degrees/s"};     // three thousand turns per second: more is a mistake
+inline constexpr Range angle{-1e6, 1e6, "degrees"};    // the reduction of sincos keeps all its digits far beyond
+inline constexpr Range orbit{-1e6, 1e6, "degrees/s"};  // three thousand turns per second: more is a mistake
 inline constexpr Range tilt{0.0, 180.0, "degrees"};
-inline constexpr Range field_of_view{1.0, 170.0, "degrees"};   // outside, the image is a dot or strongly distorted
-inline constexpr Range direction{-1e30, 1e30, ""};        // only the ratio of its components counts
-inline constexpr double quaternion_tolerance = 1e-3;      // of the norm: rounding of a hand-written one, not a mistake
+inline constexpr Range field_of_view{1.0, 170.0, "degrees"};  // outside, the image is a dot or strongly distorted
+inline constexpr Range direction{-1e30, 1e30, ""};            // only the ratio of its components counts
+inline constexpr double quaternion_tolerance = 1e-3;  // of the norm: rounding of a hand-written one, not a mistake
 
 }  // namespace tumble::limits

@@ -1,8 +1,8 @@
 // Ranges of numbers and sets of names, with the error texts for values outside.
 #pragma once
 
-#include "scene/toml/error_text.h"
 #include "core/safe_text.h"
+#include "scene/toml/error_text.h"
 #include "scene/toml/source_position.h"
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace tumble {
 /// The valid values of a number. NaN and infinities are outside of every range.
 struct Range {
     double min, max;
-    const char* unit = "";       // for messages
-    bool min_excluded = false;   // "above min" in place of "at least min"
+    const char* unit = "";      // for messages
+    bool min_excluded = false;  // "above min" in place of "at least min"
 
     bool contains(double value) const {
-        return (min_excluded ? value > min : value >= min) && value <= max;   // false for NaN
+        return (min_excluded ? value > min : value >= min) && value <= max;  // false for NaN
     }
     /// "must be above 0 and at most 1e+09 m".
     std::string requirement() const;

@@ -9,8 +9,8 @@
 namespace tumble {
 
 struct SourcePosition {
-    std::string name;       // the key ("fps") or the option ("--fps")
-    SourceLocation where;   // without a file: an option
+    std::string name;      // the key ("fps") or the option ("--fps")
+    SourceLocation where;  // without a file: an option
 
     bool is_option() const { return where.file.empty(); }
 

@@ -1,4 +1,4 @@
-#define TOML_IMPLEMENTATION   // toml++ is compiled here, and only declared elsewhere
+#define TOML_IMPLEMENTATION  // toml++ is compiled here, and only declared elsewhere
 #include "scene/toml/toml_reader.h"
 
 #include "core/safe_text.h"
@@ -41,7 +41,7 @@ std::string given_text(const toml::array& array, std::size_t room) {
     return text + "]";
 }
 
-constexpr std::size_t longest_syntax_error = 240;   // bytes: a sentence of the parser with the rejected text
+constexpr std::size_t longest_syntax_error = 240;  // bytes: a sentence of the parser with the rejected text
 
 }  // namespace
 
@@ -62,8 +62,8 @@ void TomlValue::fail(std::string_view problem) const {
 
 double TomlValue::number(const Range& range) const {
     if (!node_->is_number()) fail("must be a number");
-    const double value = node_->is_integer() ? static_cast<double>(node_->as_integer()->get())
-                                             : node_->as_floating_point()->get();
+    const double value =
+        node_->is_integer() ? static_cast<double>(node_->as_integer()->get()) : node_->as_floating_point()->get();
     return checked(value, range, origin_);
 }
 
@@ -98,7 +98,7 @@ Vec3 TomlValue::direction() const {
     const Vec3 v = vector(limits::direction);
     const double largest = v.cwiseAbs().maxCoeff();
     if (largest == 0.0) fail("must not be zero");
-    return (v / largest).normalized();   // scaled first, because squares of tiny components would vanish
+    return (v / largest).normalized();  // scaled first, because squares of tiny components would vanish
 }
 
 TomlTable TomlValue::table() const {

@@ -5,8 +5,8 @@
 
 #include "core/color.h"
 #include "core/vector.h"
-#include "scene/toml/source_position.h"
 #include "scene/toml/range.h"
+#include "scene/toml/source_position.h"
 
 // toml++ 3.3 asserts that a key begins with a valid character before it checks it ("[?]" aborts a debug build).
 #define TOML_ASSERT(expr) static_assert(true)
@@ -39,17 +39,17 @@ public:
     bool is_number() const { return node_->is_number(); }
     bool is_table() const { return node_->is_table(); }
 
-    double number(const Range& range) const;   // integers are accepted
+    double number(const Range& range) const;  // integers are accepted
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
     bool boolean() const;
     std::string text() const;
-    Color color() const;                        // "#rrggbb"
-    Vec3 vector(const Range& range) const;      // each component in the range
-    Vec3 direction() const;                     // unit vector along three numbers that are not all zero
+    Color color() const;                    // "#rrggbb"
+    Vec3 vector(const Range& range) const;  // each component in the range
+    Vec3 direction() const;                 // unit vector along three numbers that are not all zero
     TomlTable table() const;
-    std::vector<TomlValue> items() const;       // of an array
-    std::vector<TomlValue> items(std::size_t count, std::string_view kind) const;   // of an array of that length
-    std::vector<TomlTable> tables(std::string_view hint = "") const;                // of an array of tables
+    std::vector<TomlValue> items() const;                                          // of an array
+    std::vector<TomlValue> items(std::size_t count, std::string_view kind) const;  // of an array of that length
+    std::vector<TomlTable> tables(std::string_view hint = "") const;               // of an array of tables
 
     template <class Value>
     Value choice(std::span<const Choice<Value>> choices) const {

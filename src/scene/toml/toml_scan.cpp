@@ -24,21 +24,24 @@ std::size_t end_of_string(std::string_view text, std::size_t first) {
     const std::string_view triple = text.substr(first, 3);
     const bool lines = triple.size() == 3 && triple[1] == quote && triple[2] == quote;
     for (std::size_t i = first + (lines ? 3 : 1); i < text.size(); ++i) {
-        if (escapes && text[i] == '\\') ++i;
-        else if (!lines && (text[i] == quote || text[i] == '\n')) return i + 1;
-        else if (lines && text.substr(i, 3) == triple) return i + 3;
+        if (escapes && text[i] == '\\')
+            ++i;
+        else if (!lines && (text[i] == quote || text[i] == '\n'))
+            return i + 1;
+        else if (lines && text.substr(i, 3) == triple)
+            return i + 3;
     }
     return text.size();
 }
 
 struct Scan {
     TomlAmounts amounts;
-    std::optional<std::size_t> deep_key;   // position of a key with too many parts
+    std::optional<std::size_t> deep_key;  // position of a key with too many parts
 };
 
 Scan scanned(std::string_view text) {
     Scan scan;
-    std::size_t dots = 0;   // in the current key or number
+    std::size_t dots = 0;  // in the current key or number
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
         if (c == '"' || c == '\'') {
@@ -58,17 +61,20 @@ Scan scanned(std::string_view text) {
                 dots = 0;
                 break;
             case ']':
-                if (dots > 1) scan.amounts.keys += dots;   // a header; a number has one
+                if (dots > 1) scan.amounts.keys += dots;  // a header; a number has one
                 dots = 0;
                 break;
-            case '[': case '{': case ',':
+            case '[':
+            case '{':
+            case ',':
                 ++scan.amounts.items;
                 dots = 0;
                 break;
-            case '}': case '\n':
+            case '}':
+            case '\n':
                 dots = 0;
                 break;
-            default:   // of keys, numbers and words
+            default:  // of keys, numbers and words
                 break;
         }
     }
@@ -91,8 +97,9 @@ TomlAmounts toml_amounts(std::string_view text) { return scanned(text).amounts; 
 void check_toml_amounts(std::string_view text, const std::string& file) {
     const Scan scan = scanned(text);
     if (scan.deep_key)
-        throw InputError(location_in(text, *scan.deep_key, file),
-                         fmt::format("a key has more than {} parts, which is deeper than a scene goes", limits::key_parts));
+        throw InputError(
+            location_in(text, *scan.deep_key, file),
+            fmt::format("a key has more than {} parts, which is deeper than a scene goes", limits::key_parts));
     const auto [keys, items] = scan.amounts;
     require_memory(key_bytes * keys + item_bytes * items, fmt::format("a scene of {} keys and {} items", keys, items),
                    "a grid or scatter makes many bodies of one table");

@@ -9,8 +9,8 @@
 namespace tumble {
 
 struct TomlAmounts {
-    std::size_t keys = 0;    // with all parts of dotted ones, including tables
-    std::size_t items = 0;   // of arrays, and inline tables
+    std::size_t keys = 0;   // with all parts of dotted ones, including tables
+    std::size_t items = 0;  // of arrays, and inline tables
 };
 
 /// Throws InputError at a key with too many parts, because each part is a table within the one before (the parser

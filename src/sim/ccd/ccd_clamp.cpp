@@ -63,7 +63,8 @@ CcdClamp::CcdClamp(const std::vector<Body>& bodies)
     for (const Body& body : bodies) {
         arm_.push_back(ball(body) ? 0.0 : body.radius);
         const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
-        least_thin_ = std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
+        least_thin_ =
+            std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
     }
 }
 
@@ -94,8 +95,9 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 }
 
 const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                                  const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
-                                                  double h, bool any_fast, const TurnsFreely& turns_freely) {
+                                                 const std::vector<Body>& bodies,
+                                                 const std::vector<BodyVelocity>& motions, double h, bool any_fast,
+                                                 const TurnsFreely& turns_freely) {
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
     fast_.clear();
@@ -105,7 +107,8 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
         const BodyVelocity &of_a = motions[pair.a], &of_b = motions[pair.b];
         // Bound of the relative motion of the bodies' points in the step.
-        const double gone = h * ((of_b.velocity - of_a.velocity).norm() + turning(arm_[pair.a], of_a) + turning(arm_[pair.b], of_b));
+        const double gone =
+            h * ((of_b.velocity - of_a.velocity).norm() + turning(arm_[pair.a], of_a) + turning(arm_[pair.b], of_b));
         const double least = std::min(depth_a, depth_b);
         // A half-space has no other side: only visible overlap counts.
         const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);
@@ -114,7 +117,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
             // The impact just resolved may have rotated a corner towards the other body: it is searched for like a
             // first touch.
-            if (ball(a) && ball(b)) continue;   // rotation does not matter
+            if (ball(a) && ball(b)) continue;  // rotation does not matter
             fast.overlap = std::max(fast.overlap_of_touching, *deepest + tuning::fast_deeper * least);
         }
         fast_.push_back(fast);
@@ -125,8 +128,9 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
     still_.resize(bodies.size());
     for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
-            paths_[k] = turns_freely && turns_freely(k) ? Trajectory::drift(bodies[k], motions[k].velocity)
-                                        : Trajectory::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
+            paths_[k] = turns_freely && turns_freely(k)
+                            ? Trajectory::drift(bodies[k], motions[k].velocity)
+                            : Trajectory::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
             still_[k] = paths_[k];
         }
     }

@@ -4,9 +4,9 @@
 // speed. A kinematic body does not stop for dynamic bodies: it carries along the bodies that it runs into.
 #pragma once
 
+#include "sim/ccd/time_of_impact.h"
 #include "sim/detection/broad_phase.h"
 #include "sim/geometry/manifold.h"
-#include "sim/ccd/time_of_impact.h"
 
 #include <functional>
 #include <optional>
@@ -16,9 +16,9 @@ namespace tumble {
 
 struct CcdFraction {
     static constexpr std::uint32_t none = UINT32_MAX;
-    double share = 1.0;              // fraction of the step for which the body may move
-    std::uint32_t carrier = none;    // index of the kinematic body that carries it along from there on
-    std::uint32_t met = none;        // index of the body that it meets there, if known
+    double share = 1.0;            // fraction of the step for which the body may move
+    std::uint32_t carrier = none;  // index of the kinematic body that carries it along from there on
+    std::uint32_t met = none;      // index of the body that it meets there, if known
 };
 
 /// Depth (m) of the overlap of a pair that touches already; nothing for other pairs.
@@ -49,17 +49,17 @@ public:
     /// Limits by body; `motions` too is by body, zero for bodies that do not move. `any_fast`: whether any of those is
     /// fast. Touching pairs belong to the contact solver and may only overlap a little more.
     const std::vector<CcdFraction>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                         const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, double h,
-                                         bool any_fast, const TurnsFreely& turns_freely = nullptr);
+                                           const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
+                                           double h, bool any_fast, const TurnsFreely& turns_freely = nullptr);
 
 private:
     struct FastPair {
         std::uint32_t a, b;
-        double overlap;   // m, limit of the overlap of touching pairs
+        double overlap;  // m, limit of the overlap of touching pairs
         // s, time in which the gap stays within the contact tolerance. A pair that meets so soon counts as touching,
         // though its manifold, along a face, may still have a gap: clamped there, the impact would never be resolved.
         double at_once;
-        double overlap_of_touching;   // m, lower bound
+        double overlap_of_touching;  // m, lower bound
     };
     double first_touch(const FastPair& pair, const std::vector<Body>& bodies, double h);
 
@@ -70,7 +70,7 @@ private:
     std::vector<std::uint32_t> shortened_;   // bodies whose limits are below the whole step
     std::vector<double> depth_, arm_;        // m, by body; arm: farthest distance of its points from the center
     double least_thin_ = 0.0;                // m, relative motion that no pair needs to be checked below
-    std::vector<Trajectory> paths_, still_;   // of the bodies of fast pairs
+    std::vector<Trajectory> paths_, still_;  // of the bodies of fast pairs
     std::vector<FastPair> fast_;
 };
 

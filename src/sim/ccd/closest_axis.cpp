@@ -64,7 +64,7 @@ Vec3 nearest_on_tetrahedron(Simplex& s) {
             if (i != skip) face.points[std::size_t(face.size++)] = whole.points[i];
         const Vec3 n = (face.points[1] - face.points[0]).cross(face.points[2] - face.points[0]);
         const double origin = -n.dot(face.points[0]), opposite = n.dot(whole.points[skip] - face.points[0]);
-        if (origin * opposite > 0.0) continue;   // the origin is on the inner side of this face
+        if (origin * opposite > 0.0) continue;  // the origin is on the inner side of this face
         inside = false;
         const Vec3 p = nearest_on_triangle(face);
         if (p.squaredNorm() >= distance) continue;
@@ -77,10 +77,14 @@ Vec3 nearest_on_tetrahedron(Simplex& s) {
 
 Vec3 nearest(Simplex& s) {
     switch (s.size) {
-        case 1: return s.points[0];
-        case 2: return nearest_on_segment(s);
-        case 3: return nearest_on_triangle(s);
-        default: return nearest_on_tetrahedron(s);
+        case 1:
+            return s.points[0];
+        case 2:
+            return nearest_on_segment(s);
+        case 3:
+            return nearest_on_triangle(s);
+        default:
+            return nearest_on_tetrahedron(s);
     }
 }
 
@@ -143,7 +147,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
             if (simplex.points[std::size_t(i)] == w) return v;
         simplex.points[std::size_t(simplex.size++)] = w;
         const Vec3 next = nearest(simplex);
-        if (next.squaredNorm() >= square) return v;   // rounding stops the descent
+        if (next.squaredNorm() >= square) return v;  // rounding stops the descent
         v = next;
         if (simplex.size == 4) return std::nullopt;
     }
@@ -161,7 +165,7 @@ Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& n
         const Vec3 ea = (fa.arms[1] - fa.arms[0]).normalized(), eb = (fb.arms[1] - fb.arms[0]).normalized();
         const Vec3 c = ea.cross(eb);
         const double length = c.norm();
-        if (length < 1e-6) return {normal, omega_a.cross(normal)};   // parallel edges: any axis that rotates with one
+        if (length < 1e-6) return {normal, omega_a.cross(normal)};  // parallel edges: any axis that rotates with one
         const Vec3 c_rate = omega_a.cross(ea).cross(eb) + ea.cross(omega_b.cross(eb));
         const double sign = c.dot(normal) < 0.0 ? -1.0 : 1.0;
         return {normal, across(sign / length * c_rate, normal)};

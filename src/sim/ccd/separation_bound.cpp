@@ -11,7 +11,7 @@ double first_root(double f, double r, double q) {
     const double root = std::sqrt(r * r + 2.0 * q * f);
     if (r > 0.0) return q > 0.0 ? (r + root) / q : infinity;
     if (root - r > 0.0) return 2.0 * f / (root - r);
-    return q > 0.0 ? 0.0 : infinity;   // f = r = 0: it falls at once, if at all
+    return q > 0.0 ? 0.0 : infinity;  // f = r = 0: it falls at once, if at all
 }
 
 // A point's height along the axis and its rate of change.
@@ -40,7 +40,8 @@ Height lowest_line(const SupportPoints& a, const SupportPoints& b, const Axis& a
 
 }  // namespace
 
-SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon, double nearest) {
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon,
+                                 double nearest) {
     const Vec3 d = b.center - a.center, v = b.velocity - a.velocity, acceleration = b.acceleration - a.acceleration;
     const Height centers{axis.normal.dot(d) - a.radius - b.radius, axis.rate.dot(d) + axis.normal.dot(v)};
     const Height line = lowest_line(a, b, axis, centers, 0.0);
@@ -69,8 +70,8 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
     const double turning = a.reach * (n2 + 2.0 * n1 * a.spin_bound + a.turning_bound) +
                            b.reach * (n2 + 2.0 * n1 * b.spin_bound + b.turning_bound);
     const double change = a.acceleration_change + b.acceleration_change;
-    const double shift = std::max(0.0, -bound.gap);   // overlap by rounding or by a touch: treated as just touching
-    double window = n1 > 0.0 ? std::min(horizon, 1.0 / n1) : horizon;   // one radian of rotation is a sufficient horizon
+    const double shift = std::max(0.0, -bound.gap);  // overlap by rounding or by a touch: treated as just touching
+    double window = n1 > 0.0 ? std::min(horizon, 1.0 / n1) : horizon;  // one radian of rotation is a sufficient horizon
     for (int round = 0; round < 3; ++round) {
         // For a fixed axis only the component of the centers' acceleration along it counts; a rotating axis may rotate
         // towards the acceleration, and the distance of the centers enters.
@@ -104,7 +105,7 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
         s = std::min(s, window);
         bound.safe_time = std::max(bound.safe_time, s);
         if (n1 == 0.0 || 4.0 * s > window) break;
-        window = 2.0 * s;   // in a shorter window the rotation of the axis costs less
+        window = 2.0 * s;  // in a shorter window the rotation of the axis costs less
         if (!(window > 0.0)) break;
     }
     return bound;

@@ -14,14 +14,15 @@
 namespace tumble {
 
 struct SeparationBound {
-    double gap = 0.0;         // m, f(0)
-    double rate = 0.0;        // m/s, least rate of the nearest points
-    double curvature = 0.0;   // m/s^2, Q
-    double safe_time = 0.0;   // s; gaps below zero count as zero
+    double gap = 0.0;        // m, f(0)
+    double rate = 0.0;       // m/s, least rate of the nearest points
+    double curvature = 0.0;  // m/s^2, Q
+    double safe_time = 0.0;  // s; gaps below zero count as zero
 };
 
 /// Valid up to `horizon` s: safe_time is limited to it. `nearest` (m): points within it of the nearest pair count as
 /// nearest.
-SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon, double nearest);
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon,
+                                 double nearest);
 
 }  // namespace tumble

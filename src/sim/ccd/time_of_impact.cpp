@@ -1,10 +1,10 @@
 #include "sim/ccd/time_of_impact.h"
 
+#include "sim/ccd/closest_axis.h"
+#include "sim/ccd/separation_bound.h"
 #include "sim/ccd/settings.h"
 #include "sim/geometry/compound.h"
 #include "sim/geometry/separating_axis.h"
-#include "sim/ccd/closest_axis.h"
-#include "sim/ccd/separation_bound.h"
 #include "sim/geometry/settings.h"
 
 #include <algorithm>
@@ -27,14 +27,15 @@ Pose pose_of(const Traveller& t, const Motion& motion) {
 
 // Rounding errors at a pair's present positions.
 struct Scale {
-    double touch;   // m: gaps below are rounding
-    double speed;   // m/s: rates below are rounding
+    double touch;  // m: gaps below are rounding
+    double speed;  // m/s: rates below are rounding
 };
 
 Scale scale_of(const Traveller& a, const Traveller& b) {
     const auto of = [](const Traveller& t) {
         const double size = std::isfinite(t.body->radius) ? t.body->radius : 0.0;
-        return std::pair{gap_rounding(*t.body, t.path->position(t.since)), t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
+        return std::pair{gap_rounding(*t.body, t.path->position(t.since)),
+                         t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
     };
     const auto [gap_a, speed_a] = of(a);
     const auto [gap_b, speed_b] = of(b);
@@ -47,7 +48,7 @@ double fall_time(double h, double v, double a, const Scale& scale) {
     if (h <= scale.touch) {
         if (v < -scale.speed) return 0.0;
         if (a >= 0.0) return infinity;
-        return v > 0.0 ? -2.0 * v / a : (v + scale.speed) / -a;   // up and back; or as soon as it exceeds rounding
+        return v > 0.0 ? -2.0 * v / a : (v + scale.speed) / -a;  // up and back; or as soon as it exceeds rounding
     }
     const double square = v * v - 2.0 * a * h;
     if (square < 0.0) return infinity;
@@ -61,7 +62,7 @@ double fall_time(double h, double v, double a, const Scale& scale) {
 double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, const Traveller& a, const Traveller& b) {
     const double closing = -d.dot(v), square = d.squaredNorm();
     if (!(closing > 0.0)) return infinity;
-    if (square - r * r > 2.0 * closing * horizon) return infinity;   // most pairs: too far apart to meet in time
+    if (square - r * r > 2.0 * closing * horizon) return infinity;  // most pairs: too far apart to meet in time
     const double distance = std::sqrt(square), gap = distance - r;
     if (gap <= tuning::touch * r) {
         const Scale scale = scale_of(a, b);
@@ -93,7 +94,8 @@ void prepare(SupportPoints& cloud, const Traveller& t, double horizon) {
         cloud.reach += (*hull)->radius;
         cloud.arms.resize((*hull)->vertices.size());
     }
-    cloud.acceleration_change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
+    cloud.acceleration_change =
+        t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
 }
 
 void pose(SupportPoints& cloud, const Traveller& t, double time, const Motion& motion) {
@@ -102,10 +104,11 @@ void pose(SupportPoints& cloud, const Traveller& t, double time, const Motion& m
     cloud.acceleration = t.path->acceleration(t.since + time);
     cloud.angular_velocity = motion.angular_velocity;
     const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t));
-    if (t.part) {   // arms start at the body's center of mass here too: the points move as the body does
+    if (t.part) {  // arms start at the body's center of mass here too: the points move as the body does
         const Vec3 place = motion.rotation * t.part->place.position;
         const Mat3 turn = motion.rotation * t.part->place.rotation;
-        for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
+        for (std::size_t i = 0; i < cloud.arms.size(); ++i)
+            cloud.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
     } else if (hull) {
         for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = motion.rotation * (*hull)->vertices[i];
     }
@@ -132,14 +135,16 @@ Ballpark ballpark_of(const Traveller& t, const Motion& motion, double horizon) {
     const Vec3 acceleration = t.path->acceleration(t.since);
     const double change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - acceleration).norm();
     const double arm = t.part ? t.part->place.position.norm() : 0.0;
-    return {t, pose_of(t, motion).position, motion.velocity, acceleration, change, t.path->spin_bound() * arm, size_of(t)};
+    return {t,      pose_of(t, motion).position, motion.velocity, acceleration,
+            change, t.path->spin_bound() * arm,  size_of(t)};
 }
 
 // Least time for closing a gap in any direction.
 double least_time(double gap, const Ballpark& a, const Ballpark& b) {
     if (!(gap > 0.0)) return 0.0;
     const double speed = (b.velocity - a.velocity).norm() + a.turning_speed + b.turning_speed;
-    const double acceleration = (b.acceleration - a.acceleration).norm() + a.acceleration_change + b.acceleration_change;
+    const double acceleration =
+        (b.acceleration - a.acceleration).norm() + a.acceleration_change + b.acceleration_change;
     const double root = std::sqrt(speed * speed + 2.0 * acceleration * gap);
     return speed + root > 0.0 ? 2.0 * gap / (speed + root) : infinity;
 }
@@ -175,11 +180,11 @@ double gap_rounding(const Body& body, const Vec3& position) {
 struct ImpactSearch::Pair {
     Traveller a, b;
     Scale scale;
-    double size;                                      // m, of the smaller body
-    double overlap;                                   // m, allowed
-    const HalfSpace* plane = nullptr;                 // of A
-    const CollisionMesh* surface = nullptr;         // of A, if A is a mesh
-    std::uint32_t triangle = 0;                       // index of one of its triangles
+    double size;                             // m, of the smaller body
+    double overlap;                          // m, allowed
+    const HalfSpace* plane = nullptr;        // of A
+    const CollisionMesh* surface = nullptr;  // of A, if A is a mesh
+    std::uint32_t triangle = 0;              // index of one of its triangles
 };
 
 TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, double overlap) {
@@ -187,8 +192,9 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
     const bool parabolic = a.path->parabolic() && b.path->parabolic();
     const bool evenly = parabolic && a.path->acceleration(0.0) == b.path->acceleration(0.0);
-    if (ball_a && ball_b && evenly) {   // first, because there are many such pairs and the test is fast
-        return result(approach_time(b.path->position(b.since) - a.path->position(a.since), b.path->velocity(b.since) - a.path->velocity(a.since),
+    if (ball_a && ball_b && evenly) {  // first, because there are many such pairs and the test is fast
+        return result(approach_time(b.path->position(b.since) - a.path->position(a.since),
+                                    b.path->velocity(b.since) - a.path->velocity(a.since),
                                     ball_a->radius + ball_b->radius - overlap, horizon, a, b),
                       horizon);
     }
@@ -197,15 +203,19 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
         if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
         return find(b, a, horizon, overlap);
     }
-    if (std::holds_alternative<CompoundRef>(shape_a) || std::holds_alternative<CompoundRef>(shape_b)) return search_parts(a, b, horizon, overlap);
+    if (std::holds_alternative<CompoundRef>(shape_a) || std::holds_alternative<CompoundRef>(shape_b))
+        return search_parts(a, b, horizon, overlap);
     if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, overlap);
 
-    Pair pair{a, b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a), nullptr, 0};
+    Pair pair{
+        a,       b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a),
+        nullptr, 0};
     double from = 0.0;
     if (pair.plane && parabolic && !a.path->turns()) {
         // Exact for a ball; for other shapes the time of the bounding ball, before which nothing touches.
         const Vec3 normal = a.path->orientation(a.since) * pair.plane->normal;
-        const double height = normal.dot(b.path->position(b.since) - a.path->position(a.since)) - pair.plane->offset - b.body->radius;
+        const double height =
+            normal.dot(b.path->position(b.since) - a.path->position(a.since)) - pair.plane->offset - b.body->radius;
         const double rate = normal.dot(b.path->velocity(b.since) - a.path->velocity(a.since));
         const double acceleration = normal.dot(b.path->acceleration(b.since) - a.path->acceleration(a.since));
         if (ball_b) return result(fall_time(height + overlap, rate, acceleration, pair.scale), horizon);
@@ -234,7 +244,7 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         if (pair.surface) {
             const auto& corners = pair.surface->triangles[pair.triangle].vertices;
             a_.center = motion_a.to_world(pair.surface->vertices[corners[0]]);
-            a_.velocity.setZero();   // meshes are fixed
+            a_.velocity.setZero();  // meshes are fixed
             a_.acceleration.setZero();
             a_.angular_velocity.setZero();
             a_.arms.resize(3);
@@ -268,7 +278,8 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         last_axis_ = best_axis.normal;
         safe = std::max(safe, best.safe_time);
         if (!best_axis.rate.isZero(0.0))
-            safe = std::max(safe, bound_separation(a_, b_, {best_axis.normal, Vec3::Zero()}, horizon - t, 0.0).safe_time);
+            safe =
+                std::max(safe, bound_separation(a_, b_, {best_axis.normal, Vec3::Zero()}, horizon - t, 0.0).safe_time);
         if (best.gap <= pair.scale.touch) {
             if (best.rate < -pair.scale.speed) return {TimeOfImpact::Kind::impact, t};
             // Touching and not approaching. For a touch that parts more slowly than the bound assumes, the steps would
@@ -296,19 +307,24 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     }
     // At so small a gap only the features themselves give the axis to the last digit.
     if (pair.surface) {
-        if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b))) propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
+        if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b)))
+            propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
     } else {
         manifolds_.clear();
         scratch_.left_out.clear();
-        collide(collider_of(pair.a), pose_of(pair.a, a), collider_of(pair.b), pose_of(pair.b, b), 16.0 * near, scratch_, manifolds_);
+        collide(collider_of(pair.a), pose_of(pair.a, a), collider_of(pair.b), pose_of(pair.b, b), 16.0 * near, scratch_,
+                manifolds_);
         for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
     }
     if (distance > 0.0) normals_.push_back(*v / distance);
     if (!normals_.empty()) return;
-    const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)), *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
-    if (hull_a && hull_b) {   // an edge along the border of a face: touching, though no contact point lies on the face
+    const auto *hull_a = std::get_if<PolyhedronRef>(&collider_of(pair.a)),
+               *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
+    if (hull_a && hull_b) {  // an edge along the border of a face: touching, though no contact point lies on the face
         const Pose at = pose_of(pair.a, a), b_in_a = seen_from(at, pose_of(pair.b, b));
-        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, Vec3::Zero(), scratch_).normal);
+        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby,
+                                                              Vec3::Zero(), scratch_)
+                                             .normal);
         return;
     }
     const Vec3 from = pair.a.part ? pose_of(pair.a, a).position : a_.center;
@@ -352,9 +368,11 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
     const auto time = [&](const Ballpark& ball_a, const Ballpark& ball_b) {
         if (plane && a.path->turns()) return 0.0;
         const Vec3 d = ball_b.center - ball_a.center;
-        return least_time((plane ? normal.dot(d) - plane->offset : d.norm() - ball_a.radius) - ball_b.radius, ball_a, ball_b);
+        return least_time((plane ? normal.dot(d) - plane->offset : d.norm() - ball_a.radius) - ball_b.radius, ball_a,
+                          ball_b);
     };
-    if (!(time(ballpark_of(a, motion_of(a, 0.0), horizon), ballpark_of(b, motion_of(b, 0.0), horizon)) < horizon)) return {};
+    if (!(time(ballpark_of(a, motion_of(a, 0.0), horizon), ballpark_of(b, motion_of(b, 0.0), horizon)) < horizon))
+        return {};
     const std::vector<Ballpark> parts_a = parts_of(a, horizon), parts_b = parts_of(b, horizon);
     part_pairs_.clear();
     for (const Ballpark& part_a : parts_a) {
@@ -363,7 +381,8 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
             if (from < horizon) part_pairs_.push_back({from, part_a.traveller, part_b.traveller});
         }
     }
-    std::stable_sort(part_pairs_.begin(), part_pairs_.end(), [](const PartPair& l, const PartPair& r) { return l.from < r.from; });
+    std::stable_sort(part_pairs_.begin(), part_pairs_.end(),
+                     [](const PartPair& l, const PartPair& r) { return l.from < r.from; });
     TimeOfImpact first;
     for (const PartPair& p : part_pairs_) {
         if (!(p.from < horizon)) break;
@@ -376,7 +395,8 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
     return first;
 }
 
-TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap) {
+TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon,
+                                          double overlap) {
     const CollisionMesh& triangles = *std::get<SurfaceRef>(surface.body->collider);
     // The triangles that the other shape can reach, in the frame of the mesh; meshes are fixed.
     const Motion frame = surface.path->at(surface.since);
@@ -386,14 +406,16 @@ TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Travel
     candidates_.clear();
     triangles.tree.query({center - half, center + half}, [&](std::uint32_t i) { candidates_.push_back(i); });
     std::sort(candidates_.begin(), candidates_.end());
-    const Ballpark still = ballpark_of(surface, frame, horizon), ball = ballpark_of(other, motion_of(other, 0.0), horizon);
+    const Ballpark still = ballpark_of(surface, frame, horizon),
+                   ball = ballpark_of(other, motion_of(other, 0.0), horizon);
     const Vec3 middle = frame.rotation.transpose() * (ball.center - frame.position);
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {
         const Bounds& box = triangles.tree.item(triangle);
         const double gap = (middle - middle.cwiseMax(box.min).cwiseMin(box.max)).norm() - ball.radius;
         if (other.part && !(least_time(gap, still, ball) < horizon)) continue;
-        const Pair pair{surface, other, scale_of(surface, other), size_of(other), overlap, nullptr, &triangles, triangle};
+        const Pair pair{surface,    other,   scale_of(surface, other), size_of(other), overlap, nullptr,
+                        &triangles, triangle};
         const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
         if (found.kind != TimeOfImpact::Kind::none) first = found;
     }

@@ -3,10 +3,10 @@
 // ends within 1e-13 s, or at the limit of rounding.
 #pragma once
 
+#include "sim/ccd/support_points.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/collide.h"
 #include "sim/geometry/compound.h"
-#include "sim/ccd/support_points.h"
 
 #include <vector>
 
@@ -16,8 +16,8 @@ namespace tumble {
 struct Traveller {
     const Body* body = nullptr;
     const Trajectory* path = nullptr;
-    double since = 0.0;   // s
-    const Compound::Part* part = nullptr;   // part of a compound that is searched; none: the whole body
+    double since = 0.0;                    // s
+    const Compound::Part* part = nullptr;  // part of a compound that is searched; none: the whole body
 };
 
 /// Rounding error (m) of the gaps of the body's pairs at this position.
@@ -30,7 +30,7 @@ struct TimeOfImpact {
         check,   // apart up to `time`, where the search must be resumed: it has used up its evaluations
     };
     Kind kind = Kind::none;
-    double time = 0.0;   // s from the start of the search
+    double time = 0.0;  // s from the start of the search
 };
 
 class ImpactSearch {
@@ -51,12 +51,12 @@ private:
 
     SupportPoints a_, b_;
     Vec3 last_axis_ = Vec3::UnitY();
-    std::vector<Vec3> normals_;          // proposed, from A to B
+    std::vector<Vec3> normals_;  // proposed, from A to B
     CollisionScratch scratch_;
     std::vector<Manifold> manifolds_;
-    std::vector<std::uint32_t> candidates_;   // triangle indices
+    std::vector<std::uint32_t> candidates_;  // triangle indices
     struct PartPair {
-        double from;   // s, before which they certainly stay apart
+        double from;  // s, before which they certainly stay apart
         Traveller a, b;
     };
     std::vector<PartPair> part_pairs_;

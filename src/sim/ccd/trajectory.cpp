@@ -26,9 +26,12 @@ Vec3 momentum_ends(const Vec3& inertia, const Vec3& m) {
     const double d = s[axis[0]] * (i(1) - i(0)) / i(0) - s[axis[2]] * (i(2) - i(1)) / i(2);
     if (d > 0.0) std::swap(axis[0], axis[2]);
     const double d31 = std::abs(i(2) - i(0)), d32 = std::abs(i(2) - i(1)), d21 = std::abs(i(1) - i(0));
-    const double a = s[axis[0]] * d31 / i(0) + s[axis[1]] * d32 / i(1), b = s[axis[1]] * d21 / i(1) + s[axis[2]] * d31 / i(2);
+    const double a = s[axis[0]] * d31 / i(0) + s[axis[1]] * d32 / i(1),
+                 b = s[axis[1]] * d21 / i(1) + s[axis[2]] * d31 / i(2);
     const double square = m.squaredNorm();
-    const auto end = [&](double value) { return std::sqrt(value < square ? value : square); };   // also where it is 0 / 0
+    const auto end = [&](double value) {
+        return std::sqrt(value < square ? value : square);
+    };  // also where it is 0 / 0
     Vec3 ends;
     ends[axis[0]] = end(i(0) * a / d31);
     ends[axis[1]] = end(i(1) * a / d32);
@@ -62,7 +65,7 @@ void Trajectory::turn_freely(const Body& body) {
     }
     const Vec3& inertia = body.principal_inertia;
     turning_ = FreeTurn{FreeRotation(inertia, body.principal_axes, body.orientation, body.angular_momentum),
-                         body.inverse_inertia_body, body.angular_momentum};
+                        body.inverse_inertia_body, body.angular_momentum};
     // With J = 1/I and m the momentum in body axes: |omega|^2 <= min(2 T Jmax, |L|^2 Jmax^2), and Euler's equations
     // alpha_i = J_i (J_k - J_j) m_j m_k with 2 |m_j m_k| <= |L|^2 give the bound of each component; the three cannot be
     // reached together, |alpha| <= 2/sqrt(3) of the largest.
@@ -71,13 +74,16 @@ void Trajectory::turn_freely(const Body& body) {
     const double twice_energy = body.angular_momentum.dot(body.angular_velocity);
     const double most = j.maxCoeff();
     double spin_square = std::min(twice_energy * most, square * most * most);
-    Vec3 component = 0.5 * square * Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]));
+    Vec3 component =
+        0.5 * square * Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]));
     if (inertia.maxCoeff() > bounded_by_ends * inertia.minCoeff()) {
         const Quat to_principal = (body.orientation * body.principal_axes).conjugate();
         const Vec3 ends = momentum_ends(inertia, to_principal * body.angular_momentum);
         spin_square = std::min(spin_square, ends.cwiseProduct(j).squaredNorm());
         const Vec3 products(ends[1] * ends[2], ends[2] * ends[0], ends[0] * ends[1]);
-        component = component.cwiseMin(Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0])).cwiseProduct(products));
+        component = component.cwiseMin(
+            Vec3(j[0] * std::abs(j[2] - j[1]), j[1] * std::abs(j[0] - j[2]), j[2] * std::abs(j[1] - j[0]))
+                .cwiseProduct(products));
     }
     const double angular = std::min(component.norm(), 1.1547005383792517 * component.maxCoeff());
     // Rounding must not bring the bounds below the true values.
@@ -100,8 +106,10 @@ Trajectory Trajectory::towards(const Body& body, const Motion& end, double span,
     const Vec3 way = (end.position - body.position) / span;
     path.acceleration_ = (6.0 * way - 4.0 * body.velocity - 2.0 * end.velocity) / span;
     path.jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * way) / (span * span);
-    if (torque_free) path.turn_freely(body);
-    else path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
+    if (torque_free)
+        path.turn_freely(body);
+    else
+        path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
     return path;
 }
 

@@ -16,12 +16,12 @@ struct Body;
 struct UniformTurn {
     Quat from = Quat::Identity();
     Vec3 axis = Vec3::UnitY();
-    double rate = 0.0;   // rad/s
+    double rate = 0.0;  // rad/s
 };
 struct FreeTurn {
     FreeRotation rotation;
-    Mat3 inverse_inertia = Mat3::Zero();    // body frame
-    Vec3 angular_momentum = Vec3::Zero();   // world
+    Mat3 inverse_inertia = Mat3::Zero();   // body frame
+    Vec3 angular_momentum = Vec3::Zero();  // world
 };
 
 class Trajectory {
@@ -54,7 +54,9 @@ public:
     Bounds swept(double from, double to) const;
 
     bool parabolic() const { return jerk_.isZero(0.0); }
-    bool still() const { return spin_bound_ == 0.0 && velocity_.isZero(0.0) && acceleration_.isZero(0.0) && parabolic(); }
+    bool still() const {
+        return spin_bound_ == 0.0 && velocity_.isZero(0.0) && acceleration_.isZero(0.0) && parabolic();
+    }
     bool turns() const { return spin_bound_ > 0.0; }
     /// Upper bound of |omega| (rad/s) over the trajectory.
     double spin_bound() const { return spin_bound_; }
@@ -65,7 +67,7 @@ public:
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
     std::variant<UniformTurn, FreeTurn> turning_;
-    double turned_ = 0.0;   // s, duration of the rotation before the start of the trajectory
+    double turned_ = 0.0;  // s, duration of the rotation before the start of the trajectory
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 
     void turn_uniformly(const Quat& from, const Vec3& angular_velocity);

@@ -9,14 +9,21 @@
 
 namespace tumble {
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
-    : choice_(choice), effort_(effort), memory_(bodies), gains_(bodies), turns_fast_(bodies), loads_(bodies), soft_(bodies) {}
+    : choice_(choice),
+      effort_(effort),
+      memory_(bodies),
+      gains_(bodies),
+      turns_fast_(bodies),
+      loads_(bodies),
+      soft_(bodies) {}
 
 void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
     const double most = tuning::direct_turn / problem.patches.h;
     pool.for_bodies(islands.bodies(), tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = problem.bodies[i];
         gains_[i] = (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius);
-        turns_fast_[i] = body.angular_velocity.squaredNorm() > most * most && !std::holds_alternative<Ball>(body.collider);
+        turns_fast_[i] =
+            body.angular_velocity.squaredNorm() > most * most && !std::holds_alternative<Ball>(body.collider);
     });
 }
 
@@ -34,8 +41,8 @@ bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::ui
 }
 
 // The load estimate, at most `holds` steps old; not computed where no body can carry `enough` times its mass.
-LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
-                             double enough) {
+LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island,
+                                 int holds, double enough) {
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
     if (memory.looked-- > 0) return memory.load;
@@ -63,7 +70,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     // pairs to factor
     for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);
     few_ = all_pairs <= few;
-    const double enough = all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
+    const double enough =
+        all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
@@ -128,7 +136,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.patches.h, n = substeps_of(h);
-    double square = 0.0;   // of the sag of the smallest body, in its radii, over the step
+    double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
     for (const std::uint32_t i : islands.bodies(island)) square = std::max(square, gains_[i]);
     const double sag = h / (n * n) * std::sqrt(square);
     if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
@@ -204,7 +212,8 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         soft_.solve(problem, std::span(parts_).first(parts_used_), same, pool);
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
-        if (islands.floats(k) && islands.bodies(k).size() > 1) keep_angular_momentum(islands.bodies(k), problem.bodies, problem.patches.h);
+        if (islands.floats(k) && islands.bodies(k).size() > 1)
+            keep_angular_momentum(islands.bodies(k), problem.bodies, problem.patches.h);
 }
 
 }  // namespace tumble

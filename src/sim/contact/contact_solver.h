@@ -9,8 +9,8 @@
 // finds no solution; after a failure it is not tried again for a while.
 #pragma once
 
-#include "sim/contact/model/contact_islands.h"
 #include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
 #include "sim/contact/soft/soft_solver.h"
 
@@ -31,14 +31,14 @@ public:
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
 private:
-    struct Memory {   // state of an island, kept with its lowest body
+    struct Memory {  // state of an island, kept with its lowest body
         std::unique_ptr<DirectSolver> solver;
-        int wait = 0, failures = 0;   // steps until the next trial; consecutive failures
-        int factorisations = 2;       // of the last solve: bound for the next one
-        std::size_t work = 0;         // block operations of one factorization
-        bool direct = false;          // solved directly in the last step
-        LoadEstimate load;                // of the last evaluation
-        int looked = 0;               // steps for which the estimate holds
+        int wait = 0, failures = 0;  // steps until the next trial; consecutive failures
+        int factorisations = 2;      // of the last solve: bound for the next one
+        std::size_t work = 0;        // block operations of one factorization
+        bool direct = false;         // solved directly in the last step
+        LoadEstimate load;           // of the last evaluation
+        int looked = 0;              // steps for which the estimate holds
     };
     struct Candidate {
         std::size_t island;
@@ -49,31 +49,32 @@ private:
     bool turns_fast(std::span<const std::uint32_t> bodies) const;
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     bool rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const;
-    LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds, double enough);
+    LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
+                      double enough);
     int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     bool deal(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
     Effort effort_;
-    std::vector<Memory> memory_;          // by body
+    std::vector<Memory> memory_;  // by body
     // Properties of each body in contact that islands need, written by the body's thread and kept close together:
     // bodies that one thread writes and another reads are slow for both.
-    std::vector<double> gains_;           // 1/s^2, squared speed gained by the step's forces, in radii per second
+    std::vector<double> gains_;  // 1/s^2, squared speed gained by the step's forces, in radii per second
     std::vector<char> turns_fast_;
     LoadEstimates loads_;
     SoftSolver soft_;
     std::vector<Candidate> candidates_;
-    bool few_ = false;                    // few pairs in all: every island may be solved directly
-    std::vector<std::size_t> direct_, softly_;   // indices of islands
-    std::vector<char> failed_;            // by entry of direct_
-    std::vector<int> fineness_;           // substep multiplier, by entry of softly_
+    bool few_ = false;                          // few pairs in all: every island may be solved directly
+    std::vector<std::size_t> direct_, softly_;  // indices of islands
+    std::vector<char> failed_;                  // by entry of direct_
+    std::vector<int> fineness_;                 // substep multiplier, by entry of softly_
     struct Deal {
-        std::uint64_t islands = 0;        // ContactIslands::changes() of the batches
+        std::uint64_t islands = 0;  // ContactIslands::changes() of the batches
         std::vector<std::size_t> softly;
         std::vector<int> fineness;
         bool operator==(const Deal&) const = default;
     };
-    Deal dealt_;                          // inputs from which the batches were made
+    Deal dealt_;  // inputs from which the batches were made
     std::vector<SoftSolver::Part> parts_;
     std::size_t parts_used_ = 0;
 };

@@ -3,7 +3,6 @@
 #include "sim/detection/settings.h"
 #include "sim/threads/settings.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -41,7 +40,8 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
     if (!built_) build(bodies);
     if (look_for_awake_) find_awake(bodies);
     searches_.resize(pool ? std::size_t(pool->size()) : 1);
-    if (searches_.size() > 1 && awake_.size() >= tuning::parallel_bodies) find_leavers(bodies, h, *pool);
+    if (searches_.size() > 1 && awake_.size() >= tuning::parallel_bodies)
+        find_leavers(bodies, h, *pool);
     else
         for (const std::uint32_t i : awake_)
             if (!stays(i, bodies[i], h)) visit(i, bodies[i], h);
@@ -68,7 +68,8 @@ void BroadPhase::build(const std::vector<Body>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
         if (body.moves()) continue;
-        if (std::holds_alternative<HalfSpace>(body.collider)) half_spaces_.push_back(i);
+        if (std::holds_alternative<HalfSpace>(body.collider))
+            half_spaces_.push_back(i);
         else {
             fixed_.push_back(i);
             fixed_bounds.push_back(world_bounds(body.collider, body.pose()));
@@ -95,10 +96,11 @@ bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) {
     if (active(body) != state.active) return false;
     if (!state.active) return resting_tree_.holds(i);
     const double way = h * body.velocity.norm(), margin = tuning::speculative * body.radius + turning_way(body, h);
-    if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;   // it was faster
+    if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;  // it was faster
     // A body has usually hardly moved since its bounds were computed: no point of it by more than this (chord between
     // quaternions: narrow_phase.h).
-    const double moved = (body.position - state.position).norm() + 2.0 * (body.orientation.coeffs() - state.orientation.coeffs()).norm() * body.radius;
+    const double moved = (body.position - state.position).norm() +
+                         2.0 * (body.orientation.coeffs() - state.orientation.coeffs()).norm() * body.radius;
     if (moved + margin + way <= state.room) return true;
     const Bounds bounds = world_bounds(body.collider, body.pose()), &fat = active_tree_.box(i);
     if (!inside(carried(bounds.grown(margin), h * body.velocity), fat)) return false;

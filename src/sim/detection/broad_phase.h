@@ -21,7 +21,7 @@ namespace tumble {
 
 class BroadPhase {
 public:
-    using Pair = BodyPair;   // at least one body is dynamic
+    using Pair = BodyPair;  // at least one body is dynamic
     /// awake: pairs with an awake body, for the step. all: pairs of sleeping bodies as well.
     enum class Pairs { awake, all };
 
@@ -59,17 +59,17 @@ private:
     BoundsTree fixed_tree_;
     DynamicTree active_tree_, resting_tree_;  // each body is in one of them, according to its state
     struct State {
-        bool active = false;    // awake and not ballistic
-        bool moved = false;     // left its bounds in this update: its pairs are searched anew
-        double way = 0.0;       // m, lookahead of its fat bounds
+        bool active = false;  // awake and not ballistic
+        bool moved = false;   // left its bounds in this update: its pairs are searched anew
+        double way = 0.0;     // m, lookahead of its fat bounds
         // Pose of the last computation of its bounds, and their distance (m) inside the fat ones.
         Vec3 position = Vec3::Zero();
         Quat orientation = Quat::Identity();
         double room = -1.0;
     };
-    std::vector<State> states_;               // by body
+    std::vector<State> states_;  // by body
     std::vector<std::uint32_t> moved_;
-    std::vector<Search> searches_;            // by thread
+    std::vector<Search> searches_;  // by thread
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
 };

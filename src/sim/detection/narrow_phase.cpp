@@ -1,9 +1,9 @@
 #include "sim/detection/narrow_phase.h"
 
 #include "sim/detection/settings.h"
+#include "sim/geometry/contact_tolerance.h"
 #include "sim/geometry/impulse_matching.h"
 #include "sim/geometry/manifold_growth.h"
-#include "sim/geometry/contact_tolerance.h"
 #include "sim/geometry/settings.h"
 #include "sim/threads/settings.h"
 
@@ -36,7 +36,8 @@ bool earlier(const Manifold& l, const Manifold& r) { return l.part != r.part ? l
 
 // Manifolds and persistent manifolds are plain numbers, despite Eigen's constructors: copied as memory.
 template <class T>
-void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to, std::size_t place) {
+void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to,
+                std::size_t place) {
     static_assert(std::is_trivially_destructible_v<T>);
     if (count > 0) std::memcpy(static_cast<void*>(to.data() + place), from.data() + first, count * sizeof(T));
 }
@@ -68,7 +69,7 @@ NarrowPhase::Placement NarrowPhase::placement(const View& small, const View& lar
 // quaternions are t / 2 apart on their sphere: the farthest point moved by 2 r sin(t / 2), and the chord between the
 // quaternions is 2 sin(t / 4), so that twice the chord times r is no less.
 double NarrowPhase::motion(const Placement& from, const Placement& to, double radius) {
-    float near = 0.0f, opposite = 0.0f;   // a rotation has two quaternions
+    float near = 0.0f, opposite = 0.0f;  // a rotation has two quaternions
     for (int k = 0; k < 4; ++k) {
         const float less = to.orientation[k] - from.orientation[k], more = to.orientation[k] + from.orientation[k];
         near += less * less;
@@ -80,7 +81,8 @@ double NarrowPhase::motion(const Placement& from, const Placement& to, double ra
 // Runs the work of each thread; on one thread where synchronization costs more than it saves.
 template <class Work>
 void NarrowPhase::each_share(ThreadPool& pool, Work&& work) {
-    if (pool.size() > 1 && entries_.size() >= tuning::parallel_grain) return pool.together([&](std::size_t thread) { work(found_[thread]); });
+    if (pool.size() > 1 && entries_.size() >= tuning::parallel_grain)
+        return pool.together([&](std::size_t thread) { work(found_[thread]); });
     for (Found& found : found_) work(found);
 }
 
@@ -185,7 +187,8 @@ void NarrowPhase::unpark(Entry& entry) {
 
 void NarrowPhase::view(View& v, const Body& body) const {
     if (body.moves())
-        v.travel += (body.position - v.pose.position).norm() + 2.0 * (body.orientation.coeffs() - v.orientation.coeffs()).norm() * body.radius;
+        v.travel += (body.position - v.pose.position).norm() +
+                    2.0 * (body.orientation.coeffs() - v.orientation.coeffs()).norm() * body.radius;
     v.pose = body.pose();
     v.orientation = body.orientation;
     v.radius = body.radius;
@@ -197,7 +200,7 @@ void NarrowPhase::view(View& v, const Body& body) const {
         v.speculative = tuning::speculative * body.radius;
     }
     const Bounds bounds = world_bounds(body.collider, v.pose);
-    v.bounds = bounds;   // through a named variable: see find_gyration()
+    v.bounds = bounds;  // through a named variable: see find_gyration()
     v.collider = &body.collider;
     v.awake = awake(body);
     v.flying = body.flying;
@@ -228,11 +231,13 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     if (mode_ == Mode::step && ((!a.awake && !b.awake) || a.flying || b.flying)) return drop();
     const double apart = distance(a.bounds, b.bounds);
     // Most pairs end here: tested first without a square root, by the sum of the components.
-    const bool far = mode_ == Mode::step && apart > a.speculative + b.speculative +
-                                                        h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
+    const bool far =
+        mode_ == Mode::step &&
+        apart > a.speculative + b.speculative + h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
-    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball) return search(index, a, b, reach, 0.0, h, found);
+    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball)
+        return search(index, a, b, reach, 0.0, h, found);
 
     // The bodies' own motion is available and often small enough; else their relative motion is computed.
     const double travel = a.travel + b.travel;
@@ -253,15 +258,15 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
 }
 
 // Whether the last result is still valid after a relative motion (m) of the bodies. Refreshes its manifolds.
-NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last,
-                                            double moved) {
+NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach,
+                                            const Search& last, double moved) {
     const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
     const double radius = std::min(a.radius, b.radius);
     if (last.outcome == Search::Outcome::apart) return told(double(last.gap) - moved > reach);
     if (last.outcome == Search::Outcome::none || moved >= tuning::reuse_motion * radius) return Standing::out_of_date;
     const double touch = touch_distance(a.radius, b.radius);
     bool stands = true, missed = false;
-    double deepest = 0.0, spare = 0.0;   // of a pair of faces, in one manifold or two
+    double deepest = 0.0, spare = 0.0;  // of a pair of faces, in one manifold or two
     for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
         Manifold& m = manifolds_[k];
         follow(anchors_[k], a.pose, b.pose, m);
@@ -280,7 +285,8 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
     return missed ? Standing::sank : told(stands);
 }
 
-void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, double h, Found& found) {
+void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, double h,
+                         Found& found) {
     const Entry& entry = entries_[index];
     Search& last = searches_[entry.search];
     const double radius = std::min(a.radius, b.radius);
@@ -291,7 +297,8 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.left_out.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     found.scratch.way = h * (b.velocity - a.velocity);
-    found.scratch.turning = h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
+    found.scratch.turning =
+        h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
     collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);
@@ -299,14 +306,17 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
         const Manifold& m = found.manifolds[k];
         if (!remembers_ || m.count + m.left_out <= 2 * Manifold::capacity) continue;
         last.sank = moved < tuning::missed_motion * radius &&
-                    (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m, left_out(m, found.scratch), radius));
+                    (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m,
+                                         left_out(m, found.scratch), radius));
     }
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
     const auto count = std::uint32_t(found.manifolds.size()) - begin;
     // A contact point on a rolling ball moves over it. Left behind by a thousandth of the radius it would support the
     // body from behind, and a slowly rolling body would gain speed out of nothing.
-    last.outcome = count == 0 ? Search::Outcome::apart : found.scratch.on_ball ? Search::Outcome::none : Search::Outcome::near;
+    last.outcome = count == 0              ? Search::Outcome::apart
+                   : found.scratch.on_ball ? Search::Outcome::none
+                                           : Search::Outcome::near;
     if (count == 0) {
         if (entry.count > 0) found.changes.push_back({index, 0, 0});
         return;
@@ -314,14 +324,15 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     // The triangles of a mesh are found in the order of its tree.
     const auto first = found.manifolds.begin() + begin;
     if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
-    const bool swapped = b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
+    const bool swapped =
+        b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
     std::uint32_t old = entry.first;
     const std::uint32_t old_end = entry.first + entry.count;
     for (auto m = first; m != found.manifolds.end(); ++m) {
         m->a = entry.pair.a;
         m->b = entry.pair.b;
-        const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;   // without a second manifold
-        const auto bring = [&] {   // moves the old points to their present places on the larger body
+        const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;  // without a second manifold
+        const auto bring = [&] {  // moves the old points to their present places on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
                 manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a()[i])
                                                                           : b.pose.to_world(anchors_[old].on_b()[i]);
@@ -335,7 +346,8 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
                 hand_over(manifolds_[old], *m);
             }
         }
-        PersistentManifold& anchors = found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
+        PersistentManifold& anchors =
+            found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
         if (m->more) continue;
         keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
     }

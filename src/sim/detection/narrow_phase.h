@@ -6,8 +6,8 @@
 #pragma once
 
 #include "sim/detection/broad_phase.h"
-#include "sim/geometry/persistent_manifold.h"
 #include "sim/geometry/collide.h"
+#include "sim/geometry/persistent_manifold.h"
 #include "sim/threads/thread_pool.h"
 
 #include <map>
@@ -41,12 +41,16 @@ private:
     // Data of a body that its pairs need, close together: most pairs read only the first two cache lines.
     struct alignas(64) View {
         Bounds bounds;
-        double travel = 0.0;   // m, sum over the calls of the largest motion of any of its points
+        double travel = 0.0;  // m, sum over the calls of the largest motion of any of its points
         double speculative = 0.0;
         Vec3 velocity = Vec3::Zero();
-        double spin = 0.0, radius = 0.0;   // spin: m/s of the farthest point
+        double spin = 0.0, radius = 0.0;  // spin: m/s of the farthest point
         const CollisionShape* collider = nullptr;
-        enum class Kind : std::uint8_t { polyhedron, ball, fixed } kind = Kind::polyhedron;   // fixed: half-space or mesh
+        enum class Kind : std::uint8_t {
+            polyhedron,
+            ball,
+            fixed
+        } kind = Kind::polyhedron;  // fixed: half-space or mesh
         bool awake = false, flying = false;
         Pose pose;
         Quat orientation = Quat::Identity();
@@ -54,36 +58,36 @@ private:
     // Pose of a body in another one's frame; the rotation in single precision, which is enough for distances.
     struct Placement {
         Vec3 position = Vec3::Zero();
-        float orientation[4] = {0.0f, 0.0f, 0.0f, 1.0f};   // x, y, z, w
+        float orientation[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // x, y, z, w
     };
     // Memory of a pair: the last search, and the pose of the smaller body relative to the larger, at the search or at a
     // later check, when it had moved by `spent` since. One cache line: there are many pairs, and each costs a fetch
     // from memory.
     struct alignas(64) Search {
         enum class Outcome : std::uint8_t { none, apart, near } outcome = Outcome::none;
-        bool sank = false;                        // a reduced point sank: from then on no point is removed
-        std::uint16_t axis = 0;                   // hint for boxes
-        float gap = 0.0f, spent = 0.0f;           // m, lower bound of the gap and upper bound of the motion
-        double travel = 0.0;                      // m, of both bodies until then
+        bool sank = false;               // a reduced point sank: from then on no point is removed
+        std::uint16_t axis = 0;          // hint for boxes
+        float gap = 0.0f, spent = 0.0f;  // m, lower bound of the gap and upper bound of the motion
+        double travel = 0.0;             // m, of both bodies until then
         Placement placement;
     };
     static_assert(sizeof(Search) == 64);
     struct Entry {
         BroadPhase::Pair pair;
-        std::uint32_t search = 0;                 // index in searches_
-        std::uint32_t first = 0, count = 0;       // range in manifolds_ and in the persistent manifolds
-        std::uint32_t mover = 0;                  // index of the pair's body whose thread processes it
+        std::uint32_t search = 0;            // index in searches_
+        std::uint32_t first = 0, count = 0;  // range in manifolds_ and in the persistent manifolds
+        std::uint32_t mover = 0;             // index of the pair's body whose thread processes it
     };
     // An entry of this call with new or moved manifolds, and where the new ones lie.
     struct Change {
         std::uint32_t entry = 0, first = 0, count = 0;
     };
-    struct Found {                                // results of one thread
+    struct Found {  // results of one thread
         CollisionScratch scratch;
         std::vector<Manifold> manifolds;
         std::vector<PersistentManifold> anchors;
-        std::vector<Change> changes;              // ascending by entry
-        std::vector<std::uint32_t> bodies, entries;   // its own, of this call
+        std::vector<Change> changes;                 // ascending by entry
+        std::vector<std::uint32_t> bodies, entries;  // its own, of this call
     };
     struct Parked {
         Search search;
@@ -115,13 +119,13 @@ private:
     std::vector<Entry> entries_, spare_entries_;  // ascending by pair
     std::vector<Search> searches_;
     std::vector<std::uint32_t> free_searches_;
-    std::map<BroadPhase::Pair, Parked> parked_;   // of sleeping pairs
-    std::vector<std::uint32_t> new_first_, new_count_;   // by entry
-    std::vector<View> views_;                     // one per body
-    std::vector<std::uint64_t> seen_;             // by body: the last distribution that included it
+    std::map<BroadPhase::Pair, Parked> parked_;         // of sleeping pairs
+    std::vector<std::uint32_t> new_first_, new_count_;  // by entry
+    std::vector<View> views_;                           // one per body
+    std::vector<std::uint64_t> seen_;                   // by body: the last distribution that included it
     std::uint64_t share_ = 0;
-    std::uint64_t seen_owners_ = UINT64_MAX;      // ThreadPool::owner_changes() of the last distribution of the pairs
-    bool moved_ = false;                          // manifolds_ and the entries are in different orders
+    std::uint64_t seen_owners_ = UINT64_MAX;  // ThreadPool::owner_changes() of the last distribution of the pairs
+    bool moved_ = false;                      // manifolds_ and the entries are in different orders
     std::vector<BodyPair> touching_;
     std::uint64_t changes_ = 0;
     std::vector<Manifold> manifolds_, spare_manifolds_;

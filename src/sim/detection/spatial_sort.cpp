@@ -27,8 +27,10 @@ std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const 
     std::vector<std::uint32_t> order;
     std::vector<PlacedBody> movers;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-        if (bodies[i].dynamic()) movers.push_back({bodies[i].position, i});
-        else order.push_back(i);
+        if (bodies[i].dynamic())
+            movers.push_back({bodies[i].position, i});
+        else
+            order.push_back(i);
     }
     if (movers.size() < tuning::ordered_bodies) {
         order.resize(bodies.size());

@@ -15,7 +15,7 @@ namespace tumble {
 
 /// Has a cache line of its own: threads write neighboring elements at the same time.
 struct alignas(64) BodyVelocity {
-    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();   // m/s, rad/s
+    Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m/s, rad/s
 };
 
 struct Body {
@@ -23,35 +23,35 @@ struct Body {
     // Properties read in each step come first, in one line.
     alignas(64) BodyType type = BodyType::dynamic;
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
-    bool spherical_top = false;              // equal moments, as of a ball or a cube: the tensor is the same in every frame
+    bool spherical_top = false;  // equal moments, as of a ball or a cube: the tensor is the same in every frame
     bool asleep = false;
-    bool flying = false;                     // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
-    bool flew = false;                       // moved in the last step by an integrator of higher order than the two Euler methods
-    double mass = 0.0, inverse_mass = 0.0;   // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
-    double radius = 0.0;                     // m, about the center of mass; infinity for a half-space
+    bool flying = false;  // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
+    bool flew = false;    // moved in the last step by an integrator of higher order than the two Euler methods
+    double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
+    double radius = 0.0;                    // m, about the center of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
-    double drag_area = 0.0;                  // m^2, mean projected area
+    double drag_area = 0.0;  // m^2, mean projected area
     CollisionShape collider;
-    std::shared_ptr<const KeyframeTrack> track;   // of a moving kinematic body
-    Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();   // kg m^2, body frame
-    Vec3 principal_inertia = Vec3::Zero();   // kg m^2
+    std::shared_ptr<const KeyframeTrack> track;                             // of a moving kinematic body
+    Mat3 inertia_body = Mat3::Zero(), inverse_inertia_body = Mat3::Zero();  // kg m^2, body frame
+    Vec3 principal_inertia = Vec3::Zero();                                  // kg m^2
     Quat principal_axes = Quat::Identity();  // rotates principal coordinates into body coordinates
     Vec3 center_of_mass = Vec3::Zero();      // m, relative to the scene's body origin, body frame
     std::string name;
 
     // State (notes eq. 1). Both forms of the rotation are kept; the world's settings select the one that is integrated,
     // and the other follows from it.
-    alignas(64) Vec3 position = Vec3::Zero();   // x, of the center of mass
-    Quat orientation = Quat::Identity();     // q
-    Mat3 rotation = Mat3::Identity();        // R
-    Vec3 momentum = Vec3::Zero();            // P, kg m/s
-    Vec3 angular_momentum = Vec3::Zero();    // L, kg m^2/s
+    alignas(64) Vec3 position = Vec3::Zero();  // x, of the center of mass
+    Quat orientation = Quat::Identity();       // q
+    Mat3 rotation = Mat3::Identity();          // R
+    Vec3 momentum = Vec3::Zero();              // P, kg m/s
+    Vec3 angular_momentum = Vec3::Zero();      // L, kg m^2/s
 
     // Derived (notes eqs. 2 to 4).
-    Vec3 velocity = Vec3::Zero();            // m/s
-    Vec3 angular_velocity = Vec3::Zero();    // rad/s
-    Mat3 inverse_inertia = Mat3::Zero();     // world frame
-    Vec3 gyration = Vec3::Zero();            // rad/s, gyroscopic correction of this step (gyroscopic_correction.h), for contacts
+    Vec3 velocity = Vec3::Zero();          // m/s
+    Vec3 angular_velocity = Vec3::Zero();  // rad/s
+    Mat3 inverse_inertia = Mat3::Zero();   // world frame
+    Vec3 gyration = Vec3::Zero();  // rad/s, gyroscopic correction of this step (gyroscopic_correction.h), for contacts
     // Position correction of this step: moves the pose and leaves the momenta alone.
     Vec3 push_velocity = Vec3::Zero();
     Vec3 push_angular_velocity = Vec3::Zero();
@@ -74,8 +74,10 @@ struct Body {
 
 /// v = P / M, I^-1(t) = R I^-1 R^T, omega = I^-1(t) L.
 inline void Body::derive() {
-    if (spherical_top) inverse_inertia = inverse_inertia_body;
-    else inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
+    if (spherical_top)
+        inverse_inertia = inverse_inertia_body;
+    else
+        inverse_inertia = rotation * inverse_inertia_body * rotation.transpose();
     derive_velocities();
 }
 

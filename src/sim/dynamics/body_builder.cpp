@@ -14,8 +14,9 @@ namespace {
 // Mean projected area of a convex body over all directions: a quarter of its surface (Cauchy 1832).
 double mean_projected_area(const CollisionShape& collider) {
     if (const auto* ball = std::get_if<Ball>(&collider)) return pi * ball->radius * ball->radius;
-    if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&collider)) return 0.25 * (*hull)->surface_area();
-    double sum = 0.0;   // of a compound: as if no part sheltered another from the wind
+    if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&collider))
+        return 0.25 * (*hull)->surface_area();
+    double sum = 0.0;  // of a compound: as if no part sheltered another from the wind
     if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&collider))
         for (const Compound::Part& part : (*compound)->parts) sum += mean_projected_area(part.collider);
     return sum;
@@ -29,7 +30,8 @@ MassProperties mass_of_shape(const Shape& shape, double density) {
     std::vector<MassProperties> parts;
     if (const auto* compound = std::get_if<CompoundShape>(&shape))
         for (const CompoundPart& part : *compound->parts)
-            parts.push_back(placed(mass_of_shape(part.shape, part.density.value_or(density)), part.position, part.rotation));
+            parts.push_back(
+                placed(mass_of_shape(part.shape, part.density.value_or(density)), part.position, part.rotation));
     return sum_of_masses(parts);
 }
 
@@ -81,12 +83,13 @@ CollisionShape BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces
 
 CollisionShape BodyBuilder::compound_collider(const CompoundShape& shape, double density, const Vec3& origin) {
     KnownCompound& known = compounds_[shape.parts.get()];
-    if (known.made && known.origin == origin) return known.made;   // another density may move the center of mass
+    if (known.made && known.origin == origin) return known.made;  // another density may move the center of mass
     auto compound = std::make_shared<Compound>();
     for (const CompoundPart& part : *shape.parts) {
-        const Vec3 middle = mass_of_shape(part.shape, density).center_of_mass;   // origin of the collider
-        compound->parts.push_back({collider(part.shape, false, middle),
-                                   {part.position + part.rotation * middle - origin, part.rotation.toRotationMatrix()}});
+        const Vec3 middle = mass_of_shape(part.shape, density).center_of_mass;  // origin of the collider
+        compound->parts.push_back(
+            {collider(part.shape, false, middle),
+             {part.position + part.rotation * middle - origin, part.rotation.toRotationMatrix()}});
     }
     compound->complete();
     known = {origin, std::move(compound)};

@@ -26,7 +26,8 @@ private:
     CollisionShape collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
     CollisionShape compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
-    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes_;   // by edge lengths: each shape takes 2 KB
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>>
+        boxes_;  // by edge lengths: each shape takes 2 KB
     // Looked up only, never iterated: the order of addresses must not affect results.
     std::map<const MeshAsset*, Mesh> meshes_;
     struct KnownCompound {

@@ -15,7 +15,7 @@ void add(Wrench& sum, const ForceDescription& f, const Body& body, const Mat3& r
     const Vec3 force = f.body_frame ? Vec3(rotation * f.force) : f.force;
     const Vec3 r = rotation * (f.point - body.center_of_mass);
     sum.force += force;
-    sum.torque += r.cross(force);   // notes eq. 6
+    sum.torque += r.cross(force);  // notes eq. 6
 }
 
 }  // namespace
@@ -41,7 +41,8 @@ Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
 }
 
 template <class Choose>
-void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation, const Choose& choose) const {
+void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation,
+                            const Choose& choose) const {
     for (const ForceDescription& f : at_points_[index])
         if (choose(f)) add(sum, f, body, rotation);
 }
@@ -61,7 +62,8 @@ Wrench ForceField::throughout(std::size_t index, const Body& body, double from, 
 
 Wrench ForceField::endless(std::size_t index, const Body& body, double from, double to) const {
     Wrench sum = fields(body);
-    add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to) && std::isinf(f.end); });
+    add_points(sum, index, body, body.rotation,
+               [&](const ForceDescription& f) { return covers(f, from, to) && std::isinf(f.end); });
     return sum;
 }
 
@@ -75,7 +77,8 @@ Impulse ForceField::impulse(std::size_t index, const Body& body, double from, do
         Mat3 rotation = body.rotation;
         // a force acting throughout is evaluated at t_n, as are all forces of a step
         if (!covers(f, from, to) && !body.angular_momentum.isZero(0.0)) {
-            const FreeRotation turning(body.principal_inertia, body.principal_axes, body.orientation, body.angular_momentum);
+            const FreeRotation turning(body.principal_inertia, body.principal_axes, body.orientation,
+                                       body.angular_momentum);
             rotation = turning.at(0.5 * (start + end) - from).toRotationMatrix();
         }
         Wrench wrench;

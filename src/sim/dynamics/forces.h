@@ -66,7 +66,7 @@ private:
 
     Vec3 gravity_;
     std::optional<WindDescription> wind_;
-    std::vector<std::vector<ForceDescription>> at_points_;   // by body
+    std::vector<std::vector<ForceDescription>> at_points_;  // by body
     std::vector<std::uint32_t> pushed_;
 };
 

@@ -16,7 +16,8 @@ BodyVelocity place_on_track(Body& body, double now, double next, double h) {
     // The initial velocity where the velocity changes linearly; the mean over a kink of the path.
     const auto begin = [](const Vec3& first, const Vec3& mean, const Vec3& last) {
         const Vec3 change = last - first;
-        return (first + last - 2.0 * mean).norm() <= tuning::kinematic_bend * change.norm() ? Vec3(mean - 0.5 * change) : mean;
+        return (first + last - 2.0 * mean).norm() <= tuning::kinematic_bend * change.norm() ? Vec3(mean - 0.5 * change)
+                                                                                            : mean;
     };
     const auto of_center = [&](const KeyframeTrack::Motion& m) {
         return Vec3(m.velocity + m.angular_velocity.cross(m.rotation * body.center_of_mass));

@@ -3,7 +3,6 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/event_driven/settings.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +27,8 @@ Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
     const Vec3 across = c.edge_a.cross(c.edge_b);
     const double length = across.norm();
     if (!(length > 0.0)) return Vec3::Zero();
-    const Vec3 change = a.angular_velocity.cross(c.edge_a).cross(c.edge_b) + c.edge_a.cross(b.angular_velocity.cross(c.edge_b));
+    const Vec3 change =
+        a.angular_velocity.cross(c.edge_a).cross(c.edge_b) + c.edge_a.cross(b.angular_velocity.cross(c.edge_b));
     const double sign = across.dot(c.normal) < 0.0 ? -1.0 : 1.0;
     return sign / length * (change - c.normal.dot(change) * c.normal);
 }
@@ -47,22 +47,26 @@ double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
 }
 
 // A sum whose terms cancel up to rounding is set to zero.
-double beyond_rounding(double sum, double terms) { return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0; }
+double beyond_rounding(double sum, double terms) {
+    return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0;
+}
 
 }  // namespace
 
-double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported, bool b_supported) {
+double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported,
+                             bool b_supported) {
     const bool on_ball = c.on_ball != OnBall::no;
     const Vec3 &arm_a = on_ball ? c.place_a : c.arm_a, &arm_b = on_ball ? c.place_b : c.arm_b;
-    const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported), of_b = free_acceleration(b, arm_b, gravity, b_supported);
+    const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported),
+               of_b = free_acceleration(b, arm_b, gravity, b_supported);
     const double more = turning(c, a, b, b.point_velocity(arm_b) - a.point_velocity(arm_a));
     return beyond_rounding(c.normal.dot(of_b - of_a) + more, of_a.norm() + of_b.norm() + std::abs(more));
 }
 
-void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
-               std::vector<bool>& held) {
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bodies, const Vec3& gravity, double near,
+               double release, std::vector<bool>& held) {
     std::vector<std::uint32_t> found;
-    do {   // in rounds: the result must not depend on the contacts' order
+    do {  // in rounds: the result must not depend on the contacts' order
         found.clear();
         for (const Contact& c : contacts) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
@@ -73,7 +77,8 @@ void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bo
             const bool overlap = c.separation < -(left + c.touch_distance);
             if (!overlap) {
                 if (relative_velocity(c, a, b) > release) continue;
-                const bool a_stands = !a.dynamic() || a.asleep || held[c.a], b_stands = !b.dynamic() || b.asleep || held[c.b];
+                const bool a_stands = !a.dynamic() || a.asleep || held[c.a],
+                           b_stands = !b.dynamic() || b.asleep || held[c.b];
                 if (!(pressing_acceleration(c, a, b, gravity, a_stands, b_stands) < 0.0)) continue;
             }
             for (const std::uint32_t k : {c.a, c.b})

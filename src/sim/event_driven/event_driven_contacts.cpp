@@ -2,9 +2,9 @@
 #include "sim/event_driven/event_driven_motion.h"
 
 #include "core/sort_unique.h"
-#include "sim/event_driven/contact_transition.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/event_driven/contact_transition.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,8 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 }  // namespace
 
-bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
+bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies,
+                                 const ForceField& forces, std::int64_t step) {
     held_.assign(bodies.size(), false);
     // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
     // displacement while it stays on.
@@ -35,7 +36,8 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vect
 
 // Moves a body in contact uniformly to the end of the step. A clamped body moves slower: it ends where it would have
 // stopped.
-void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies, const EventTime& now) {
+void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit,
+                             const std::vector<Body>& bodies, const EventTime& now) {
     const Body& body = bodies[i];
     Vec3 velocity = limit.share * motion.velocity;
     if (limit.carrier != CcdFraction::none) {
@@ -46,8 +48,9 @@ void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const 
     fliers_[i].spin = spin(body);
 }
 
-void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<CcdFraction>& limits,
-                         const ForceField& forces, std::int64_t step) {
+void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
+                                   const std::vector<CcdFraction>& limits, const ForceField& forces,
+                                   std::int64_t step) {
     const EventTime now{step, 0.0};
     changed_.swap(taken_off_);
     taken_off_.clear();
@@ -107,7 +110,7 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
 void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> landed;
     std::vector<std::uint32_t> landing;
-    do {   // in rounds: the result must not depend on the contacts' order
+    do {  // in rounds: the result must not depend on the contacts' order
         landing.clear();
         for (const Contact& c : cluster_.contacts()) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
@@ -115,7 +118,8 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
             const double acceleration = pressing_acceleration(c, a, b, settings_.gravity, !a.flying, !b.flying);
             const double time = std::max(a.flying ? landing_time(c.a) : 0.0, b.flying ? landing_time(c.b) : 0.0);
             const double speed = std::abs(relative_velocity(c, a, b));
-            const bool stutter = (a.flying && stutters(c.a, bodies, speed)) || (b.flying && stutters(c.b, bodies, speed));
+            const bool stutter =
+                (a.flying && stutters(c.a, bodies, speed)) || (b.flying && stutters(c.b, bodies, speed));
             if (!stutter && !hop_is_shorter(c, a, b, acceleration, time)) continue;
             for (const std::uint32_t k : {c.a, c.b})
                 if (bodies[k].flying) landing.push_back(k);
@@ -130,9 +134,9 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
     if (!(rest > 0.0)) return;
     landing_manifolds_.clear();
     std::vector<std::uint32_t> touched;
-    for (const Manifold& m : cluster_.manifolds()) {   // including those of supporting bodies, which may lean on others
+    for (const Manifold& m : cluster_.manifolds()) {  // including those of supporting bodies, which may lean on others
         if (bodies[m.a].flying || bodies[m.b].flying) continue;
-        landing_manifolds_.push_back(m);   // its small remaining bounce is lost
+        landing_manifolds_.push_back(m);  // its small remaining bounce is lost
         for (const std::uint32_t k : {m.a, m.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
     }
@@ -153,8 +157,9 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
         fliers_[k].pushed = true;
     }
     islands_.find(body_pairs(landing_manifolds_), bodies, touched);
-    contact_solver_.solve({bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}},
-                          islands_, alone_);
+    contact_solver_.solve(
+        {bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}}, islands_,
+        alone_);
     for (const std::uint32_t k : touched) {
         bodies[k].push_velocity.setZero();
         bodies[k].push_angular_velocity.setZero();
@@ -177,7 +182,8 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     motions_.resize(bodies.size());
     for (const std::uint32_t k : going)
-        motions_[k] = {bodies[k].velocity + bodies[k].push_velocity, bodies[k].angular_velocity + bodies[k].push_angular_velocity};
+        motions_[k] = {bodies[k].velocity + bodies[k].push_velocity,
+                       bodies[k].angular_velocity + bodies[k].push_angular_velocity};
     const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
     const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
     const std::vector<CcdFraction>* limits = nullptr;
@@ -189,7 +195,8 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
             const auto add = [&](std::uint32_t other) {
                 const auto [a, b] = std::minmax(k, other);
                 const bool both = bodies[a].dynamic() && bodies[b].dynamic();
-                const bool often = both && std::max(fliers_[a].meetings, fliers_[b].meetings) >= tuning::meetings_in_step;
+                const bool often =
+                    both && std::max(fliers_[a].meetings, fliers_[b].meetings) >= tuning::meetings_in_step;
                 if (!often || !depth(a, b)) pairs.push_back({a, b});
             };
             for (const std::uint32_t other : neighbourhood_.fixed(k)) add(other);
@@ -208,7 +215,8 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
             motions_[k] = {motion.velocity, motion.angular_velocity};
         }
         const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
-        const bool any_fast = std::any_of(near.begin(), near.end(), [&](std::uint32_t k) { return motion_limit_.fast(k, motions_[k], rest); });
+        const bool any_fast = std::any_of(near.begin(), near.end(),
+                                          [&](std::uint32_t k) { return motion_limit_.fast(k, motions_[k], rest); });
         limits = &motion_limit_.limits(find_pairs, depth, bodies, motions_, rest, any_fast);
         std::vector<std::uint32_t> stopped;
         for (const std::uint32_t k : near)

@@ -3,9 +3,9 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "core/sort_unique.h"
-#include "sim/event_driven/contact_transition.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/event_driven/contact_transition.h"
 #include "sim/event_driven/settings.h"
 #include "sim/geometry/settings.h"
 #include "sim/impact/settings.h"
@@ -76,7 +76,8 @@ EventTime EventDrivenMotion::drive_end(std::uint32_t i, const ForceField& forces
 }
 
 // Starts a free trajectory from the body's present state.
-void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
+void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces,
+                            const EventTime& now) {
     Body& body = bodies[i];
     body.flying = true;
     if (forces.only_gravity(i)) {
@@ -105,7 +106,7 @@ Traveller EventDrivenMotion::traveller(std::uint32_t i, const std::vector<Body>&
 
 void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     show(i, bodies, now);
-    if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();   // the others are derived already
+    if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();  // the others are derived already
 }
 
 // The body's state and velocities, without the data that only contacts need.
@@ -163,10 +164,13 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
     const double r = bodies[i].radius, t = clock_.between(f.start, now);
     const double v = f.path.velocity(t).norm(), a = f.path.acceleration(t).norm();
     const double way = f.box_way * r;
-    double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way)) : std::numeric_limits<double>::infinity();
+    double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way))
+                                     : std::numeric_limits<double>::infinity();
     time = std::min(std::max(time, h_), clock_.between(now, f.until));
-    if (!std::isfinite(time) || time > 1e9 * h_) time = f.path.still() ? 0.0 : 1e9 * h_;
-    else f.boxed_until = later(now, time);
+    if (!std::isfinite(time) || time > 1e9 * h_)
+        time = f.path.still() ? 0.0 : 1e9 * h_;
+    else
+        f.boxed_until = later(now, time);
     // A part of the trajectory may fit into the present box: cheaper than a new search for neighbors. Not a small part
     // of a step: repeated parts of the remainder never reach its end.
     for (const double part : {1.0, 0.5, 0.25}) {
@@ -178,8 +182,10 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
     neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
     // Larger boxes last longer but have more neighbors.
     const std::size_t neighbours = neighbourhood_.moving(i).size();
-    if (neighbours < tuning::few_neighbours) f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
-    else if (neighbours > 3 * tuning::few_neighbours) f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
+    if (neighbours < tuning::few_neighbours)
+        f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
+    else if (neighbours > 3 * tuning::few_neighbours)
+        f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
 }
 
 void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
@@ -224,14 +230,18 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     }
     // No event within the trajectory: World continues it at the end of the step, this class where a force begins or
     // ends.
-    if (f.event == BodyEvent::Event::leaves_box && f.driven && f.until <= f.boxed_until && f.until < EventTime{now.step + 1, 0.0}) {
+    if (f.event == BodyEvent::Event::leaves_box && f.driven && f.until <= f.boxed_until &&
+        f.until < EventTime{now.step + 1, 0.0}) {
         f.event = BodyEvent::Event::drives_on;
         queue_.set(i, f.until);
-    } else if (f.event == BodyEvent::Event::leaves_box && (f.until <= f.boxed_until || next >= never)) queue_.remove(i);
-    else queue_.set(i, next);
+    } else if (f.event == BodyEvent::Event::leaves_box && (f.until <= f.boxed_until || next >= never))
+        queue_.remove(i);
+    else
+        queue_.set(i, next);
 }
 
-std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until) {
+std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces,
+                                    std::int64_t until) {
     until_ = until;
     while (!queue_.empty() && queue_.first_moment() < EventTime{until_, 0.0}) {
         const std::uint32_t i = queue_.first();
@@ -265,8 +275,10 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
     }
     const std::int64_t limit = tuning::impacts_in_frame * std::int64_t(bodies.size());
     if (++impacts_in_frame_ > limit)
-        throw RunError(fmt::format("frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; try impacts = \"stepped\" "
-                                   "for jammed bodies", frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
+        throw RunError(fmt::format(
+            "frame {} (t = {:.9g} s): more than {} impacts, the last of body '{}'; try impacts = \"stepped\" "
+            "for jammed bodies",
+            frame, clock_.seconds(now), limit, safe_text(bodies[i].name)));
 }
 
 // Zeno limit: hops are followed down to a fixed duration; in a long run of impacts the limit increases, up to the step.
@@ -285,7 +297,8 @@ bool EventDrivenMotion::stutters(std::uint32_t i, const std::vector<Body>& bodie
 
 // Fast path for the most frequent impacts: two frictionless balls, or a ball and a fixed half-space, with no other body
 // near. Eq. 20 with r x n = 0. Returns false for any other impact.
-bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const EventTime& now) {
+bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies,
+                                     const EventTime& now) {
     const Body &a = bodies[i], &b = bodies[j];
     const auto* ball = std::get_if<Ball>(&a.collider);
     const auto* other_ball = std::get_if<Ball>(&b.collider);
@@ -299,8 +312,9 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
     if (!(v < 0.0)) return false;
     const double press = plane ? -n.dot(settings_.gravity) : 0.0;
-    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;   // this one switches to contact
-    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now))) return false;
+    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;  // this one switches to contact
+    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now)))
+        return false;
     const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
     start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
     changed_.push_back(i);
@@ -313,7 +327,8 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
 }
 
 // Whether no third body can touch the ball at `at`.
-bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const EventTime& now) const {
+bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
+                              const EventTime& now) const {
     const double r = bodies[i].radius * (1.0 + tuning::touch);
     for (const std::uint32_t k : neighbourhood_.moving(i)) {
         if (k == but) continue;
@@ -335,7 +350,8 @@ bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at
     return true;
 }
 
-void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const EventTime& now) {
+void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep,
+                                const ForceField& forces, const EventTime& now) {
     count_impact(i, bodies, now);
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
     const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
@@ -345,9 +361,10 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     if (meeting)
         for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
-    const bool changed = cluster_.resolve(i, j, bodies, neighbourhood_, bring_body,
-                                          {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
-    if (!changed && meeting) {   // no more of these in this step
+    const bool changed = cluster_.resolve(
+        i, j, bodies, neighbourhood_, bring_body,
+        {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
+    if (!changed && meeting) {  // no more of these in this step
         fliers_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
         hold_struck(bodies, forces, now);
@@ -360,7 +377,8 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         BodyEvent& f = fliers_[i];
         f.event = BodyEvent::Event::looks_again;
         const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
-        queue_.set(i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
+        queue_.set(
+            i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
         return;
     }
     for (const std::uint32_t k : cluster_.struck()) {
@@ -368,7 +386,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         fliers_[k].spin = unknown;
         changed_.push_back(k);
     }
-    if (meeting) changed_.push_back(i);   // its trajectory ends here, whether or not the impulse has reached it
+    if (meeting) changed_.push_back(i);  // its trajectory ends here, whether or not the impulse has reached it
     release_struck(bodies);
     land(bodies, forces, now);
     sort_unique(changed_);

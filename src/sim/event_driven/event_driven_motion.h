@@ -7,20 +7,20 @@
 // limit switches to contact; a body that no contact holds any more is released.
 #pragma once
 
-#include "sim/contact/model/contact.h"
+#include "sim/ccd/ccd_clamp.h"
+#include "sim/ccd/time_of_impact.h"
+#include "sim/ccd/trajectory.h"
 #include "sim/contact/contact_solver.h"
-#include "sim/event_driven/settings.h"
-#include "sim/impact/impacts.h"
+#include "sim/contact/model/contact.h"
 #include "sim/contact/model/sleep.h"
+#include "sim/dynamics/forces.h"
 #include "sim/event_driven/event_queue.h"
+#include "sim/event_driven/event_time.h"
 #include "sim/event_driven/half_space_filter.h"
 #include "sim/event_driven/impact_cluster.h"
-#include "sim/event_driven/event_time.h"
-#include "sim/ccd/ccd_clamp.h"
 #include "sim/event_driven/neighbor_boxes.h"
-#include "sim/ccd/trajectory.h"
-#include "sim/ccd/time_of_impact.h"
-#include "sim/dynamics/forces.h"
+#include "sim/event_driven/settings.h"
+#include "sim/impact/impacts.h"
 
 #include <limits>
 #include <vector>
@@ -32,13 +32,14 @@ public:
     EventDrivenMotion(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps);
 
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
-    bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
+    bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces,
+                  std::int64_t step);
     /// Whether any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
     bool stepping(const std::vector<Body>& bodies) const;
     /// Starts the trajectories of stepped and kinematic bodies through the coming step. By body: `motions`, of stepped
     /// bodies; `limits`, the fraction of the step for which they may move.
-    void begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions, const std::vector<CcdFraction>& limits,
-                    const ForceField& forces, std::int64_t step);
+    void begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
+                    const std::vector<CcdFraction>& limits, const ForceField& forces, std::int64_t step);
     /// Keeps bodies that have fallen asleep at their places from `step` on, until something wakes them: ballistic
     /// bodies meet them there, even if no body is stepped.
     void lay_down(const std::vector<Body>& bodies, std::int64_t step);
@@ -52,24 +53,25 @@ private:
     static constexpr double unknown = std::numeric_limits<double>::infinity();
     struct BodyEvent {
         Trajectory path;
-        EventTime start;                 // start of the trajectory
-        EventTime until;                 // end of the trajectory's validity; far away for free flights
-        std::uint32_t version = 0;    // number of the trajectory
-        bool driven = false;          // without contact, but under varying forces
-        bool pushed = false;          // this step's forces at points are applied already, up to its end
-        Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();   // L at the trajectory's ends, of a driven body
-        EventTime boxed_until;           // time until which the body stays in its box of NeighborBoxes
-        double box_way = tuning::shortest_box_way;   // in radii, length of trajectory in the next box
+        EventTime start;            // start of the trajectory
+        EventTime until;            // end of the trajectory's validity; far away for free flights
+        std::uint32_t version = 0;  // number of the trajectory
+        bool driven = false;        // without contact, but under varying forces
+        bool pushed = false;        // this step's forces at points are applied already, up to its end
+        Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();  // L at the trajectory's ends, of a driven body
+        EventTime boxed_until;                      // time until which the body stays in its box of NeighborBoxes
+        double box_way = tuning::shortest_box_way;  // in radii, length of trajectory in the next box
         // The next event.
         enum class Event { leaves_box, looks_again, impact, drives_on } event = Event::leaves_box;
         std::uint32_t partner = 0, partner_version = 0;
         EventTime last_impact;
-        double since_impact = 0.0;    // s, between the last two impacts
+        double since_impact = 0.0;  // s, between the last two impacts
         int impacts_in_row = 0;
         // body that a body in contact meets at the end of its trajectory, before the step ends
         std::uint32_t met = CcdFraction::none;
-        int meetings = 0;             // number of meetings in this step
-        double spin = unknown;        // J, twice the energy: of a body in contact without impacts since the start of its trajectory
+        int meetings = 0;  // number of meetings in this step
+        double spin =
+            unknown;  // J, twice the energy: of a body in contact without impacts since the start of its trajectory
     };
 
     void start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until);
@@ -84,12 +86,17 @@ private:
     void land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void hold_struck(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     /// Whether the body's trajectory ends now, at the other body.
-    bool meets(std::uint32_t i, std::uint32_t other, const EventTime& now) const { return fliers_[i].met == other && fliers_[i].until <= now; }
-    void hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies, const EventTime& now);
+    bool meets(std::uint32_t i, std::uint32_t other, const EventTime& now) const {
+        return fliers_[i].met == other && fliers_[i].until <= now;
+    }
+    void hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies,
+              const EventTime& now);
     void wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const EventTime& now);
-    void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, const EventTime& now);
+    void collide(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, SleepMonitor& sleep,
+                 const ForceField& forces, const EventTime& now);
     bool bounce_balls(std::uint32_t i, std::uint32_t j, const std::vector<Body>& bodies, const EventTime& now);
-    bool alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies, const EventTime& now) const;
+    bool alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
+               const EventTime& now) const;
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     bool stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double landing_time(std::uint32_t i) const;
@@ -99,36 +106,40 @@ private:
     // Data of a ball under gravity alone that its neighbors need, close together in memory: with many balls they
     // dominate the cost of the search.
     struct Ballistic {
-        Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();   // at start
+        Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();  // at start
         EventTime start;
         double radius = 0.0;
         bool valid = false;
     };
     /// The time between two event times without the last digit, for deciding whether to compute exactly.
-    double roughly(const EventTime& from, const EventTime& to) const { return double(to.step - from.step) * h_ + (to.offset - from.offset); }
-    Vec3 position(const Ballistic& ball, double t) const { return ball.position + t * (ball.velocity + 0.5 * t * settings_.gravity); }
+    double roughly(const EventTime& from, const EventTime& to) const {
+        return double(to.step - from.step) * h_ + (to.offset - from.offset);
+    }
+    Vec3 position(const Ballistic& ball, double t) const {
+        return ball.position + t * (ball.velocity + 0.5 * t * settings_.gravity);
+    }
 
     SimulationSettings settings_;
     StepClock clock_;
     double h_;
     std::vector<BodyEvent> fliers_;
-    std::vector<Ballistic> balls_;        // by body
-    std::vector<HalfSpaceFilter> grounds_;         // by body: fixed half-spaces, world frame
-    std::vector<std::uint32_t> movers_;   // dynamic bodies and moving kinematic ones
+    std::vector<Ballistic> balls_;          // by body
+    std::vector<HalfSpaceFilter> grounds_;  // by body: fixed half-spaces, world frame
+    std::vector<std::uint32_t> movers_;     // dynamic bodies and moving kinematic ones
     NeighborBoxes neighbourhood_;
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
-    CcdClamp motion_limit_;            // for bodies after a switch to contact or an impact, to the end of their step
-    std::vector<BodyVelocity> motions_;   // by body, for motion_limit_; zero in between
+    CcdClamp motion_limit_;              // for bodies after a switch to contact or an impact, to the end of their step
+    std::vector<BodyVelocity> motions_;  // by body, for motion_limit_; zero in between
     ContactIslands islands_;
     ContactSolver contact_solver_;
     ThreadPool alone_{1};
     std::vector<Manifold> landing_manifolds_;
     std::vector<BodyVelocity> velocities_before_;
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
-    std::int64_t until_ = 0;              // of the current run
-    std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;   // bodies with new trajectories
+    std::int64_t until_ = 0;                                       // of the current run
+    std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;  // bodies with new trajectories
     std::vector<bool> held_;
 };
 

@@ -10,7 +10,7 @@ namespace tumble {
 
 struct EventTime {
     std::int64_t step = 0;
-    double offset = 0.0;   // s after the start of that step; may exceed the length of a step
+    double offset = 0.0;  // s after the start of that step; may exceed the length of a step
 
     friend auto operator<=>(const EventTime&, const EventTime&) = default;
 };

@@ -16,8 +16,8 @@ void FreeFlights::advance(std::size_t index, Body& body, const ForceField& force
     }
     if (!flights_[index]) flights_[index] = std::make_unique<Flight>();
     Flight& flight = *flights_[index];
-    const bool goes_on = flight.reached == step && flight.position == body.position && flight.momentum == body.momentum &&
-                         flight.angular_momentum == body.angular_momentum;
+    const bool goes_on = flight.reached == step && flight.position == body.position &&
+                         flight.momentum == body.momentum && flight.angular_momentum == body.angular_momentum;
     if (!goes_on) {
         body.derive();
         flight.path = Trajectory::flight(body, gravity_);

@@ -2,9 +2,9 @@
 // the start of the flight at every step, so that rounding does not accumulate from step to step.
 #pragma once
 
-#include "sim/event_driven/event_time.h"
 #include "sim/ccd/trajectory.h"
 #include "sim/dynamics/forces.h"
+#include "sim/event_driven/event_time.h"
 
 #include <memory>
 #include <vector>
@@ -22,13 +22,13 @@ public:
 private:
     struct Flight {
         Trajectory path;
-        std::int64_t start = -1, reached = -1;   // steps
+        std::int64_t start = -1, reached = -1;  // steps
         // State at the end of the last advance: a body found in another state was touched, and starts a new flight.
         Vec3 position = Vec3::Zero(), momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
     };
     Vec3 gravity_;
     StepClock clock_;
-    std::vector<std::unique_ptr<Flight>> flights_;   // of the bodies that ever moved so: each takes 0.8 KB
+    std::vector<std::unique_ptr<Flight>> flights_;  // of the bodies that ever moved so: each takes 0.8 KB
 };
 
 }  // namespace tumble

@@ -2,7 +2,6 @@
 
 #include "sim/geometry/settings.h"
 
-
 namespace tumble {
 
 bool HalfSpaceFilter::stays_below(const Trajectory& path, double radius, double from, double horizon) const {

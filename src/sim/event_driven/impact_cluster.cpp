@@ -3,7 +3,6 @@
 #include "sim/ccd/settings.h"
 #include "sim/geometry/settings.h"
 
-
 #include <algorithm>
 #include <numeric>
 
@@ -33,7 +32,9 @@ double touch_distance(const Body& a, const Body& b) {
 
 // Rounding of v_rel (m/s), from the speeds whose difference it is.
 double rounding(const Contact& c, const Body& a, const Body& b) {
-    const auto speed = [](const Body& body, const Vec3& arm) { return body.velocity.norm() + body.angular_velocity.norm() * arm.norm(); };
+    const auto speed = [](const Body& body, const Vec3& arm) {
+        return body.velocity.norm() + body.angular_velocity.norm() * arm.norm();
+    };
     return tuning::impact_speed_rounding * (speed(a, c.arm_a) + speed(b, c.arm_b));
 }
 
@@ -44,7 +45,8 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     if (!add_once(pairs_, {pair.first, pair.second})) return;
     if (add_once(brought_, j)) bring(j);
     const Body &a = bodies[pair.first], &b = bodies[pair.second];
-    const double near = widening_ * touch_distance(a, b), margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
+    const double near = widening_ * touch_distance(a, b),
+                 margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
     const double reach = a.radius + b.radius + margin;
     if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
     const std::size_t first = manifolds_.size();
@@ -53,16 +55,19 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     // Faces that meet at a negligible angle meet at once: otherwise, corner after corner, that angle alone would decide
     // their motion.
     const auto apart = [&](const Manifold& m) {
-        return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > near; });
+        return std::all_of(m.points.begin(), m.points.begin() + m.count,
+                           [&](const ContactPoint& p) { return p.separation > near; });
     };
-    manifolds_.erase(std::remove_if(manifolds_.begin() + std::ptrdiff_t(first), manifolds_.end(), apart), manifolds_.end());
+    manifolds_.erase(std::remove_if(manifolds_.begin() + std::ptrdiff_t(first), manifolds_.end(), apart),
+                     manifolds_.end());
     for (std::size_t k = first; k < manifolds_.size(); ++k) {
         manifolds_[k].a = pair.first;
         manifolds_[k].b = pair.second;
     }
 }
 
-void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
+void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
+                           const Bring& bring) {
     expanded_.push_back(body);
     if (add_once(brought_, body)) bring(body);
     if (!bodies[body].dynamic()) return;
@@ -76,20 +81,22 @@ void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
         const Contact& c = contacts_[i];
         const Body &a = bodies[c.a], &b = bodies[c.b];
         const double least = rounding(c, a, b);
-        const bool struck = c.impact > 0.0 || before_[i] < -least, moved = std::abs(relative_velocity(c, a, b) - before_[i]) > least;
+        const bool struck =
+            c.impact > 0.0 || before_[i]<-least, moved = std::abs(relative_velocity(c, a, b) - before_[i])> least;
         reach_.push_back(struck ? Reach::blow : moved ? Reach::motion : Reach::none);
     }
 }
 
 // Whether the body has an approaching contact now: then it takes part.
-bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
+bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
+                            const Bring& bring) {
     const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();
     expand(body, bodies, neighbourhood, bring);
     own_.clear();
     for (std::size_t m = first; m < manifolds_.size(); ++m) add_contacts(manifolds_[m], bodies, own_);
     for (const Contact& c : own_)
         if (relative_velocity(c, bodies[c.a], bodies[c.b]) < -rounding(c, bodies[c.a], bodies[c.b])) return true;
-    pairs_.resize(pairs);   // undo the query
+    pairs_.resize(pairs);  // undo the query
     manifolds_.resize(first);
     expanded_.resize(expanded);
     return false;
@@ -103,15 +110,17 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         for (const std::uint32_t k : {contacts_[i].a, contacts_[i].b}) {
             if (reach_[i] == Reach::none || !bodies[k].dynamic() || contains(expanded_, k)) continue;
-            if (reach_[i] == Reach::blow) expand(k, bodies, neighbourhood, bring);
-            else if (!bodies[k].flying || !add_once(looked_at_, k) || !strikes(k, bodies, neighbourhood, bring)) continue;
+            if (reach_[i] == Reach::blow)
+                expand(k, bodies, neighbourhood, bring);
+            else if (!bodies[k].flying || !add_once(looked_at_, k) || !strikes(k, bodies, neighbourhood, bring))
+                continue;
             grown = true;
         }
     return grown;
 }
 
-bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
-                            const Bring& bring, const ImpactSettings& settings) {
+bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
+                            const NeighborBoxes& neighbourhood, const Bring& bring, const ImpactSettings& settings) {
     struck_.clear();
     // If the manifold misses the contact that the search found, a wider margin finds it.
     for (widening_ = 1.0; widening_ <= 1e4 && struck_.empty(); widening_ *= 1e2) {
@@ -137,7 +146,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
             resolve_impacts(island, contacts_, bodies, settings);
             note_reach(bodies);
-            for (const std::uint32_t k : island.bodies) bodies[k].derive();   // the velocities before the impact
+            for (const std::uint32_t k : island.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbourhood, bring);
         }
         for (const Contact& c : contacts_) {

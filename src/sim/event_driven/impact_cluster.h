@@ -3,9 +3,9 @@
 // time: sixteen balls that reach the ground under a plate do so together, not one after another.
 #pragma once
 
+#include "sim/event_driven/neighbor_boxes.h"
 #include "sim/geometry/collide.h"
 #include "sim/impact/impacts.h"
-#include "sim/event_driven/neighbor_boxes.h"
 
 #include <functional>
 #include <vector>
@@ -39,10 +39,10 @@ private:
     std::vector<std::uint32_t> brought_, expanded_, looked_at_, struck_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
-    enum class Reach : char { none, motion, blow };   // effect of an impact on the two bodies of a contact
+    enum class Reach : char { none, motion, blow };  // effect of an impact on the two bodies of a contact
     std::vector<Contact> contacts_, own_;
-    std::vector<double> before_;          // by contact: v_rel before the impact
-    std::vector<Reach> reach_;            // by contact
+    std::vector<double> before_;  // by contact: v_rel before the impact
+    std::vector<Reach> reach_;    // by contact
     CollisionScratch scratch_;
     double widening_ = 1.0;
 };

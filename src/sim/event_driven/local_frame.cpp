@@ -19,9 +19,18 @@ using Key = std::array<double, 12>;
 Key key_of(const Body& body) {
     const auto* space = std::get_if<HalfSpace>(&body.collider);
     const Vec3 axis = space ? space->normal : Vec3(1.0, 1.0, 1.0);
-    return {along(body.position), double(body.type), double(body.collider.index()), along(body.rotation * axis),
-            space ? space->offset : body.radius, body.mass, body.restitution, body.friction,
-            along(body.velocity), along(body.angular_velocity), along(body.principal_inertia), double(body.integrator)};
+    return {along(body.position),
+            double(body.type),
+            double(body.collider.index()),
+            along(body.rotation * axis),
+            space ? space->offset : body.radius,
+            body.mass,
+            body.restitution,
+            body.friction,
+            along(body.velocity),
+            along(body.angular_velocity),
+            along(body.principal_inertia),
+            double(body.integrator)};
 }
 
 std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies) {

@@ -32,7 +32,7 @@ private:
     DynamicTree tree_;
     DynamicTree::Stack stack_;
     std::size_t movers_ = 0;
-    std::vector<std::vector<std::uint32_t>> moving_, standing_;   // by body
+    std::vector<std::vector<std::uint32_t>> moving_, standing_;  // by body
     std::vector<std::uint32_t> found_;
 };
 

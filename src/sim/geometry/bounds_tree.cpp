@@ -5,7 +5,8 @@
 
 namespace tumble {
 namespace {
-constexpr std::uint32_t leaf_size = 4;   // items; a smaller leaf costs nodes, a larger one tests (measured flat between 2 and 8)
+constexpr std::uint32_t leaf_size =
+    4;  // items; a smaller leaf costs nodes, a larger one tests (measured flat between 2 and 8)
 }
 
 BoundsTree::BoundsTree(std::vector<Bounds> items) : items_(std::move(items)), order_(items_.size()) {

@@ -19,7 +19,7 @@ public:
     template <class Visit>
     void query(const Bounds& box, Visit&& visit) const {
         if (nodes_.empty()) return;
-        std::uint32_t stack[64];   // depth of a median-split tree of 2^32 items: 32
+        std::uint32_t stack[64];  // depth of a median-split tree of 2^32 items: 32
         int top = 0;
         stack[top++] = 0;
         while (top > 0) {
@@ -41,8 +41,8 @@ public:
 private:
     struct Node {
         Bounds bounds;
-        std::uint32_t first = 0;   // index of the first item in order_, or of the first of two children
-        std::uint32_t count = 0;   // number of items; 0: an inner node
+        std::uint32_t first = 0;  // index of the first item in order_, or of the first of two children
+        std::uint32_t count = 0;  // number of items; 0: an inner node
     };
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 

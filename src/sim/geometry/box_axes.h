@@ -50,12 +50,13 @@ public:
         }
     }
 
-    Vec3 t, t_in_b;   // m: B's center in A's frame; A's center in B's frame, negated
-    Mat3 r;           // rotation from B's frame to A's frame
+    Vec3 t, t_in_b;  // m: B's center in A's frame; A's center in B's frame, negated
+    Mat3 r;          // rotation from B's frame to A's frame
 
     /// Separations (m) along the face normals.
     Lanes faces_a() const {
-        return Lanes(t).abs() - Lanes(a_) - (b_[0] * Lanes(r.col(0)).abs() + b_[1] * Lanes(r.col(1)).abs() + b_[2] * Lanes(r.col(2)).abs());
+        return Lanes(t).abs() - Lanes(a_) -
+               (b_[0] * Lanes(r.col(0)).abs() + b_[1] * Lanes(r.col(1)).abs() + b_[2] * Lanes(r.col(2)).abs());
     }
     Lanes faces_b() const {
         return Lanes(t_in_b).abs() - Lanes(b_) - (a_[0] * size_[0] + a_[1] * size_[1] + a_[2] * size_[2]);
@@ -69,7 +70,8 @@ public:
     Edges edges(int i) const {
         const int i1 = i == 2 ? 0 : i + 1, i2 = i == 0 ? 2 : i - 1;
         const Lanes across = t[i2] * row_[i1] - t[i1] * row_[i2], b(b_);
-        const Lanes reach = a_[i1] * size_[i2] + a_[i2] * size_[i1] + b.next() * size_[i].before() + b.before() * size_[i].next();
+        const Lanes reach =
+            a_[i1] * size_[i2] + a_[i2] * size_[i1] + b.next() * size_[i].before() + b.before() * size_[i].next();
         return {across.abs() - reach, row_[i1] * row_[i1] + row_[i2] * row_[i2], across};
     }
 
@@ -87,7 +89,7 @@ public:
 
 private:
     const Vec3 &a_, &b_;
-    Lanes row_[3], size_[3];   // rows of r; absolute values of r
+    Lanes row_[3], size_[3];  // rows of r; absolute values of r
 };
 
 }  // namespace tumble

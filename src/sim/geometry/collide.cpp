@@ -20,7 +20,9 @@ struct Pair {
     CollisionScratch& scratch;
     std::vector<Manifold>& out;
 
-    void operator()(const HalfSpace& a, const Ball& b) const { collide_half_space_ball(a, pose_a, b, pose_b, margin, out); }
+    void operator()(const HalfSpace& a, const Ball& b) const {
+        collide_half_space_ball(a, pose_a, b, pose_b, margin, out);
+    }
     void operator()(const HalfSpace& a, const PolyhedronRef& b) const {
         collide_half_space_polyhedron(a, pose_a, *b, pose_b, margin, scratch, out);
     }
@@ -55,8 +57,8 @@ std::uint32_t part_count(const CollisionShape& collider) {
 }
 
 // Finds the parts whose bounds come within the margin of the other shape, in ascending order.
-void find_near_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, double margin,
-                     std::vector<std::uint32_t>& parts) {
+void find_near_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other,
+                     double margin, std::vector<std::uint32_t>& parts) {
     const Pose relative = seen_from(pose, pose_other);
     const Bounds bounds = world_bounds(other, relative).grown(margin);
     parts.clear();
@@ -68,7 +70,8 @@ bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
     const Vec3 p = part.place.to_body(point);
     if (const auto* ball = std::get_if<Ball>(&part.collider)) return p.norm() <= ball->radius + tolerance;
     const auto& faces = std::get<PolyhedronRef>(part.collider)->faces;
-    return std::all_of(faces.begin(), faces.end(), [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
+    return std::all_of(faces.begin(), faces.end(),
+                       [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
 }
 
 // Whether part k would push towards the body's own interior: a contact at an internal edge between parts, which must
@@ -76,20 +79,21 @@ bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
 bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
     const double size = whole.parts[k].reach;
     return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
-        // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is inside it
-        // anyway.
-        const Vec3 probe = pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
-        bool inside = false;
-        whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
-            inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
-        });
-        return inside;
-    });
+               // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is inside it
+               // anyway.
+               const Vec3 probe =
+                   pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
+               bool inside = false;
+               whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
+                   inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
+               });
+               return inside;
+           });
 }
 
 // Collides each part of a compound with the whole other shape, in the given order.
-void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other, bool whole_is_a,
-                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other,
+                   bool whole_is_a, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
     const std::uint32_t stride = part_count(other);
     std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
     find_near_parts(whole, pose, other, pose_other, margin, near);
@@ -97,14 +101,18 @@ void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape
         const std::size_t first = out.size();
         const Compound::Part& part = whole.parts[k];
         scratch.part += k * stride;
-        if (whole_is_a) collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
-        else collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
-        const auto seam = [&](const Manifold& m) { return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal)); };
+        if (whole_is_a)
+            collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
+        else
+            collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
+        const auto seam = [&](const Manifold& m) {
+            return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal));
+        };
         out.erase(std::remove_if(out.begin() + std::ptrdiff_t(first), out.end(), seam), out.end());
         for (std::size_t i = first; i < out.size(); ++i) out[i].part += k * stride;
         scratch.part -= k * stride;
     }
-    scratch.gap = 0.0;   // the gap of one part does not bound that of the others
+    scratch.gap = 0.0;  // the gap of one part does not bound that of the others
 }
 
 }  // namespace
@@ -133,11 +141,12 @@ void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& 
                 return;
             } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
                 Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
-            } else {   // the same pair in the other order: swap, collide, turn the normals
+            } else {  // the same pair in the other order: swap, collide, turn the normals
                 Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
                 for (std::size_t i = first; i < out.size(); ++i) out[i].swap();
             }
-            if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>) scratch.on_ball = scratch.on_ball || out.size() > first;
+            if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>)
+                scratch.on_ball = scratch.on_ball || out.size() > first;
         },
         a, b);
 }

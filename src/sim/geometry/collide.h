@@ -1,10 +1,10 @@
 // The narrow phase: exact manifolds between two posed shapes, for every pair of shapes in either order.
 #pragma once
 
-#include "sim/geometry/polygon_clipping.h"
 #include "sim/geometry/collider.h"
 #include "sim/geometry/manifold.h"
 #include "sim/geometry/mesh_sidedness.h"
+#include "sim/geometry/polygon_clipping.h"
 
 #include <span>
 #include <utility>
@@ -25,8 +25,8 @@ struct CollisionScratch {
     double gap = 0.0;
     // m, world: displacement of B relative to A in the coming step; selects one of two faces that the shapes slide over
     Vec3 way = Vec3::Zero();
-    bool turning = false;                 // whether one of the bodies rotates fast (tuning::rolling_turn)
-    bool on_ball = false;                 // whether a manifold found lies on a ball. Cleared by the caller, as is gap
+    bool turning = false;  // whether one of the bodies rotates fast (tuning::rolling_turn)
+    bool on_ball = false;  // whether a manifold found lies on a ball. Cleared by the caller, as is gap
     // The pair's manifolds of the last step, and the part index of the present one (Manifold::part): a manifold on B's
     // face stays on B's face when A's face separates equally well.
     std::span<const Manifold> before;
@@ -41,7 +41,7 @@ struct CollisionScratch {
     struct SurfaceHit {
         double distance;
         std::uint32_t triangle;
-        int feature;             // 0 face, 1 to 3 edge, 4 to 6 vertex
+        int feature;  // 0 face, 1 to 3 edge, 4 to 6 vertex
         Vec3 point;
     };
     std::vector<SurfaceHit> hits;
@@ -73,8 +73,8 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
 /// time.
 void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                    CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
-                          double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                          CollisionScratch& scratch, std::vector<Manifold>& out);
 void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
                                 double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
 

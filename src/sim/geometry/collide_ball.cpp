@@ -19,8 +19,8 @@ void add_point(const Vec3& normal, const Vec3& position, double separation, std:
 
 struct Nearest {
     Vec3 point = Vec3::Zero();
-    bool inside = false;   // nearest point is inside the face; else on its border
-    Vec3 edge = Vec3::Zero();   // direction of the nearest edge; zero at a corner
+    bool inside = false;       // nearest point is inside the face; else on its border
+    Vec3 edge = Vec3::Zero();  // direction of the nearest edge; zero at a corner
 };
 
 // The point of a convex polygon nearest to p, where p lies on the outer side of its plane.
@@ -115,8 +115,10 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     const double separation = distance - b.radius;
     const Vec3 point = pose_a.to_world(nearest.point);
     add_point(normal, point + 0.5 * separation * normal, separation, out);
-    if (of_face) out.back().set_ball(pose_b.position);
-    else out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
+    if (of_face)
+        out.back().set_ball(pose_b.position);
+    else
+        out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
@@ -128,7 +130,8 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
     scratch.points.clear();
     const auto keep = [&](std::uint32_t i) {
         const double separation = height + local.dot(b.vertices[i]);
-        if (separation <= margin) scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
+        if (separation <= margin)
+            scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
     };
     for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
     if (scratch.points.empty()) return;

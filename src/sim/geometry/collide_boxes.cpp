@@ -59,7 +59,7 @@ struct BoxFaces {
         std::array<Side, 4> side{};
     };
     std::array<Face, 6> faces;
-    std::array<Vec3, 8> signs;   // corner signs, by vertex
+    std::array<Vec3, 8> signs;  // corner signs, by vertex
     BoxFaces() {
         const Polyhedron box = make_box(Vec3::Constant(2.0));
         std::copy(box.vertices.begin(), box.vertices.end(), signs.begin());
@@ -93,12 +93,12 @@ std::uint32_t face_at_support(const Vec3& half, const Vec3& direction, double de
 }
 
 struct Corner {
-    Vec3 p;                  // in the reference box's frame
+    Vec3 p;  // in the reference box's frame
     std::uint64_t feature;
-    std::uint32_t edge;      // label of the edge that starts here
+    std::uint32_t edge;  // label of the edge that starts here
 };
 struct Polygon {
-    static constexpr int capacity = 8;   // a rectangle cut by four lines
+    static constexpr int capacity = 8;  // a rectangle cut by four lines
     std::array<Corner, capacity> corners;
     int count = 0;
 };
@@ -142,7 +142,8 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     Polygon *polygon = &polygons[0], *spare = &polygons[1];
     polygon->count = 4;
     for (std::size_t i = 0; i < 4; ++i)
-        polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i], std::uint32_t(i)};
+        polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i],
+                               std::uint32_t(i)};
     const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
     Corner deepest = polygon->corners[0];
     for (std::size_t i = 1; i < 4 && must_touch; ++i)
@@ -150,7 +151,8 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
 
     for (std::uint32_t s = 0; s < 4; ++s) {
         const BoxFaces::Side& side = reference_face.side[s];
-        if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare)) std::swap(polygon, spare);
+        if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare))
+            std::swap(polygon, spare);
     }
     const std::uint64_t base = face_feature(on_b, face);
     scratch.points.clear();
@@ -162,7 +164,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
     };
     for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
-    if (scratch.points.empty() && must_touch) keep(deepest);   // rounding clipped a sliver away
+    if (scratch.points.empty() && must_touch) keep(deepest);  // rounding clipped a sliver away
     if (scratch.points.empty()) return;
     Manifold& m = out.emplace_back();
     m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
@@ -204,7 +206,8 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         const double needed = std::min(best, margin), square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
         const BoxAxes::Lanes more = e.separation * e.separation - square * e.square;
         for (int j = 0; j < 3; ++j) {
-            if (needed < 0.0 ? e.separation[j] < 0.0 && more[j] > 0.0 : e.separation[j] < 0.0 || more[j] < 0.0) continue;
+            if (needed < 0.0 ? e.separation[j] < 0.0 && more[j] > 0.0 : e.separation[j] < 0.0 || more[j] < 0.0)
+                continue;
             const double s = BoxAxes::separation(e, j);
             if (apart(std::uint32_t(6 + 3 * i + j), s)) return;
             if (s <= best) continue;
@@ -214,13 +217,14 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             flip = e.across[j] < 0.0;
         }
     }
-    const auto normal_of = [&](bool on_b, int k) {   // in A's frame, away from A
+    const auto normal_of = [&](bool on_b, int k) {  // in A's frame, away from A
         return on_b ? Vec3((t_in_b[k] < 0.0 ? -1.0 : 1.0) * r.col(k)) : Vec3((t[k] < 0.0 ? -1.0 : 1.0) * Vec3::Unit(k));
     };
     int face = of_b ? face_b.axis : face_a.axis;
-    const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation, .normal = normal_of(of_b, face)};
+    const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation,
+                                       .normal = normal_of(of_b, face)};
     SeparatingAxis by_edges{.separation = best};
-    bool speak = edge_i >= 0, given_up = false;   // whether an edge contact is used; whether it was rejected for a face
+    bool speak = edge_i >= 0, given_up = false;  // whether an edge contact is used; whether it was rejected for a face
     if (speak) {
         by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
         if (flip) by_edges.normal = -by_edges.normal;
@@ -230,13 +234,15 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
     bool must_touch = axis.separation < 0.0 && !given_up;
     if (may_slide_past(axis.separation, scratch.way, smaller)) {
-        Vec3 way = Vec3::Zero();   // computed only where both faces graze
+        Vec3 way = Vec3::Zero();  // computed only where both faces graze
         if (axis.separation < preference) way = pose_a.rotation.transpose() * scratch.way;
-        double most = -preference;   // lower separations are not grazing
+        double most = -preference;  // lower separations are not grazing
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
                 const double s = (on_b ? faces_b : faces_a)[k];
-                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, way, smaller, scratch.choice)) continue;
+                if (s <= most ||
+                    !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, way, smaller, scratch.choice))
+                    continue;
                 most = s;
                 speak = given_up = must_touch = false;
                 of_b = on_b;
@@ -247,7 +253,8 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         const std::size_t first = out.size();
         if (of_b) {
             // In B's frame A's center lies at -t_in_b, and A's axes are the rows of r.
-            add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch, margin, scratch, out);
+            add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch,
+                     margin, scratch, out);
         } else {
             add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, must_touch, margin, scratch, out);
         }
@@ -261,8 +268,9 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
     const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
     const Pose b_in_a{t, r};
-    add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head], b_in_a.to_world(b.vertices[b.edges[eb].tail]),
-                      b_in_a.to_world(b.vertices[b.edges[eb].head]), n, by_edges.separation, ea, eb, pose_a, out);
+    add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head],
+                      b_in_a.to_world(b.vertices[b.edges[eb].tail]), b_in_a.to_world(b.vertices[b.edges[eb].head]), n,
+                      by_edges.separation, ea, eb, pose_a, out);
 }
 
 }  // namespace tumble

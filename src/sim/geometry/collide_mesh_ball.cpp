@@ -10,12 +10,14 @@ namespace tumble {
 namespace {
 
 template <class T>
-bool contains(const std::vector<T>& list, T value) { return std::find(list.begin(), list.end(), value) != list.end(); }
+bool contains(const std::vector<T>& list, T value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
 
 }  // namespace
 
-void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b,
-                          double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
+                          CollisionScratch& scratch, std::vector<Manifold>& out) {
     const Vec3 center = pose_a.to_body(pose_b.position);
     const double reach = b.radius + margin;
     auto& hits = scratch.hits;
@@ -68,8 +70,10 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
             vertices.insert(vertices.end(), t.vertices.begin(), t.vertices.end());
         }
         Vec3 normal = t.normal;
-        if (hit.distance > 1e-12 * b.radius && hit.feature != 0) normal = (center - hit.point) / hit.distance;
-        else if (!a.closed && t.normal.dot(center - hit.point) < 0.0) normal = -normal;
+        if (hit.distance > 1e-12 * b.radius && hit.feature != 0)
+            normal = (center - hit.point) / hit.distance;
+        else if (!a.closed && t.normal.dot(center - hit.point) < 0.0)
+            normal = -normal;
         const double separation = hit.distance - b.radius;
         Manifold m;
         m.part = hit.triangle;
@@ -80,7 +84,8 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
         if (hit.feature != 0) {
             const auto corner = [&](int k) { return a.corner(hit.triangle, k); };
             const int k = hit.feature - 1;
-            const Vec3 edge = hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
+            const Vec3 edge =
+                hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
             m.set_curve({hit.distance, pose_a.rotation * edge, point, pose_b.position});
         } else {
             m.set_ball(pose_b.position);

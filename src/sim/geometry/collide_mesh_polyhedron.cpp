@@ -14,9 +14,9 @@ struct TriangleAxis {
     enum class Kind { none, triangle, face, edges };
     Kind kind = Kind::none;
     double separation = 0.0;
-    std::uint32_t feature = 0;    // index of a face or edge of the polyhedron
-    int edge = 0;                 // index of an edge of the triangle
-    Vec3 normal = Vec3::Zero();   // away from the triangle
+    std::uint32_t feature = 0;   // index of a face or edge of the polyhedron
+    int edge = 0;                // index of an edge of the triangle
+    Vec3 normal = Vec3::Zero();  // away from the triangle
 };
 
 // Whether a direction lies on the arc between the normals of an edge's two faces, so that the edge is the farthest
@@ -41,7 +41,7 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
     const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
     for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
         const Polyhedron::Face& face = shape.faces[f];
-        if (face.normal.dot(middle) - face.offset <= best) continue;   // the lowest corner is not above the middle
+        if (face.normal.dot(middle) - face.offset <= best) continue;  // the lowest corner is not above the middle
         const double separation = -triangle_reach(-face.normal) - face.offset;
         if (separation > margin) return {};
         if (separation <= best) continue;
@@ -67,7 +67,7 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
             const double square = m.squaredNorm();
             if (square < 1e-8 * side.squaredNorm() * along.squaredNorm()) continue;
             m /= std::sqrt(square);
-            if (m.dot(left + right) > 0.0) m = -m;   // out of the triangle, into the body
+            if (m.dot(left + right) > 0.0) m = -m;  // out of the triangle, into the body
             if (!on_arc(-m, left, right)) continue;
             const double reach = triangle_reach(m), separation = m.dot(tail) - reach;
             if (separation > margin) return {};
@@ -93,13 +93,16 @@ void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& 
     std::vector<Vec3>& of_triangle = on_body ? scratch.incident : scratch.reference;
     std::vector<Vec3>& of_body = on_body ? scratch.reference : scratch.incident;
     of_triangle.assign(t, t + 3);
-    if (behind) std::swap(of_triangle[1], of_triangle[2]);   // counter-clockwise about n
+    if (behind) std::swap(of_triangle[1], of_triangle[2]);  // counter-clockwise about n
     of_body.clear();
     for (const std::uint32_t v : b.faces[face].vertices) of_body.push_back(b.vertices[v]);
-    if (on_body) scratch.labels.assign({0u, 1u, 2u});
-    else scratch.labels = b.faces[face].vertices;
+    if (on_body)
+        scratch.labels.assign({0u, 1u, 2u});
+    else
+        scratch.labels = b.faces[face].vertices;
     // The manifold's A is the triangle. Normal: that of the triangle, or opposite to that of the body's face.
-    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch, out);
+    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch,
+                      out);
 }
 
 // Whether a contact point of the triangle lies in the body: proof of an overlap.
@@ -140,7 +143,8 @@ void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, cons
         for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
             TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch);
             if (axis.kind == TriangleAxis::Kind::none) break;
-            if (axis.kind != TriangleAxis::Kind::triangle && !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
+            if (axis.kind != TriangleAxis::Kind::triangle &&
+                !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
                 axis.kind = TriangleAxis::Kind::triangle;
                 axis.normal = n;
             }
@@ -149,7 +153,7 @@ void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, cons
             if (out.size() == first) break;
             out[first].part = index;
             if (search == EdgeSearch::all || axis.separation >= 0.0 || proves_overlap(out[first], b, pose_b)) break;
-            out.resize(first);   // rare: see EdgeSearch
+            out.resize(first);  // rare: see EdgeSearch
         }
     }
 }

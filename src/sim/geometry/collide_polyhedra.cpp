@@ -14,11 +14,13 @@ void corners(const Polyhedron& shape, std::uint32_t face, const Pose& pose, std:
 }
 
 void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& b_in_a,
-                  const SeparatingAxis& axis, bool overlapping, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+                  const SeparatingAxis& axis, bool overlapping, double margin, CollisionScratch& scratch,
+                  std::vector<Manifold>& out) {
     const Pose identity;
     const double level = axis_preference(std::min(a.radius, b.radius));
     switch (axis.kind) {
-        case SeparatingAxis::Kind::none: return;
+        case SeparatingAxis::Kind::none:
+            return;
         case SeparatingAxis::Kind::face_a: {
             const std::uint32_t incident = b.face_at_support(-(b_in_a.rotation.transpose() * axis.normal), level);
             corners(a, axis.feature_a, identity, scratch.reference);
@@ -46,7 +48,8 @@ void add_manifold(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, 
 }
 
 // Whether a contact point lies in both shapes: proof of an overlap.
-bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b) {
+bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
+                    const Pose& pose_b) {
     const double slack = axis_preference(std::min(a.radius, b.radius));
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
         return contains(a, pose_a.to_body(p.position), slack) && contains(b, pose_b.to_body(p.position), slack);
@@ -57,7 +60,8 @@ bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, 
 
 void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
                        CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const double radii = a.radius + b.radius, reach = radii + margin, square = (pose_b.position - pose_a.position).squaredNorm();
+    const double radii = a.radius + b.radius, reach = radii + margin,
+                 square = (pose_b.position - pose_a.position).squaredNorm();
     if (square > reach * reach) {
         scratch.gap = std::sqrt(square) - radii;
         return;
@@ -66,12 +70,15 @@ void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron
     // In A's frame, which keeps the digits of scenes far from the origin.
     const Pose b_in_a = seen_from(pose_a, pose_b);
     const std::size_t first = out.size();
-    const auto add = [&](EdgeSearch search) {   // returns whether the shapes seem to overlap
+    const auto add = [&](EdgeSearch search) {  // returns whether the shapes seem to overlap
         SeparatingAxis edges;
-        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search, pose_a.rotation.transpose() * scratch.way, scratch, &edges);
-        const bool preferred = edges.kind == SeparatingAxis::Kind::edges, overlapping = axis.separation < 0.0 && !axis.grazed;
+        const SeparatingAxis axis = find_separating_axis(a, b, b_in_a, margin, search,
+                                                         pose_a.rotation.transpose() * scratch.way, scratch, &edges);
+        const bool preferred = edges.kind == SeparatingAxis::Kind::edges,
+                   overlapping = axis.separation < 0.0 && !axis.grazed;
         add_manifold(a, pose_a, b, b_in_a, axis, overlapping && !preferred, margin, scratch, out);
-        if (!preferred || !misses_edges(std::span(out).subspan(first), edges.separation, std::min(a.radius, b.radius))) return overlapping;
+        if (!preferred || !misses_edges(std::span(out).subspan(first), edges.separation, std::min(a.radius, b.radius)))
+            return overlapping;
         out.resize(first);
         add_manifold(a, pose_a, b, b_in_a, edges, false, margin, scratch, out);
         return edges.separation < 0.0;

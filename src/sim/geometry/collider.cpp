@@ -2,7 +2,6 @@
 
 #include "sim/geometry/compound.h"
 
-
 namespace tumble {
 namespace {
 
@@ -16,7 +15,9 @@ Bounds turned(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
     const Vec3 half = pose.rotation.cwiseAbs() * half_extent;
     return {center - half, center + half};
 }
-Bounds turned(const Bounds& local, const Pose& pose) { return turned(pose.to_world(local.center()), 0.5 * local.extent(), pose); }
+Bounds turned(const Bounds& local, const Pose& pose) {
+    return turned(pose.to_world(local.center()), 0.5 * local.extent(), pose);
+}
 Bounds turned(const Polyhedron& p, const Pose& pose) {
     return p.is_box ? turned(pose.position, p.half_extent, pose) : turned(p.bounds, pose);
 }
@@ -25,8 +26,12 @@ Bounds turned(const Polyhedron& p, const Pose& pose) {
 
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
     return std::visit(
-        Overloaded{[&](const HalfSpace&) { return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)}; },
-                   [&](const Ball& ball) { return Bounds{pose.position, pose.position}.grown(ball.radius); },
+        Overloaded{[&](const HalfSpace&) {
+                       return Bounds{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
+                   },
+                   [&](const Ball& ball) {
+                       return Bounds{pose.position, pose.position}.grown(ball.radius);
+                   },
                    [&](const std::shared_ptr<const Polyhedron>& p) { return turned(*p, pose); },
                    [&](const std::shared_ptr<const CollisionMesh>& s) { return turned(s->tree.bounds(), pose); },
                    [&](const std::shared_ptr<const Compound>& c) { return turned(c->tree.bounds(), pose); }},
@@ -34,21 +39,21 @@ Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
 }
 
 double bounding_radius(const CollisionShape& collider) {
-    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
-                                 [](const Ball& ball) { return ball.radius; },
-                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
-                                 [](const std::shared_ptr<const CollisionMesh>& s) { return s->radius; },
-                                 [](const std::shared_ptr<const Compound>& c) { return c->radius; }},
-                      collider);
+    return std::visit(
+        Overloaded{[](const HalfSpace&) { return infinity; }, [](const Ball& ball) { return ball.radius; },
+                   [](const std::shared_ptr<const Polyhedron>& p) { return p->radius; },
+                   [](const std::shared_ptr<const CollisionMesh>& s) { return s->radius; },
+                   [](const std::shared_ptr<const Compound>& c) { return c->radius; }},
+        collider);
 }
 
 double depth(const CollisionShape& collider) {
-    return std::visit(Overloaded{[](const HalfSpace&) { return infinity; },
-                                 [](const Ball& ball) { return ball.radius; },
-                                 [](const std::shared_ptr<const Polyhedron>& p) { return p->inner_radius; },
-                                 [](const std::shared_ptr<const CollisionMesh>&) { return infinity; },
-                                 [](const std::shared_ptr<const Compound>& c) { return c->inner_radius; }},
-                      collider);
+    return std::visit(
+        Overloaded{[](const HalfSpace&) { return infinity; }, [](const Ball& ball) { return ball.radius; },
+                   [](const std::shared_ptr<const Polyhedron>& p) { return p->inner_radius; },
+                   [](const std::shared_ptr<const CollisionMesh>&) { return infinity; },
+                   [](const std::shared_ptr<const Compound>& c) { return c->inner_radius; }},
+        collider);
 }
 
 }  // namespace tumble

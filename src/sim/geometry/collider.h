@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/vector.h"
-#include "sim/geometry/polyhedron.h"
 #include "sim/geometry/mesh_shape.h"
+#include "sim/geometry/polyhedron.h"
 
 #include <memory>
 #include <variant>
@@ -27,18 +27,18 @@ inline Pose seen_from(const Pose& frame, const Pose& pose) {
 }
 
 struct HalfSpace {
-    Vec3 normal;      // unit; solid below
-    double offset;    // m
+    Vec3 normal;    // unit; solid below
+    double offset;  // m
 };
 struct Ball {
-    double radius;    // m; the center is the body's origin
+    double radius;  // m; the center is the body's origin
 };
 
-struct Compound;   // sim/geometry/compound.h
+struct Compound;  // sim/geometry/compound.h
 
 /// Shared by bodies with the same mesh, so that a hull is built once.
-using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const CollisionMesh>,
-                              std::shared_ptr<const Compound>>;
+using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>,
+                                    std::shared_ptr<const CollisionMesh>, std::shared_ptr<const Compound>>;
 
 /// World bounds of a posed shape; infinite for a half-space.
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose);

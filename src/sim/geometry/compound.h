@@ -11,14 +11,14 @@ namespace tumble {
 
 struct Compound {
     struct Part {
-        CollisionShape collider;   // a ball or a polyhedron, in the part's frame
-        Pose place;          // pose of the part's frame in the body frame
-        double reach = 0.0;  // m, distance of the part's farthest point from its own origin
+        CollisionShape collider;  // a ball or a polyhedron, in the part's frame
+        Pose place;               // pose of the part's frame in the body frame
+        double reach = 0.0;       // m, distance of the part's farthest point from its own origin
     };
 
     std::vector<Part> parts;
-    BoundsTree tree;             // over the bounds of the parts, body frame
-    double radius = 0.0;         // m, distance of the farthest point from the center of mass
+    BoundsTree tree;      // over the bounds of the parts, body frame
+    double radius = 0.0;  // m, distance of the farthest point from the center of mass
     // m, the least of the parts' inner radii: depth to which a shape may penetrate and still be pushed back out
     double inner_radius = 0.0;
 

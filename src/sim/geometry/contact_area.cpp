@@ -13,7 +13,7 @@ constexpr double narrow = 1e-6;
 constexpr double least_share = 0.1;
 
 struct Flat {
-    double x, y;   // m
+    double x, y;  // m
     Flat operator-(const Flat& o) const { return {x - o.x, y - o.y}; }
     double dot(const Flat& o) const { return x * o.x + y * o.y; }
     double cross(const Flat& o) const { return x * o.y - y * o.x; }
@@ -24,7 +24,7 @@ struct Flat {
 class Plane {
 public:
     Plane(const Vec3& normal, const Vec3& origin) : origin_(origin) {
-        const int k = normal.x() * normal.x() < 0.36 ? 0 : 1;   // a coordinate axis at a large angle to the normal
+        const int k = normal.x() * normal.x() < 0.36 ? 0 : 1;  // a coordinate axis at a large angle to the normal
         first_ = (Vec3::Unit(k) - normal[k] * normal) / std::sqrt(1.0 - normal[k] * normal[k]);
         second_ = normal.cross(first_);
     }
@@ -42,7 +42,8 @@ private:
 double mean_root(double square, double from, double to) {
     constexpr double near = 0.11270166537925831;
     const double a = from + near * (to - from), b = 0.5 * (from + to), c = to - near * (to - from);
-    return (5.0 / 18.0) * (std::sqrt(square + a * a) + std::sqrt(square + c * c)) + (8.0 / 18.0) * std::sqrt(square + b * b);
+    return (5.0 / 18.0) * (std::sqrt(square + a * a) + std::sqrt(square + c * c)) +
+           (8.0 / 18.0) * std::sqrt(square + b * b);
 }
 
 // The integral of the distance from the origin over the triangle (0, p, q). Distance grows linearly along a ray, so the
@@ -53,7 +54,8 @@ double distance_integral(const Flat& p, const Flat& q) {
     const Flat edge = q - p;
     const double length_square = edge.dot(edge), twice = p.cross(q);
     if (!(length_square > 0.0)) return 0.0;
-    const double length = std::sqrt(length_square), per_length = 1.0 / length, height = twice * per_length, square = height * height;
+    const double length = std::sqrt(length_square), per_length = 1.0 / length, height = twice * per_length,
+                 square = height * height;
     const double from = p.dot(edge) * per_length, to = from + length;
     if (from < 0.0 && to > 0.0 && std::max(from * from, to * to) > square)
         return height / 3.0 * (to * mean_root(square, 0.0, to) - from * mean_root(square, from, 0.0));
@@ -67,7 +69,7 @@ ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
     // twice the signed area, m^2; six times its first moments, m^3; farthest distance, m
     double twice = 0.0, x = 0.0, y = 0.0, farthest = 0.0;
     Flat far{0.0, 0.0}, p = far;
-    for (std::size_t i = 1; i < count; ++i) {   // triangle fan from the first corner
+    for (std::size_t i = 1; i < count; ++i) {  // triangle fan from the first corner
         const Flat q = plane(at(i));
         const double part = p.cross(q), square = q.dot(q);
         twice += part;
@@ -80,10 +82,11 @@ ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
         p = q;
     }
     if (std::abs(twice) <= narrow * farthest) {
-        Flat other{0.0, 0.0};   // the other end of the line
+        Flat other{0.0, 0.0};  // the other end of the line
         for (std::size_t i = 1; i < count; ++i)
             if (const Flat q = plane(at(i)); (q - far).dot(q - far) > (other - far).dot(other - far)) other = q;
-        return {plane.world({0.5 * (far.x + other.x), 0.5 * (far.y + other.y)}), 0.25 * std::sqrt((far - other).dot(far - other))};
+        return {plane.world({0.5 * (far.x + other.x), 0.5 * (far.y + other.y)}),
+                0.25 * std::sqrt((far - other).dot(far - other))};
     }
     const Flat centroid{x / (3.0 * twice), y / (3.0 * twice)};
     double distance = 0.0;
@@ -156,7 +159,7 @@ void spread_pressure(const ContactArea& area, Manifold& m) {
         slope = {part * slope.x, part * slope.y};
     }
     std::array<double, Manifold::capacity> load;
-    Flat center{0.0, 0.0};   // center of the load, relative to the mean of the points
+    Flat center{0.0, 0.0};  // center of the load, relative to the mean of the points
     for (std::size_t i = 0; i < count; ++i) {
         const double share = 1.0 + slope.dot(arm[i]);
         m.share[i] = float(share);

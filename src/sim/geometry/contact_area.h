@@ -13,8 +13,8 @@
 namespace tumble {
 
 struct ContactArea {
-    Vec3 centroid = Vec3::Zero();   // world frame
-    double mean_distance = 0.0;     // m, of the area from its centroid; 0: no area
+    Vec3 centroid = Vec3::Zero();  // world frame
+    double mean_distance = 0.0;    // m, of the area from its centroid; 0: no area
 };
 
 /// `polygon`: convex, its corners in order about `normal`, in either sense, seen along the normal. A polygon without

@@ -3,7 +3,6 @@
 
 #include "sim/geometry/settings.h"
 
-
 #include <algorithm>
 
 namespace tumble {

@@ -56,14 +56,15 @@ Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin) {
                                          : qh_new_qhull(qh, 3, int(points.size()), coordinates.data(), False, options,
                                                         nullptr, messages.file);
     if (failed)
-        throw InputError(fmt::format("the convex hull of {} points has no volume (they lie in one plane)", points.size()));
+        throw InputError(
+            fmt::format("the convex hull of {} points has no volume (they lie in one plane)", points.size()));
 
     Polyhedron hull;
     std::vector<std::uint32_t> index_of(points.size(), UINT32_MAX);
     facetT* facet;
     FORALLfacets {
         Polyhedron::Face face;
-        setT* loop = qh_facet3vertex(qh, facet);   // in order, counterclockwise from outside
+        setT* loop = qh_facet3vertex(qh, facet);  // in order, counterclockwise from outside
         vertexT *vertex, **vertexp;
         FOREACHvertex_(loop) {
             const int id = qh_pointid(qh, vertex->point);

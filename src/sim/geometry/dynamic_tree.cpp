@@ -53,8 +53,10 @@ void DynamicTree::set(std::uint32_t item, const Bounds& box) {
     if (entry.held && !stays) take_out(item);
     entry.box = box;
     entry.held = true;
-    if (stays) resize(item | leaf_bit, Box(box));
-    else insert(item, Box(box));
+    if (stays)
+        resize(item | leaf_bit, Box(box));
+    else
+        insert(item, Box(box));
 }
 
 void DynamicTree::remove(std::uint32_t item) {
@@ -78,7 +80,8 @@ void DynamicTree::insert(std::uint32_t item, const Box& box) {
         const float here = joined(around, box).surface(), grown = here - around.surface();
         float cost[2];
         for (int side = 0; side < 2; ++side)
-            cost[side] = grown + joined(node.box[side], box).surface() - (leaf(node.child[side]) ? 0.0f : node.box[side].surface());
+            cost[side] = grown + joined(node.box[side], box).surface() -
+                         (leaf(node.child[side]) ? 0.0f : node.box[side].surface());
         if (here < cost[0] && here < cost[1]) break;
         const int side = cost[1] < cost[0];
         around = node.box[side];

@@ -29,8 +29,10 @@ public:
     template <class Visit>
     void query(const Bounds& box, Stack& stack, Visit&& visit) const {
         const auto look = [&](std::uint32_t child) {
-            if (!leaf(child)) stack.push_back(child);
-            else if (items_[item_of(child)].box.overlaps(box)) visit(item_of(child));
+            if (!leaf(child))
+                stack.push_back(child);
+            else if (items_[item_of(child)].box.overlaps(box))
+                visit(item_of(child));
         };
         if (root_ == none) return;
         const Box wide(box);
@@ -74,7 +76,9 @@ private:
     static std::uint32_t item_of(std::uint32_t child) { return child & ~leaf_bit; }
 
     static Box joined(const Box& a, const Box& b);
-    std::uint32_t& parent(std::uint32_t child) { return leaf(child) ? items_[item_of(child)].parent : nodes_[child].parent; }
+    std::uint32_t& parent(std::uint32_t child) {
+        return leaf(child) ? items_[item_of(child)].parent : nodes_[child].parent;
+    }
     int side_of(std::uint32_t child) { return nodes_[parent(child)].child[1] == child; }
     void put(std::uint32_t node, int side, std::uint32_t child, const Box& box);
     std::uint32_t take_node();
@@ -84,9 +88,9 @@ private:
     void rotate(std::uint32_t node);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> free_;   // indices of unused nodes
+    std::vector<std::uint32_t> free_;  // indices of unused nodes
     std::vector<Item> items_;
-    std::uint32_t root_ = none;         // a node, or the only item
+    std::uint32_t root_ = none;  // a node, or the only item
 };
 
 }  // namespace tumble

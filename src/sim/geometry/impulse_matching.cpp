@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-constexpr double same_side = 0.9;   // cosine of the angle between the normals of two steps: 26 degrees
+constexpr double same_side = 0.9;  // cosine of the angle between the normals of two steps: 26 degrees
 
 // The load must not be lost where the points have changed: remaining impulses go to the nearest points.
 void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Manifold& m) {
@@ -14,8 +14,9 @@ void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Man
         const ContactPoint& before = old.points[std::size_t(k)];
         if (taken[k] || before.impulse == 0.0) continue;
         const auto distance = [&](const ContactPoint& p) { return (p.position - before.position).squaredNorm(); };
-        const auto nearest = std::min_element(m.points.begin(), m.points.begin() + m.count,
-                                              [&](const ContactPoint& l, const ContactPoint& r) { return distance(l) < distance(r); });
+        const auto nearest =
+            std::min_element(m.points.begin(), m.points.begin() + m.count,
+                             [&](const ContactPoint& l, const ContactPoint& r) { return distance(l) < distance(r); });
         nearest->impulse += before.impulse;
     }
 }

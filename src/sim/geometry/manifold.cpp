@@ -42,7 +42,8 @@ std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
     return pairs;
 }
 
-void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out) {
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold,
+                      std::vector<ContactPoint>& left_out) {
     if (candidates.size() <= Manifold::capacity) {
         manifold.count = std::int16_t(candidates.size());
         std::copy(candidates.begin(), candidates.end(), manifold.points.begin());
@@ -79,8 +80,7 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
             const double nearer = upper.separation - lower.separation;
             if (!(nearer > negligible_size * size)) continue;
             if (manifold.has(lower.feature)) continue;
-            if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer)
-                upper = lower;
+            if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer) upper = lower;
         }
     }
     manifold.first_left_out = std::uint32_t(left_out.size());

@@ -12,18 +12,19 @@
 namespace tumble {
 
 struct ContactPoint {
-    Vec3 position = Vec3::Zero();   // world, halfway between the two surfaces
-    double separation = 0.0;        // m along the normal; negative: overlap
-    std::uint64_t feature = 0;      // id of the features that meet (vertex and face, edge and edge); the same from step to step
-    double impulse = 0.0;           // N s along the normal: of the last step, then of this step
+    Vec3 position = Vec3::Zero();  // world, halfway between the two surfaces
+    double separation = 0.0;       // m along the normal; negative: overlap
+    std::uint64_t feature =
+        0;                 // id of the features that meet (vertex and face, edge and edge); the same from step to step
+    double impulse = 0.0;  // N s along the normal: of the last step, then of this step
 };
 
 /// Predicted gap at a point as the bodies pass each other: the distance of two places, one on each body, or of a place
 /// and a straight line, less a constant. A place is a ball's center or a corner; a line is an edge.
 struct Curve {
-    double distance = 0.0;             // m, initial distance of the places
-    Vec3 straight = Vec3::Zero();      // world, direction of the line; zero for a place
-    Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();   // world, the places on A and on B
+    double distance = 0.0;                          // m, initial distance of the places
+    Vec3 straight = Vec3::Zero();                   // world, direction of the line; zero for a place
+    Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();  // world, the places on A and on B
 };
 
 /// Body whose corners are the points of a manifold; the other body has the face below them. neither: crossing edges,
@@ -35,16 +36,16 @@ enum class OnBall : std::uint8_t { no, a_over_face, b_over_face, curve };
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
-    static constexpr int capacity = 4;   // spans most flat contact areas; a second manifold holds further points
+    static constexpr int capacity = 4;  // spans most flat contact areas; a second manifold holds further points
 
-    std::uint32_t a = 0, b = 0;   // body indices
-    std::uint32_t part = 0;       // of compounds and meshes: identifies the parts and the triangle that meet, else 0
+    std::uint32_t a = 0, b = 0;  // body indices
+    std::uint32_t part = 0;      // of compounds and meshes: identifies the parts and the triangle that meet, else 0
     std::int16_t count = 0;
-    bool more = false;            // those of the same two faces' points that the first manifold has no room for
-    bool solved_directly = false; // whether the direct solver solved it in the last step
+    bool more = false;             // those of the same two faces' points that the first manifold has no room for
+    bool solved_directly = false;  // whether the direct solver solved it in the last step
     Corners corners = Corners::neither;
     OnBall on_ball = OnBall::no;
-    std::uint16_t left_out = 0;   // number of its candidates in CollisionScratch::left_out, for a manifold just found
+    std::uint16_t left_out = 0;  // number of its candidates in CollisionScratch::left_out, for a manifold just found
     std::uint32_t first_left_out = 0;
     Vec3 normal = Vec3::Zero();
     std::array<ContactPoint, capacity> points;
@@ -56,9 +57,9 @@ struct Manifold {
 
     // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a torsional moment
     // about the normal. Kept from step to step.
-    Vec3 tangent = Vec3::Zero();          // unit, world; zero before the first solve
-    double friction[2] = {0.0, 0.0};      // N s on B, along the two tangents
-    double twist = 0.0;                   // N m s on B, about the normal
+    Vec3 tangent = Vec3::Zero();      // unit, world; zero before the first solve
+    double friction[2] = {0.0, 0.0};  // N s on B, along the two tangents
+    double twist = 0.0;               // N m s on B, about the normal
 
     bool has(std::uint64_t feature) const {
         for (int i = 0; i < count; ++i)
@@ -95,8 +96,10 @@ struct Manifold {
         normal = -normal;
         if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
         if (of_edges()) std::swap(points[1].position, points[2].position);
-        if (on_ball == OnBall::curve) std::swap(points[2].position, points[3].position);
-        else if (ball_over_face()) on_ball = on_ball == OnBall::a_over_face ? OnBall::b_over_face : OnBall::a_over_face;
+        if (on_ball == OnBall::curve)
+            std::swap(points[2].position, points[3].position);
+        else if (ball_over_face())
+            on_ball = on_ball == OnBall::a_over_face ? OnBall::b_over_face : OnBall::a_over_face;
     }
 
     /// For a manifold on a face: whether the normal is that of a face of B (feature_contact.cpp).
@@ -108,6 +111,7 @@ std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds);
 
 /// Fills `manifold.points` with the candidates. Of more than four it keeps the deepest and three that span a large area
 /// with it, points that touch first. The rest is appended to `left_out`.
-void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold, std::vector<ContactPoint>& left_out);
+void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold,
+                      std::vector<ContactPoint>& left_out);
 
 }  // namespace tumble

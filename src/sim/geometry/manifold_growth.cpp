@@ -35,8 +35,10 @@ void add(const ContactPoint& p, Manifold& first, Manifold& more) {
             nearest = apart;
             leaves = all[i].separation > all[k].separation ? i : k;
         }
-    if (leaves < Manifold::capacity) first.points[leaves] = p;
-    else if (leaves + 1 < all.size()) more.points[leaves - Manifold::capacity] = p;
+    if (leaves < Manifold::capacity)
+        first.points[leaves] = p;
+    else if (leaves + 1 < all.size())
+        more.points[leaves - Manifold::capacity] = p;
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ bool sank(double left_out, double deepest, double radius) {
     return left_out < -overlap && left_out < deepest - std::max(overlap, tuning::sunk_share * std::abs(deepest));
 }
 
-bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius) {
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out,
+            double radius) {
     double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
     const auto look_at = [&](const ContactPoint& p) {
         deepest = std::min(deepest, p.separation);
@@ -64,7 +67,8 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     more.more = true;
     if (found.left_out == 0 || faces_of(found) != faces_of(before[0])) return more;
     std::vector<ContactPoint> candidates(found.points.begin(), found.points.begin() + found.count);
-    candidates.insert(candidates.end(), left_out.begin() + found.first_left_out, left_out.begin() + found.first_left_out + found.left_out);
+    candidates.insert(candidates.end(), left_out.begin() + found.first_left_out,
+                      left_out.begin() + found.first_left_out + found.left_out);
     double deepest = std::numeric_limits<double>::infinity();
     for (const ContactPoint& p : candidates)
         for (std::size_t k = 0; k < std::min<std::size_t>(before.size(), 2); ++k) {
@@ -81,7 +85,7 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
     const std::size_t always = candidates.size() > 2 * Manifold::capacity ? std::size_t(found.count) : 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
         if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], first, more);
-    if (first.count == 0) {   // all points of the first have gone
+    if (first.count == 0) {  // all points of the first have gone
         std::swap(first.points, more.points);
         std::swap(first.count, more.count);
     }

@@ -19,7 +19,8 @@ bool sank(double left_out, double deepest, double radius);
 /// The same for a pair searched anew, because its bodies have moved too far to refresh the points: whether the points
 /// of `before` were insufficient. Precondition: a shape with more corners than two manifolds have room for. In heaps of
 /// boxes it would add a third more manifolds.
-bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out, double radius);
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out,
+            double radius);
 
 /// Chooses again among the points of `found` and the reduced points: all points of the manifolds of `before` (one or
 /// two), points that sank, and others while there is room. Returns the second manifold, without points where one is

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;   // vertex indices, the lower first
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // vertex indices, the lower first
 
 // Orients triangles so that each component is wound as its first triangle. One-sided components (Moebius strips) stay
 // as they are and get no index.
@@ -93,7 +93,7 @@ CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin) {
 }
 
 bool CollisionMesh::owns_normal(const Triangle& triangle, const Vec3& normal) const {
-    constexpr double slack = 1e-9;   // sine of the angle allowed for rounding
+    constexpr double slack = 1e-9;  // sine of the angle allowed for rounding
     const auto farther = [&](std::uint32_t to, std::uint32_t from) {
         const Vec3 way = vertices[to] - vertices[from];
         return normal.dot(way) > slack * way.norm();
@@ -104,7 +104,7 @@ bool CollisionMesh::owns_normal(const Triangle& triangle, const Vec3& normal) co
         if (farther(v[i], v[top])) top = i;
     const std::size_t next = (top + 1) % 3, last = (top + 2) % 3;
     const bool with_next = !farther(v[top], v[next]), with_last = !farther(v[top], v[last]);
-    if (with_next && with_last) return true;   // the triangle's own normal
+    if (with_next && with_last) return true;  // the triangle's own normal
     if (with_next || with_last) {
         const std::int32_t beyond = triangle.across[with_next ? top : last];
         return beyond < 0 || !farther(std::uint32_t(beyond), v[top]);

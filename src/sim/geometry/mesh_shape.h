@@ -17,11 +17,11 @@ struct CollisionMesh {
 
     struct Triangle {
         std::array<std::uint32_t, 3> vertices{};
-        Vec3 normal = Vec3::Zero();                       // unit, by the winding
+        Vec3 normal = Vec3::Zero();  // unit, by the winding
         // Corner opposite to edge i (from vertex i to i + 1) in the neighboring triangle; -1: a border edge, or one of
         // more than two triangles.
         std::array<std::int32_t, 3> across{-1, -1, -1};
-        std::array<std::uint32_t, 3> edge{};              // index of edge i, shared with the neighbor
+        std::array<std::uint32_t, 3> edge{};  // index of edge i, shared with the neighbor
         // of open meshes: index of the connected component of consistently wound triangles, if there is one
         std::uint32_t sheet = none;
     };
@@ -29,9 +29,9 @@ struct CollisionMesh {
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
     std::uint32_t edge_count = 0;
-    BoundsTree tree;                                // over the triangles, body frame
-    double radius = 0.0;                            // m, about the body's center
-    bool closed = false;                            // true: solid inside, only the outer side pushes. false: both sides push
+    BoundsTree tree;      // over the triangles, body frame
+    double radius = 0.0;  // m, about the body's center
+    bool closed = false;  // true: solid inside, only the outer side pushes. false: both sides push
 
     Vec3 corner(std::uint32_t triangle, int i) const { return vertices[triangles[triangle].vertices[std::size_t(i)]]; }
 

@@ -31,7 +31,8 @@ std::optional<Vec3> vertex_normal(const CollisionMesh& s, std::uint32_t vertex, 
     for (const std::uint32_t t : fan_of(s, vertex)) {
         const Triangle& triangle = s.triangles[t];
         if (triangle.sheet != sheet) continue;
-        const auto i = std::size_t(std::find(triangle.vertices.begin(), triangle.vertices.end(), vertex) - triangle.vertices.begin());
+        const auto i = std::size_t(std::find(triangle.vertices.begin(), triangle.vertices.end(), vertex) -
+                                   triangle.vertices.begin());
         const std::size_t next = (i + 1) % 3, last = (i + 2) % 3;
         if (triangle.across[i] < 0 || triangle.across[last] < 0) return std::nullopt;
         const Vec3 u = s.vertices[triangle.vertices[next]] - s.vertices[vertex];
@@ -131,7 +132,8 @@ void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> tri
         whole.nearest = triangles[k];
     }
     for (SideScratch::Piece& whole : pieces)
-        if (whole.mixed && surface.triangles[whole.nearest].sheet != no_triangle) whole.behind = sheet_behind(surface, whole.nearest, point);
+        if (whole.mixed && surface.triangles[whole.nearest].sheet != no_triangle)
+            whole.behind = sheet_behind(surface, whole.nearest, point);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         if (const auto side = pieces[piece[k]].behind) behind[k] = *side;
 }

@@ -13,12 +13,12 @@
 namespace tumble {
 
 struct SideScratch {
-    std::vector<char> behind;   // per triangle of the query: the point is behind it
+    std::vector<char> behind;  // per triangle of the query: the point is behind it
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_edges;
-    std::vector<std::uint32_t> piece;   // per triangle of the query: the first triangle of its connected piece
-    struct Piece {                      // per triangle of the query, valid for the first ones
-        bool mixed = false;             // whether the planes disagree
-        double square = 0.0;            // m^2, least squared distance, to the triangle `nearest`
+    std::vector<std::uint32_t> piece;  // per triangle of the query: the first triangle of its connected piece
+    struct Piece {                     // per triangle of the query, valid for the first ones
+        bool mixed = false;            // whether the planes disagree
+        double square = 0.0;           // m^2, least squared distance, to the triangle `nearest`
         std::uint32_t nearest = CollisionMesh::none;
         std::optional<bool> behind;
     };

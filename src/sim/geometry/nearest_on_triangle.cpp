@@ -13,8 +13,7 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& 
     const double vb = d5 * d2 - d1 * d6;
     if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + d2 / (d2 - d6) * ac, 3};
     const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-        return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 2};
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 2};
     const double scale = 1.0 / (va + vb + vc);
     return {a + vb * scale * ab + vc * scale * ac, 0};
 }

@@ -6,7 +6,7 @@ namespace tumble {
 
 struct NearestOnTriangle {
     Vec3 point;
-    int feature;   // 0 face, 1 to 3 edge, 4 to 6 vertex
+    int feature;  // 0 face, 1 to 3 edge, 4 to 6 vertex
 };
 
 /// Nearest point of a triangle with its feature (Ericson 2005, "Real-Time Collision Detection", 5.1.5).

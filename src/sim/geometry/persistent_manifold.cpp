@@ -31,8 +31,8 @@ PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pos
     return anchors;
 }
 
-void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
-                 PersistentManifold& anchors) {
+void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a,
+                 const Pose& pose_b, PersistentManifold& anchors) {
     const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
         const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
         const Vec3 point = of_b ? on_a : on_b;
@@ -43,11 +43,12 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
         std::for_each(left_out.begin(), left_out.end(), add);
         return;
     }
-    std::vector<double> farness;   // squared distance from the nearest point that is kept or chosen
+    std::vector<double> farness;  // squared distance from the nearest point that is kept or chosen
     for (const ContactPoint& p : left_out) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const Manifold& m : kept)
-            for (int i = 0; i < m.count; ++i) nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
+            for (int i = 0; i < m.count; ++i)
+                nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
         farness.push_back(nearest);
     }
     while (anchors.spares < int(PersistentManifold::spare_capacity)) {
@@ -60,7 +61,7 @@ void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifol
 
 double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
     double deepest = std::numeric_limits<double>::infinity();
-    if (anchors.spares == 0) return deepest;   // the most frequent case
+    if (anchors.spares == 0) return deepest;  // the most frequent case
     const double between = m.normal.dot(pose_b.position - pose_a.position);
     const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
@@ -74,14 +75,15 @@ double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, cons
 // All slots are computed side by side, unused ones too: loops of fixed length become vector code.
 void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
     const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
-    const Vec3 between = other.position - of_face.position;   // the difference first: digits far from the origin
+    const Vec3 between = other.position - of_face.position;  // the difference first: digits far from the origin
     const Vec3 n = of_face.rotation * anchors.normal;
     const auto &foot = anchors.feet.coordinate, &corner = anchors.corners.coordinate;
     constexpr int points = Manifold::capacity;
-    double arm[3][points], height[points];   // m, of the corners, from the center of the face's body and over the feet
+    double arm[3][points], height[points];  // m, of the corners, from the center of the face's body and over the feet
     for (int k = 0; k < 3; ++k) {
         const double r0 = other.rotation(k, 0), r1 = other.rotation(k, 1), r2 = other.rotation(k, 2);
-        for (int i = 0; i < points; ++i) arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);
+        for (int i = 0; i < points; ++i)
+            arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);
     }
     for (int i = 0; i < points; ++i)
         height[i] = (n[0] * arm[0][i] + n[1] * arm[1][i] + n[2] * arm[2][i]) -
@@ -90,7 +92,7 @@ void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& p
     for (int k = 0; k < 3; ++k)
         for (int i = 0; i < points; ++i) arm[k][i] = of_face.position[k] + (arm[k][i] - 0.5 * height[i] * n[k]);
     m.normal = n;
-    const double sign = anchors.normal_of_b ? -1.0 : 1.0;   // the normal points from A to B
+    const double sign = anchors.normal_of_b ? -1.0 : 1.0;  // the normal points from A to B
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
         m.points[i].separation = sign * height[i];
         m.points[i].position = {arm[0][i], arm[1][i], arm[2][i]};

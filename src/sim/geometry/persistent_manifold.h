@@ -24,8 +24,8 @@ struct PersistentManifold {
             for (int k = 0; k < 3; ++k) coordinate[k][i] = p[k];
         }
     };
-    Ends feet, corners;                                // feet: in the frame of the body that the normal belongs to
-    Vec3 normal = Vec3::Zero();                        // unit, in the frame of that body
+    Ends feet, corners;          // feet: in the frame of the body that the normal belongs to
+    Vec3 normal = Vec3::Zero();  // unit, in the frame of that body
     bool normal_of_b = false;
     const Ends& on_a() const { return normal_of_b ? corners : feet; }
     const Ends& on_b() const { return normal_of_b ? feet : corners; }
@@ -37,7 +37,7 @@ struct PersistentManifold {
         float point[3];
         float face;
     };
-    static constexpr std::size_t spare_capacity = 4;   // with the manifold's four, all of two quadrilaterals
+    static constexpr std::size_t spare_capacity = 4;  // with the manifold's four, all of two quadrilaterals
     int spares = 0;
     std::array<Spare, spare_capacity> spare;
 };
@@ -47,8 +47,8 @@ PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pos
 
 /// Adds reduced points: of many, those farthest from the kept ones and from each other.
 /// `kept`: the manifold, and its second one where there is one.
-void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a, const Pose& pose_b,
-                 PersistentManifold& anchors);
+void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a,
+                 const Pose& pose_b, PersistentManifold& anchors);
 
 /// Separation (m) of the deepest spare, for a refreshed `m`; infinity without spares.
 double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);

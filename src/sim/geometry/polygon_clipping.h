@@ -11,8 +11,8 @@ namespace tumble {
 
 struct ClipVertex {
     Vec3 position;
-    std::uint64_t feature = 0;   // the vertex's own label
-    std::uint32_t edge = 0;      // label of the polygon edge that starts here
+    std::uint64_t feature = 0;  // the vertex's own label
+    std::uint32_t edge = 0;     // label of the polygon edge that starts here
 };
 
 /// Labels of edges that lie on side i of the reference face, distinct from those of the incident polygon (its edge

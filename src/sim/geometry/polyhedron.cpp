@@ -86,9 +86,8 @@ std::uint32_t Polyhedron::face_at_support(const Vec3& direction, double depth) c
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
         const std::vector<std::uint32_t>& loop = faces[i].vertices;
         if (std::find(loop.begin(), loop.end(), farthest) == loop.end()) continue;
-        const auto count = std::count_if(loop.begin(), loop.end(), [&](std::uint32_t v) {
-            return direction.dot(vertices[v]) >= level;
-        });
+        const auto count = std::count_if(loop.begin(), loop.end(),
+                                         [&](std::uint32_t v) { return direction.dot(vertices[v]) >= level; });
         const double d = direction.dot(faces[i].normal);
         if (count > best_count || (count == best_count && d > most)) {
             best = i;
@@ -117,10 +116,11 @@ Polyhedron make_box(const Vec3& size) {
     // Vertex i has the signs of i's bits: bit 0 x, bit 1 y, bit 2 z.
     for (int i = 0; i < 8; ++i)
         p.vertices.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
-    const std::uint32_t loops[6][4] = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
+    const std::uint32_t loops[6][4] = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3},
+                                       {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
     for (const auto& loop : loops) p.faces.push_back({Vec3::Zero(), 0.0, {loop, loop + 4}});
     p.complete();
-    for (int f = 0; f < 6; ++f) {   // exact planes: no rounding from the normalization
+    for (int f = 0; f < 6; ++f) {  // exact planes: no rounding from the normalization
         p.faces[f].normal = Vec3::Unit(f / 2) * (f % 2 ? -1.0 : 1.0);
         p.faces[f].offset = h[f / 2];
     }

@@ -13,26 +13,27 @@ namespace tumble {
 
 struct Polyhedron {
     struct Face {
-        Vec3 normal = Vec3::Zero();            // unit, outward
-        double offset = 0.0;                   // normal . p = offset on the face, m
-        std::vector<std::uint32_t> vertices;   // counterclockwise seen from outside
+        Vec3 normal = Vec3::Zero();           // unit, outward
+        double offset = 0.0;                  // normal . p = offset on the face, m
+        std::vector<std::uint32_t> vertices;  // counterclockwise seen from outside
     };
     struct Edge {
-        std::uint32_t tail = 0, head = 0;      // vertices
-        std::uint32_t left = 0, right = 0;     // faces: `left` has the edge from tail to head
+        std::uint32_t tail = 0, head = 0;   // vertices
+        std::uint32_t left = 0, right = 0;  // faces: `left` has the edge from tail to head
     };
 
     std::vector<Vec3> vertices;
     std::vector<Face> faces;
     std::vector<Edge> edges;
-    Bounds bounds;                             // of the vertices
-    double radius = 0.0;                       // m, largest distance of a vertex from the center of mass
+    Bounds bounds;        // of the vertices
+    double radius = 0.0;  // m, largest distance of a vertex from the center of mass
     // m, least distance of a face's plane from the center of mass; 0 if that lies outside
     double inner_radius = 0.0;
-    BoundsTree edge_tree;                      // over the edges, to find those that reach into a region
-    std::vector<std::uint32_t> first_neighbour, neighbours;   // of vertex i: [first_neighbour[i], first_neighbour[i + 1])
-    bool is_box = false;                       // box: faces 2k and 2k+1 have normals +k and -k, which shortens axis searches
-    Vec3 half_extent = Vec3::Zero();           // m, of a box
+    BoundsTree edge_tree;  // over the edges, to find those that reach into a region
+    std::vector<std::uint32_t> first_neighbour,
+        neighbours;                   // of vertex i: [first_neighbour[i], first_neighbour[i + 1])
+    bool is_box = false;              // box: faces 2k and 2k+1 have normals +k and -k, which shortens axis searches
+    Vec3 half_extent = Vec3::Zero();  // m, of a box
 
     /// The vertex farthest along a direction (body frame), found by climbing from vertex `start` along edges: in a
     /// convex shape, a vertex farther than all its neighbors is the farthest of all.

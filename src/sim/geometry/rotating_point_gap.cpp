@@ -8,9 +8,15 @@
 
 namespace tumble {
 
-Swing::Swing(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face)
-    : gap_(gap), v_(normal.dot(of_corner.velocity - of_face.at(corner))), w_(of_corner.angular_velocity.norm()), center_(of_corner.center),
-      along_(corner - of_corner.center), across_(Vec3::Zero()), beside_(Vec3::Zero()) {
+Swing::Swing(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner,
+             const RigidMotion& of_face)
+    : gap_(gap),
+      v_(normal.dot(of_corner.velocity - of_face.at(corner))),
+      w_(of_corner.angular_velocity.norm()),
+      center_(of_corner.center),
+      along_(corner - of_corner.center),
+      across_(Vec3::Zero()),
+      beside_(Vec3::Zero()) {
     if (!(w_ > 0.0)) return;
     const Vec3 axis = of_corner.angular_velocity / w_, arm = along_;
     along_ = axis.dot(arm) * axis;
@@ -22,7 +28,8 @@ Swing::Swing(const Vec3& corner, double gap, const Vec3& normal, const RigidMoti
 
 bool Swing::matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h) {
     const double least = tuning::swing_turn * tuning::swing_turn / (h * h);
-    return of_corner.angular_velocity.cross(normal).squaredNorm() > least && of_face.angular_velocity.cross(normal).squaredNorm() < least;
+    return of_corner.angular_velocity.cross(normal).squaredNorm() > least &&
+           of_face.angular_velocity.cross(normal).squaredNorm() < least;
 }
 
 double Swing::gap(double t) const {

@@ -12,7 +12,7 @@ namespace tumble {
 
 /// Motion of a body at one time.
 struct RigidMotion {
-    Vec3 center = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();   // m, m/s, rad/s; world
+    Vec3 center = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m, m/s, rad/s; world
 
     Vec3 at(const Vec3& point) const { return velocity + angular_velocity.cross(point - center); }
 };
@@ -27,9 +27,9 @@ public:
     /// corners.
     static bool matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h);
 
-    double gap(double t) const;       // m
-    double closing(double t) const;   // m/s
-    double bend(double t) const;      // m/s^2: deceleration of the closing
+    double gap(double t) const;      // m
+    double closing(double t) const;  // m/s
+    double bend(double t) const;     // m/s^2: deceleration of the closing
     /// Time (s, at most h) at which the rotation alone would bring the corner nearest; its gap is that of this time.
     double bottom(double h) const;
     double gap_by_turn(double t) const { return gap(t) - v_ * t; }
@@ -39,7 +39,7 @@ public:
 
 private:
     double gap_, v_, w_, c_ = 0.0, d_ = 0.0;
-    Vec3 center_, along_, across_, beside_;   // m: the center, the arm's components along and across the axis, e x r
+    Vec3 center_, along_, across_, beside_;  // m: the center, the arm's components along and across the axis, e x r
 };
 
 }  // namespace tumble

@@ -2,15 +2,14 @@
 
 #include "sim/geometry/settings.h"
 
-
 #include <algorithm>
 #include <limits>
 
 namespace tumble {
 namespace {
 
-constexpr double along_face = 0.98;   // cosine of 11 degrees
-constexpr double across_face = 0.5;   // cosine of 60 degrees
+constexpr double along_face = 0.98;  // cosine of 11 degrees
+constexpr double across_face = 0.5;  // cosine of 60 degrees
 constexpr double lowest = -std::numeric_limits<double>::infinity();
 
 struct FaceAxis {
@@ -25,7 +24,8 @@ FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose&
     const auto try_face = [&](std::uint32_t f, double height) {
         const Vec3 direction = -(other_pose.rotation.transpose() * shape.faces[f].normal);
         if (!other.is_box) support = other.support(direction, support);
-        const double reach = other.is_box ? other.half_extent.dot(direction.cwiseAbs()) : direction.dot(other.vertices[support]);
+        const double reach =
+            other.is_box ? other.half_extent.dot(direction.cwiseAbs()) : direction.dot(other.vertices[support]);
         if (height - reach > best.separation) best = {height - reach, f};
     };
     const auto height_over = [&](const Polyhedron::Face& face) {
@@ -74,7 +74,7 @@ void edges_in(const Polyhedron& shape, const Region& region, std::vector<std::ui
             if (std::max(region.normal[i].dot(tail), region.normal[i].dot(head)) < region.least[i]) return;
         edges.push_back(e);
     });
-    std::sort(edges.begin(), edges.end());   // ties between axes go to the lower edge, independent of the tree
+    std::sort(edges.begin(), edges.end());  // ties between axes go to the lower edge, independent of the tree
 }
 
 // In `shape`'s frame. Its best face f: the other lies above f's plane lowered by the overlap. The other's best face g:
@@ -136,10 +136,14 @@ SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose&
             const double height = face.normal.dot(pose.position) - face.offset;
             if (height - other.inner_radius < -axis_preference(smaller_radius)) continue;
             const Vec3 down = -(pose.rotation.transpose() * face.normal);
-            const double reach = other.is_box ? other.half_extent.dot(down.cwiseAbs()) : down.dot(other.vertices[other.support(down, 0)]);
+            const double reach = other.is_box ? other.half_extent.dot(down.cwiseAbs())
+                                              : down.dot(other.vertices[other.support(down, 0)]);
             SeparatingAxis candidate{.kind = of_b ? SeparatingAxis::Kind::face_b : SeparatingAxis::Kind::face_a,
-                                     .separation = height - reach, .feature_a = of_b ? 0 : f, .feature_b = of_b ? f : 0,
-                                     .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal, .grazed = true};
+                                     .separation = height - reach,
+                                     .feature_a = of_b ? 0 : f,
+                                     .feature_b = of_b ? f : 0,
+                                     .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal,
+                                     .grazed = true};
             if (slides_past(axis, candidate, way, smaller_radius, choice) &&
                 (!grazed.grazed || candidate.separation > grazed.separation))
                 grazed = candidate;
@@ -162,7 +166,8 @@ double axis_preference(double smaller_radius, AxisChoice choice) {
 
 double face_over_edges(double smaller_radius) { return 0.03 * smaller_radius; }
 
-bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice) {
+bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius,
+                      AxisChoice choice) {
     return choice == AxisChoice::steady && edges.normal.dot(face.normal) > along_face &&
            edges.separation - face.separation < face_over_edges(smaller_radius);
 }
@@ -170,11 +175,13 @@ bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, d
 bool misses_edges(std::span<const Manifold> of_face, double edges_separation, double smaller_radius) {
     const double seen = edges_separation + axis_preference(smaller_radius);
     return std::all_of(of_face.begin(), of_face.end(), [&](const Manifold& m) {
-        return std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) { return p.separation > seen; });
+        return std::all_of(m.points.begin(), m.points.begin() + m.count,
+                           [&](const ContactPoint& p) { return p.separation > seen; });
     });
 }
 
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius, AxisChoice choice) {
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius,
+                 AxisChoice choice) {
     const double grazing = axis_preference(smaller_radius);
     if (choice != AxisChoice::steady || apart.separation < -grazing || face.separation <= -grazing) return false;
     if (std::abs(face.normal.dot(apart.normal)) >= across_face) return false;
@@ -197,7 +204,8 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
 }
 
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch, SeparatingAxis* given_up) {
+                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch,
+                                    SeparatingAxis* given_up) {
     const auto apart = [&](double separation) {
         if (separation <= margin) return false;
         scratch.gap = separation;
@@ -222,7 +230,8 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     if (apart(axis.separation)) return {};
     const double smaller = std::min(a.radius, b.radius);
     const SeparatingAxis edges = axis;
-    const bool prefers_face = edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
+    const bool prefers_face =
+        edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
     if (prefers_face) axis = face;
     if (may_slide_past(axis.separation, way, smaller)) {
         const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, way, smaller, scratch.choice);

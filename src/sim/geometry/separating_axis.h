@@ -10,13 +10,13 @@
 namespace tumble {
 
 struct SeparatingAxis {
-    enum class Kind { none, face_a, face_b, edges };   // none: farther apart than the margin
+    enum class Kind { none, face_a, face_b, edges };  // none: farther apart than the margin
     Kind kind = Kind::none;
-    double separation = 0.0;         // m along the axis; negative: overlap
-    std::uint32_t feature_a = 0;     // index of a face or edge of A
+    double separation = 0.0;      // m along the axis; negative: overlap
+    std::uint32_t feature_a = 0;  // index of a face or edge of A
     std::uint32_t feature_b = 0;
-    Vec3 normal = Vec3::Zero();      // away from A, in A's frame
-    bool grazed = false;             // a face that the shapes slide past; they are separated along another axis
+    Vec3 normal = Vec3::Zero();  // away from A, in A's frame
+    bool grazed = false;         // a face that the shapes slide past; they are separated along another axis
 };
 
 /// Edges that the search covers. nearby: those that can be the edges of a contact, which is sufficient when the shapes
@@ -32,7 +32,8 @@ double edge_reach(EdgeSearch search, double margin, double best_separation);
 /// `b_in_a` is B's pose in A's frame; the displacement is in A's frame too. given_up: the edges that were rejected in
 /// favor of a face (edges_along_face); unchanged where there were none.
 SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch, SeparatingAxis* given_up = nullptr);
+                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch,
+                                    SeparatingAxis* given_up = nullptr);
 
 /// Separation (m) by which an edge pair must exceed a face to be chosen, and B's face A's, for shapes of this size.
 double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::steady);
@@ -43,7 +44,8 @@ double face_over_edges(double smaller_radius);
 /// Whether two edges meet so nearly along a face's normal, and separate so little better, that the face is preferred:
 /// its manifold has several points and already includes the next ones to touch, while on the edges' single point a
 /// tilted plate would rattle. Both as normal and separation; not for AxisChoice::nearest.
-bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius, AxisChoice choice);
+bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius,
+                      AxisChoice choice);
 
 /// Whether the manifold of that face, if there is one, has no point where the edges meet, because they meet beyond the
 /// face's border. Then the edges are used after all.
@@ -54,7 +56,8 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
 /// tile does not run into the next tile's side. `face`: separation and normal. Where they graze along both, the
 /// displacement (m) of the step selects the face that they slide over, if it is longer than the grazing tolerance. Not
 /// for AxisChoice::nearest.
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius, AxisChoice choice);
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius,
+                 AxisChoice choice);
 
 /// Whether slides_past is possible for a best axis of this separation (m): most pairs are excluded by it.
 bool may_slide_past(double separation, const Vec3& way, double smaller_radius);

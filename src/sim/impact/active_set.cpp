@@ -34,10 +34,11 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
 ActiveSet::ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
     : rows_(rows), exact_(exact), parent_(bodies), place_(bodies, VelocityRow::none) {}
 
-bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers, const VelocityBound& bound) {
+bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers,
+                      const VelocityBound& bound) {
     bound_ = bound;
     work_ = 0.0;
-    if (bound.velocity) return solve_part(demands, multipliers);   // the bound is on all velocities together
+    if (bound.velocity) return solve_part(demands, multipliers);  // the bound is on all velocities together
     find_parts(demands);
     if (part_count_ == 1) return solve_part(demands, multipliers);
     bool met = true;
@@ -64,7 +65,8 @@ void ActiveSet::find_parts(const std::vector<Demand>& demands) {
             if (body != VelocityRow::none) parent_[body] = body;
     for (const Demand& d : demands) {
         const auto [a, b] = bodies_of(d);
-        if (a != VelocityRow::none && b != VelocityRow::none) parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+        if (a != VelocityRow::none && b != VelocityRow::none)
+            parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
     }
     part_count_ = 0;
     for (std::uint32_t i = 0; i < demands.size(); ++i) {
@@ -145,7 +147,7 @@ bool ActiveSet::active_set() {
         }
         if (!take_in(worst)) {
             all_met = false;
-            out_[worst] = 1;   // it cannot be met together with the held rows; the others still can
+            out_[worst] = 1;  // it cannot be met together with the held rows; the others still can
         }
     }
     return false;
@@ -176,7 +178,8 @@ bool ActiveSet::take_in(std::size_t i) {
             if (bound_.velocity && (start_ + change_ + t * remainder_).norm() > bound_.longest) return false;
             change_ += t * remainder_;
         }
-        for (std::size_t k = 0; k < held_.size(); ++k) lambda[held_[k]] = std::max(0.0, lambda[held_[k]] - t * weights_[k]);
+        for (std::size_t k = 0; k < held_.size(); ++k)
+            lambda[held_[k]] = std::max(0.0, lambda[held_[k]] - t * weights_[k]);
         lambda[i] += t;
         if (full <= blocked) {
             hold(i);
@@ -195,7 +198,7 @@ bool ActiveSet::split(const VelocityRow& row) {
     along_.assign(held_.size(), 0.0);
     for (std::size_t k = 0; k < held_.size(); ++k) {
         const auto q = basis(k);
-        double t = 0.0;   // the row has at most twelve numbers
+        double t = 0.0;  // the row has at most twelve numbers
         if (row.a != VelocityRow::none) t += row.on_a.dot(q.segment<6>(6 * Index(row.a)));
         if (row.b != VelocityRow::none) t += row.on_b.dot(q.segment<6>(6 * Index(row.b)));
         along_[k] = t;
@@ -284,8 +287,10 @@ void ActiveSet::spread() {
     for (const std::size_t i : tight_) {
         split(local_[i]);
         const double left = remainder_.norm();
-        if (left > tuning::projection_spread_independent) hold(i);
-        else if (left <= tuning::projection_spread_dependent) dependent.push_back(i);
+        if (left > tuning::projection_spread_independent)
+            hold(i);
+        else if (left <= tuning::projection_spread_dependent)
+            dependent.push_back(i);
     }
     std::vector<std::size_t> rows = held_;
     rows.insert(rows.end(), dependent.begin(), dependent.end());

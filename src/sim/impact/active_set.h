@@ -25,7 +25,7 @@ namespace tumble {
 
 /// An upper bound of the length of the velocities after the projection, and the velocities before it.
 struct VelocityBound {
-    const Eigen::VectorXd* velocity = nullptr;   // null: no bound
+    const Eigen::VectorXd* velocity = nullptr;  // null: no bound
     double longest = 0.0;
 };
 
@@ -33,12 +33,13 @@ class ActiveSet {
 public:
     /// `rows` of unit length over `bodies` bodies; kept by reference. Components of up to `exact` demands are solved
     /// exactly.
-    ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact = tuning::projection_contacts);
+    ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies,
+              std::size_t exact = tuning::projection_contacts);
 
     struct Demand {
         std::uint32_t row;
-        double value;       // s_i
-        double tolerance;   // a row is satisfied from -tolerance on
+        double value;      // s_i
+        double tolerance;  // a row is satisfied from -tolerance on
     };
 
     /// Finds `multipliers`, one for each demand. Returns false when not all demands can be met together within the
@@ -73,23 +74,24 @@ private:
     const std::vector<VelocityRow>& rows_;
     std::size_t exact_;
     double work_ = 0.0;
-    std::vector<std::uint32_t> parent_;        // by body of the cluster: union-find over the demands
-    std::vector<std::vector<std::uint32_t>> parts_;   // demands of the components; the first part_count_ of them are in use
+    std::vector<std::uint32_t> parent_;  // by body of the cluster: union-find over the demands
+    std::vector<std::vector<std::uint32_t>>
+        parts_;  // demands of the components; the first part_count_ of them are in use
     std::size_t part_count_ = 0;
     std::vector<Demand> part_demands_;
     std::vector<double> part_multipliers_;
-    std::vector<std::uint32_t> place_;         // index of a cluster body in the component
+    std::vector<std::uint32_t> place_;  // index of a cluster body in the component
     const std::vector<Demand>* demands_ = nullptr;
     std::vector<double>* multipliers_ = nullptr;
-    std::vector<VelocityRow> local_;           // the set's rows, over the bodies that they touch
+    std::vector<VelocityRow> local_;  // the set's rows, over the bodies that they touch
     Index size_ = 0;
     VelocityBound bound_;
-    Eigen::VectorXd start_;                    // velocities of these bodies before the projection
-    std::vector<std::size_t> held_, tight_;    // held rows, W = Q R; rows met with equality without being held
-    std::vector<char> out_;                    // held, or given up
-    std::vector<double> basis_, triangle_;     // Q by columns; R packed by columns
-    Eigen::VectorXd change_, remainder_;       // d; remainder of a row after projection on Q
-    std::vector<double> along_, weights_;      // Q^T w; R^-1 Q^T w
+    Eigen::VectorXd start_;                  // velocities of these bodies before the projection
+    std::vector<std::size_t> held_, tight_;  // held rows, W = Q R; rows met with equality without being held
+    std::vector<char> out_;                  // held, or given up
+    std::vector<double> basis_, triangle_;   // Q by columns; R packed by columns
+    Eigen::VectorXd change_, remainder_;     // d; remainder of a row after projection on Q
+    std::vector<double> along_, weights_;    // Q^T w; R^-1 Q^T w
     std::vector<double> sines_, cosines_;
 };
 

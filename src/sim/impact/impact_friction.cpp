@@ -2,7 +2,6 @@
 
 #include "sim/impact/settings.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +11,7 @@ namespace {
 // Minimizes k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
 // with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
 // "Computing a trust region step").
-std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius,
-                                        double tolerance) {
+std::pair<double, double> least_in_disc(double k0, double k1, double g0, double g1, double radius, double tolerance) {
     double f0 = -g0 / k0, f1 = -g1 / k1;
     double length = std::sqrt(f0 * f0 + f1 * f1);
     if (length <= radius) return {f0, f1};
@@ -45,7 +43,8 @@ ImpactFriction::Block ImpactFriction::make_block(const ImpactSystem& cluster, st
     const double half = 0.5 * (tt - ss), root = std::sqrt(half * half + ts * ts);
     double cosine = 1.0, sine = 0.0;
     if (root > 0.0) {
-        const double x = half >= 0.0 ? half + root : std::abs(ts), y = half >= 0.0 ? ts : std::copysign(root - half, ts);
+        const double x = half >= 0.0 ? half + root : std::abs(ts),
+                     y = half >= 0.0 ? ts : std::copysign(root - half, ts);
         const double norm = std::sqrt(x * x + y * y);
         cosine = x / norm;
         sine = y / norm;
@@ -83,7 +82,8 @@ double ImpactFriction::tolerance() const {
 // Solves a lone block's three impulses; among others does one round towards them. Returns the change of speed, m/s.
 double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal) const {
     const std::size_t i = block.contact;
-    const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance, k1 = block.second_compliance;
+    const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance,
+                 k1 = block.second_compliance;
     double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
     double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
     double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
@@ -94,7 +94,8 @@ double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal)
         pushed += push;
         slip0 += block.normal_first * push;
         slip1 += block.normal_second * push;
-        const auto [next0, next1] = least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, mu * (cluster.impulse(i) + pushed), tolerance());
+        const auto [next0, next1] =
+            least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, mu * (cluster.impulse(i) + pushed), tolerance());
         const double step0 = next0 - f0, step1 = next1 - f1;
         f0 = next0;
         f1 = next1;
@@ -140,7 +141,8 @@ void ImpactFriction::look(const ImpactSystem& cluster, std::vector<State>& state
 }
 
 // Interpolates between two sets of impulses of the cluster.
-void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share) {
+void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to,
+                         double share) {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         Block& block = blocks_[k];
         const auto step = [&](std::size_t i) { return share * (to[k].impulse[i] - from[k].impulse[i]); };
@@ -158,7 +160,8 @@ void ImpactFriction::limit_energy(ImpactSystem& cluster) {
     const auto sum = [&](const std::vector<State>& from, const std::vector<State>& to, auto&& term) {
         double all = 0.0;
         for (std::size_t k = 0; k < blocks_.size(); ++k)
-            for (std::size_t i = 0; i < 3; ++i) all += (to[k].impulse[i] - from[k].impulse[i]) * term(from[k].speed[i], to[k].speed[i]);
+            for (std::size_t i = 0; i < 3; ++i)
+                all += (to[k].impulse[i] - from[k].impulse[i]) * term(from[k].speed[i], to[k].speed[i]);
         return all;
     };
     const auto mean = [](double from, double to) { return 0.5 * (from + to); };
@@ -169,7 +172,8 @@ void ImpactFriction::limit_energy(ImpactSystem& cluster) {
     look(cluster, least_);
     // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without
     // cancellation.
-    const double g0 = std::min(0.0, sum(start_, least_, mean)), slope = sum(least_, kept_, [](double from, double) { return from; });
+    const double g0 = std::min(0.0, sum(start_, least_, mean)),
+                 slope = sum(least_, kept_, [](double from, double) { return from; });
     const double bend = 0.5 * sum(least_, kept_, [](double from, double to) { return to - from; });
     const double root = std::sqrt(std::max(0.0, slope * slope - 4.0 * bend * g0));
     const double share = slope > 0.0 ? -2.0 * g0 / (slope + root) : bend > 0.0 ? (root - slope) / (2.0 * bend) : 1.0;
@@ -187,7 +191,8 @@ bool ImpactFriction::apply(ImpactSystem& cluster) {
 
 void ImpactFriction::store(const ImpactSystem& cluster, std::vector<Contact>& contacts) const {
     for (const Block& block : blocks_)
-        contacts[cluster.contact_index(block.contact)].impact_friction = block.f0 * block.first + block.f1 * block.second;
+        contacts[cluster.contact_index(block.contact)].impact_friction =
+            block.f0 * block.first + block.f1 * block.second;
 }
 
 }  // namespace tumble

@@ -22,9 +22,10 @@ namespace tumble {
 
 class ImpactFriction {
 public:
-    enum class Precision { last_digits, step };   // for an impact at its own time, or at a step
+    enum class Precision { last_digits, step };  // for an impact at its own time, or at a step
 
-    ImpactFriction(const ImpactSystem& cluster, Precision precision) : precision_(precision), has_block_(cluster.size(), 0) {}
+    ImpactFriction(const ImpactSystem& cluster, Precision precision)
+        : precision_(precision), has_block_(cluster.size(), 0) {}
 
     /// Updates the friction impulses for the cluster's present normal impulses and velocities. Returns false when the
     /// change is negligible.
@@ -38,17 +39,17 @@ private:
     struct State {
         std::array<double, 3> impulse, speed;
     };
-    enum class Normal { fixed, adapted };   // impulses
+    enum class Normal { fixed, adapted };  // impulses
 
     struct Block {
-        std::size_t contact;             // index in the cluster
-        Vec3 first, second;              // unit, world: principal directions of the compliance across the normal
+        std::size_t contact;  // index in the cluster
+        Vec3 first, second;   // unit, world: principal directions of the compliance across the normal
         VelocityRow first_row, second_row;
-        double first_offset, second_offset;       // m/s
+        double first_offset, second_offset;  // m/s
         // 1/kg, the last two couple the normal with the tangents
         double first_compliance, second_compliance, normal_first, normal_second;
-        double f0 = 0.0, f1 = 0.0;       // N s along the two
-        double kept = 0.0;               // m/s: v_rel before friction
+        double f0 = 0.0, f1 = 0.0;  // N s along the two
+        double kept = 0.0;          // m/s: v_rel before friction
     };
 
     static Block make_block(const ImpactSystem& cluster, std::size_t contact);
@@ -62,9 +63,9 @@ private:
     void limit_energy(ImpactSystem& cluster);
 
     Precision precision_;
-    std::vector<char> has_block_;           // by contact of the cluster
-    std::vector<Block> blocks_;             // of the contacts that have had a normal impulse, ascending
-    std::vector<State> start_, kept_, least_;   // by block: before friction, with v_rel kept, with the least energy
+    std::vector<char> has_block_;              // by contact of the cluster
+    std::vector<Block> blocks_;                // of the contacts that have had a normal impulse, ascending
+    std::vector<State> start_, kept_, least_;  // by block: before friction, with v_rel kept, with the least energy
 };
 
 }  // namespace tumble

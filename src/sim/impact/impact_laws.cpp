@@ -27,8 +27,8 @@ VelocityBound bound(const ImpactSystem& cluster) {
 }
 
 // Adds to d the change of y that the multipliers make; returns lambda . s.
-double add_change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
-                  Eigen::VectorXd& d) {
+double add_change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set,
+                  const std::vector<double>& lambda, Eigen::VectorXd& d) {
     double work_before = 0.0;
     for (std::size_t i = 0; i < set.size(); ++i) {
         if (lambda[i] == 0.0) continue;
@@ -45,7 +45,7 @@ double reflection_factor(double work_before, double square) { return square > 0.
 // move) grows by lambda . s + |d|^2 / 2, with s = w . y + offset before the change.
 struct Change {
     Eigen::VectorXd d;
-    double work_before = 0.0, square = 0.0;   // lambda . s, |d|^2
+    double work_before = 0.0, square = 0.0;  // lambda . s, |d|^2
 
     Change(const ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda)
         : d(Eigen::VectorXd::Zero(cluster.velocity().size())) {
@@ -66,14 +66,19 @@ void apply(ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, con
 class Propagation {
 public:
     Propagation(ImpactSystem& cluster, double threshold, double slow, double resting)
-        : cluster_(cluster), threshold_(threshold),
+        : cluster_(cluster),
+          threshold_(threshold),
           slow_(cluster.size() > tuning::pass_contacts ? std::max(slow, cluster.rounding()) : cluster.rounding()),
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
-          change_(Eigen::VectorXd::Zero(cluster.velocity().size())), changed_(cluster.bodies() + 1, 1) {
+          change_(Eigen::VectorXd::Zero(cluster.velocity().size())),
+          changed_(cluster.bodies() + 1, 1) {
         // A body that is not dynamic has the last place, and never changes.
-        const auto place = [&](std::uint32_t body) { return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body; };
+        const auto place = [&](std::uint32_t body) {
+            return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body;
+        };
         for (const VelocityRow& row : cluster.rows()) bodies_.push_back({place(row.a), place(row.b)});
-        for (std::size_t i = 0; i < cluster.size(); ++i) rests_.push_back(!cluster.flies(i) && cluster.speed(i) > -resting);
+        for (std::size_t i = 0; i < cluster.size(); ++i)
+            rests_.push_back(!cluster.flies(i) && cluster.speed(i) > -resting);
     }
 
     int run() {
@@ -139,7 +144,7 @@ private:
                 if (body == VelocityRow::none) continue;
                 auto of_body = change_.segment<6>(6 * Eigen::Index(body));
                 square += of_body.squaredNorm();
-                of_body.setZero();   // counts each body once, and leaves all zero for the next use
+                of_body.setZero();  // counts each body once, and leaves all zero for the next use
             }
         return reflection_factor(work_before, square);
     }
@@ -176,10 +181,11 @@ private:
     ActiveSet projection_;
     std::vector<ActiveSet::Demand> active_;
     std::vector<double> restitution_, lambda_;
-    Eigen::VectorXd change_;                                        // zero between uses
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> bodies_;   // by contact: the positions of its bodies in the cluster
-    std::vector<char> changed_;                                     // by position: whether the last pass may have changed it
-    std::vector<char> rests_;                                       // by contact
+    Eigen::VectorXd change_;  // zero between uses
+    std::vector<std::pair<std::uint32_t, std::uint32_t>>
+        bodies_;                 // by contact: the positions of its bodies in the cluster
+    std::vector<char> changed_;  // by position: whether the last pass may have changed it
+    std::vector<char> rests_;    // by contact
 };
 
 }  // namespace
@@ -228,7 +234,9 @@ int resolve_together(ImpactSystem& cluster, double threshold) {
         const double slope = newton.work_before - stopped.work_before + stopped.d.dot(newton.d - stopped.d);
         const double root = std::sqrt(std::max(0.0, slope * slope - 2.0 * stopped.gain() * bend));
         // The positive root, without cancellation.
-        const double s = slope > 0.0 ? -2.0 * stopped.gain() / (slope + root) : bend > 0.0 ? (root - slope) / bend : 1.0;
+        const double s = slope > 0.0  ? -2.0 * stopped.gain() / (slope + root)
+                         : bend > 0.0 ? (root - slope) / bend
+                                      : 1.0;
         const double share = met ? std::clamp(s, 0.0, 1.0) : 0.0;
         elastic = elastic && met;
         for (std::size_t i = 0; i < lambda.size(); ++i) lambda[i] = share * lambda[i] + (1.0 - share) * least[i];

@@ -16,7 +16,7 @@
 namespace tumble {
 
 struct ImpactSettings {
-    double threshold = 0.0;   // m/s: slower approaches do not bounce
+    double threshold = 0.0;  // m/s: slower approaches do not bounce
     /// m/s: among more than tuning::pass_contacts contacts, slower approaches take no part in a pass of the propagating
     /// law and are left to the solver of resting contact. Half of the contacts of a heap at rest approach by trembling.
     double slow = 0.0;
@@ -25,7 +25,7 @@ struct ImpactSettings {
     /// whatever the sign of their trembling: the impulse reaches them from the contacts with impacts. Otherwise a
     /// single trembling ball of a bed would stop a plate for all the others.
     double resting = 0.0;
-    bool friction = false;    // Coulomb friction within the impact
+    bool friction = false;  // Coulomb friction within the impact
     /// Leaves nothing approaching: contacts that do not bounce are stopped (e = 0). Without it an impact in which
     /// nothing bounces is left to the solver of resting contact.
     bool complete = false;

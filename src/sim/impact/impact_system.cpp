@@ -2,7 +2,6 @@
 
 #include "sim/impact/settings.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -67,7 +66,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
         if (!c.touching()) continue;
         VelocityRow row = relative_row(c, c.normal);
         const double length = std::sqrt(row.squared_norm());
-        if (!(length > 0.0)) continue;   // the contact has no mobility
+        if (!(length > 0.0)) continue;  // the contact has no mobility
         row.on_a /= length;
         row.on_b /= length;
         index_.push_back(k);
@@ -77,7 +76,8 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
         fastest = std::max(fastest, std::abs(speed(rows_.size() - 1)));
         fastest_wall = std::max(fastest_wall, std::abs(offset_.back()) * length);
         for (const auto& [body, arm] : {std::pair(c.a, c.arm_a), std::pair(c.b, c.arm_b)})
-            largest = std::max(largest, bodies[body].velocity.norm() + bodies[body].angular_velocity.norm() * arm.norm());
+            largest =
+                std::max(largest, bodies[body].velocity.norm() + bodies[body].angular_velocity.norm() * arm.norm());
     }
     impulse_.assign(rows_.size(), 0.0);
     for (const std::uint32_t body : island.bodies) mass += bodies[body].mass;
@@ -87,7 +87,8 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
 
 std::uint32_t ImpactSystem::place(std::uint32_t body) const {
     const auto found = std::lower_bound(body_index_.begin(), body_index_.end(), body);
-    return found != body_index_.end() && *found == body ? std::uint32_t(found - body_index_.begin()) : VelocityRow::none;
+    return found != body_index_.end() && *found == body ? std::uint32_t(found - body_index_.begin())
+                                                        : VelocityRow::none;
 }
 
 VelocityRow ImpactSystem::relative_row(const Contact& c, const Vec3& direction) const {

@@ -18,8 +18,8 @@ struct Island {
 
 /// The square root of a dynamic body's inverse mass matrix: M^-1/2, and C with C C^T = I^-1.
 struct MassRoot {
-    double translation;   // kg^-1/2
-    Mat3 turn;            // kg^-1/2 / m; by Cholesky in the body's frame, where needles and plates lose no digits
+    double translation;  // kg^-1/2
+    Mat3 turn;           // kg^-1/2 / m; by Cholesky in the body's frame, where needles and plates lose no digits
 
     explicit MassRoot(const Body& body);
     /// n . (v + omega x r) as a form of y, for an arm r and direction n.
@@ -42,7 +42,7 @@ public:
 
     /// v_rel, m/s.
     double speed(std::size_t i) const { return length_[i] * (rows_[i].dot(velocity_) + offset_[i]); }
-    double length(std::size_t i) const { return length_[i]; }   // kg^-1/2
+    double length(std::size_t i) const { return length_[i]; }  // kg^-1/2
     /// m/s: slower approaches are rounding. Follows from the initial velocities.
     double rounding() const { return rounding_; }
     bool approaching(std::size_t i) const { return speed(i) < -rounding_; }
@@ -61,7 +61,7 @@ public:
     }
     /// Adds `amount` N s along a form from relative_row().
     void push_along(const VelocityRow& row, double amount) { row.add_to(velocity_, amount); }
-    double impulse(std::size_t i) const { return impulse_[i]; }   // N s, sum of all pushes
+    double impulse(std::size_t i) const { return impulse_[i]; }  // N s, sum of all pushes
 
     /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel.
     void store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const;
@@ -69,12 +69,12 @@ public:
 private:
     std::uint32_t place(std::uint32_t body) const;
 
-    const std::vector<std::uint32_t>& body_index_;   // position to body, ascending
+    const std::vector<std::uint32_t>& body_index_;  // position to body, ascending
     const std::vector<Contact>& contacts_;
     const std::vector<Body>& bodies_;
     std::vector<MassRoot> roots_;
-    Eigen::VectorXd velocity_, start_;               // present and initial y
-    std::vector<std::uint32_t> index_;               // row to contact
+    Eigen::VectorXd velocity_, start_;  // present and initial y
+    std::vector<std::uint32_t> index_;  // row to contact
     std::vector<VelocityRow> rows_;
     std::vector<double> length_, offset_, impulse_;
     double rounding_ = 0.0, wall_velocity_ = 0.0;

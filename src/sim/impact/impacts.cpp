@@ -1,7 +1,7 @@
 #include "sim/impact/impacts.h"
 
-#include "sim/impact/impact_friction.h"
 #include "sim/impact/active_set.h"
+#include "sim/impact/impact_friction.h"
 #include "sim/impact/settings.h"
 
 #include <algorithm>
@@ -28,8 +28,9 @@ bool approaching(const ImpactSystem& cluster) {
 }
 
 int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
-    const int passes = settings.law == ImpactLaw::propagating ? propagate(cluster, settings.threshold, settings.slow, settings.resting)
-                                                        : resolve_together(cluster, settings.threshold);
+    const int passes = settings.law == ImpactLaw::propagating
+                           ? propagate(cluster, settings.threshold, settings.slow, settings.resting)
+                           : resolve_together(cluster, settings.threshold);
     if (!settings.complete || !approaching(cluster)) return passes;
     stop(cluster);
     return passes + 1;
@@ -40,8 +41,10 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
 void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
     for (int round = 0; round < tuning::friction_rounds; ++round) {
         if (!friction.apply(cluster) || !approaching(cluster)) return;
-        if (round < tuning::friction_bounces) resolve_normally(cluster, settings);
-        else stop(cluster);
+        if (round < tuning::friction_bounces)
+            resolve_normally(cluster, settings);
+        else
+            stop(cluster);
     }
 }
 
@@ -54,17 +57,21 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {
-        ImpactFriction friction(cluster, settings.complete ? ImpactFriction::Precision::last_digits : ImpactFriction::Precision::step);
+        ImpactFriction friction(
+            cluster, settings.complete ? ImpactFriction::Precision::last_digits : ImpactFriction::Precision::step);
         // At a step, contacts that friction makes approach again are left to the solver of resting contact.
-        if (settings.complete) add_friction(cluster, settings, friction);
-        else friction.apply(cluster);
+        if (settings.complete)
+            add_friction(cluster, settings, friction);
+        else
+            friction.apply(cluster);
         friction.store(cluster, contacts);
     }
     cluster.store(contacts, bodies);
     return passes;
 }
 
-void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies, double threshold) {
+void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies,
+                  double threshold) {
     Island bounced;
     for (const std::uint32_t k : island.contacts) {
         const Contact& c = contacts[k];
@@ -84,7 +91,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     std::vector<double> sign(cluster.size(), 1.0);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const double length = cluster.length(i), faster = cluster.speed(i) - cluster.contact(i).bounce_velocity;
-        if (faster > cluster.rounding()) {   // from a ceiling
+        if (faster > cluster.rounding()) {  // from a ceiling
             sign[i] = -1.0;
             rows[i].on_a = -rows[i].on_a;
             rows[i].on_b = -rows[i].on_b;
@@ -95,7 +102,8 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     ActiveSet(rows, cluster.bodies()).solve(demands, lambda);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const Contact& c = cluster.contact(i);
-        if (lambda[i] > 0.0) add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
+        if (lambda[i] > 0.0)
+            add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);
     }
     for (const std::uint32_t i : bounced.bodies) bodies[i].derive_velocities();
 }

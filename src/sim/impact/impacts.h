@@ -18,6 +18,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
 /// Acts against the forces alone: a body that it meets next is not pushed away. Bodies that an integrator of higher
 /// order moved need no correction and get none.
 /// Changes momenta and velocities. `threshold` as in ImpactSettings.
-void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies, double threshold);
+void hold_bounces(const Island& island, const std::vector<Contact>& contacts, std::vector<Body>& bodies,
+                  double threshold);
 
 }  // namespace tumble

@@ -16,7 +16,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 /// w . y over at most two bodies; a body that is not dynamic has no entry in y.
 struct VelocityRow {
     static constexpr std::uint32_t none = UINT32_MAX;
-    std::uint32_t a = none, b = none;   // positions of the bodies in y, six numbers each
+    std::uint32_t a = none, b = none;  // positions of the bodies in y, six numbers each
     Vec6 on_a = Vec6::Zero(), on_b = Vec6::Zero();
 
     double dot(const Eigen::VectorXd& y) const {

@@ -42,7 +42,7 @@ FreeRotation::FreeRotation(const Vec3& principal_inertia, const Quat& principal_
 void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_axes, const Vec3& angular_momentum) {
     const double largest = angular_momentum.cwiseAbs().maxCoeff();
     if (!(largest > 0.0)) return;
-    const Vec3 scaled = angular_momentum / largest;   // squares of tiny momenta would be 0
+    const Vec3 scaled = angular_momentum / largest;  // squares of tiny momenta would be 0
     const double length = scaled.norm();
     axis_ = scaled / length;
     const double most = principal_inertia.maxCoeff();
@@ -70,11 +70,11 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     const double i1 = inertia[o[0]], i2 = inertia[o[1]], i3 = inertia[o[2]];
     const double m1 = m[o[0]], m2 = right_handed ? m[o[1]] : -m[o[1]], m3 = m[o[2]];
     const double d31 = s * (i3 - i1), d32 = s * (i3 - i2), d21 = s * (i2 - i1);
-    const double a = m1 * m1 * (d31 / i1) + m2 * m2 * (d32 / i2);   // |2 T I3 - |L|^2|
-    const double b = m2 * m2 * (d21 / i2) + m3 * m3 * (d31 / i3);   // ||L|^2 - 2 T I1|
+    const double a = m1 * m1 * (d31 / i1) + m2 * m2 * (d32 / i2);  // |2 T I3 - |L|^2|
+    const double b = m2 * m2 * (d21 / i2) + m3 * m3 * (d31 / i3);  // ||L|^2 - 2 T I1|
     if (!(a > negligible) || !(d32 * b > negligible)) return set_steady(rate / inertia[main]);
 
-    const double sense = std::copysign(1.0, m3) * s;   // direction of m around axis 3
+    const double sense = std::copysign(1.0, m3) * s;  // direction of m around axis 3
     amplitude_cn_ = std::sqrt(i1 * a / d31);
     amplitude_sn_ = sense * std::sqrt(i2 * a / d32);
     amplitude_dn_ = std::copysign(std::sqrt(i3 * b / d31), m3);
@@ -87,11 +87,12 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     // with nu = M1^2/M3^2, and for axis 3 the same with the axes 1 and 3 exchanged, sn^2 M2^2/M1^2 and
     // nu = M2^2/M1^2 - 1. Both are valid; the code chooses the one whose two terms are smaller, because their rounding errors remain.
     // Per |L| t, with t the time of about one revolution, they are:
-    const double slowness = 1.0 + 1.0 / (i2 * phase_rate_ / rate);   // of u: the initial phase counts as much as its change
+    const double slowness =
+        1.0 + 1.0 / (i2 * phase_rate_ / rate);  // of u: the initial phase counts as much as its change
     const double phases_1 = 1.0 / i3 + d31 * a / (i3 * (i3 * b + i1 * a)) * slowness;
     const double phases_3 = 1.0 / i1 + phase_rate_ / rate + d21 / (i1 * i2) * slowness;
     pole_circulates_ = phases_3 < phases_1;
-    double factor;   // rad/s, of sn^2 / (1 + nu sn^2)
+    double factor;  // rad/s, of sn^2 / (1 + nu sn^2)
     if (pole_circulates_) {
         rate_ = rate / i1;
         factor = -s * rate * d21 * d31 / (i1 * i1 * d32);
@@ -133,7 +134,7 @@ void FreeRotation::start_separatrix(double sn, double cn) {
         amplitude_sn_ = -amplitude_sn_;
         sn = -sn;
     }
-    phase_start_ = sn * carlson_rf(cn * cn, cn * cn, 1.0);   // asinh(sn / cn)
+    phase_start_ = sn * carlson_rf(cn * cn, cn * cn, 1.0);  // asinh(sn / cn)
 }
 
 // The same for other parameters, and the constants of the modulus.
@@ -143,7 +144,7 @@ void FreeRotation::start_periodic(double sn, double cn) {
     double k = std::sqrt(modulus_squared_), complement = std::sqrt(complement_squared_);
     while (k > smallest_modulus && levels_ < most_levels) {
         const double sum = 1.0 + complement;
-        k = (1.0 - complement) / sum;   // its accuracy is an absolute rounding error
+        k = (1.0 - complement) / sum;  // its accuracy is an absolute rounding error
         complement = 2.0 * std::sqrt(complement) / sum;
         level_[std::size_t(levels_++)] = {k, complement * complement};
         landen_scale_ /= 1.0 + k;
@@ -195,7 +196,8 @@ FreeRotation::Phase FreeRotation::phase(double u) const {
 // between m and the pole, and alpha that of m about the pole. Half angles by square roots.
 Quat FreeRotation::frame(const Phase& phase) const {
     const auto half_periods = static_cast<long long>(phase.half_periods);
-    const double turned = half_periods & 1 && !pole_circulates_ ? -1.0 : 1.0;   // sign change of sn and cn after each half period
+    const double turned =
+        half_periods & 1 && !pole_circulates_ ? -1.0 : 1.0;  // sign change of sn and cn after each half period
     const double x = turned * amplitude_cn_ * phase.value.cn, y = turned * amplitude_sn_ * phase.value.sn,
                  z = amplitude_dn_ * phase.value.dn;
     const double p = pole_circulates_ ? z : x, a = pole_circulates_ ? x : y, b = pole_circulates_ ? y : z;
@@ -205,10 +207,17 @@ Quat FreeRotation::frame(const Phase& phase) const {
     if (pole_circulates_) {
         // Each half period of the phase is half a revolution of alpha: a quarter revolution of its half.
         switch ((amplitude_sn_ < 0.0 ? -half_periods : half_periods) & 3) {
-            case 1: alpha = {-alpha.sin, alpha.cos}; break;
-            case 2: alpha = {-alpha.cos, -alpha.sin}; break;
-            case 3: alpha = {alpha.sin, -alpha.cos}; break;
-            default: break;
+            case 1:
+                alpha = {-alpha.sin, alpha.cos};
+                break;
+            case 2:
+                alpha = {-alpha.cos, -alpha.sin};
+                break;
+            case 3:
+                alpha = {alpha.sin, -alpha.cos};
+                break;
+            default:
+                break;
         }
     }
     return Quat(theta.cos * alpha.cos, -theta.cos * alpha.sin, theta.sin * alpha.sin, -theta.sin * alpha.cos);

@@ -24,7 +24,7 @@ namespace tumble {
 
 class FreeRotation {
 public:
-    FreeRotation() = default;   // constant orientation
+    FreeRotation() = default;  // constant orientation
 
     /// principal_inertia: kg m^2; principal_axes rotates principal coordinates into body coordinates; orientation
     /// rotates body into world; angular_momentum: world, kg m^2/s. All at t = 0.
@@ -46,9 +46,9 @@ private:
         double sn, cn, dn;
     };
     struct Phase {
-        double half_periods = 0.0;   // integer: u = 2 K half_periods + rest
-        Jacobi value{0.0, 1.0, 1.0}; // at the rest; cn >= 0
-        double integral = 0.0;       // int_0^u sn^2 / (1 + nu sn^2) du
+        double half_periods = 0.0;    // integer: u = 2 K half_periods + rest
+        Jacobi value{0.0, 1.0, 1.0};  // at the rest; cn >= 0
+        double integral = 0.0;        // int_0^u sn^2 / (1 + nu sn^2) du
     };
 
     void begin(const Vec3& principal_inertia, const Quat& principal_axes, const Vec3& angular_momentum);
@@ -61,24 +61,24 @@ private:
     Quat frame(const Phase& phase) const;
     Quat from_principal(const Quat& turn) const;
 
-    static constexpr int most_levels = 16;   // the smallest k' of a double needs 12
+    static constexpr int most_levels = 16;  // the smallest k' of a double needs 12
 
     Kind kind_ = Kind::rest;
-    Quat start_ = Quat::Identity();      // orientation at t = 0; of the periodic kinds, relative to the frame of m at t = 0
+    Quat start_ = Quat::Identity();  // orientation at t = 0; of the periodic kinds, relative to the frame of m at t = 0
     Quat to_principal_ = Quat::Identity();
-    Vec3 axis_ = Vec3::UnitY();          // steady: of L, world, unit
-    double rate_ = 0.0;                  // rad/s; steady: of the rotation; else of the azimuth where sn = 0
+    Vec3 axis_ = Vec3::UnitY();  // steady: of L, world, unit
+    double rate_ = 0.0;          // rad/s; steady: of the rotation; else of the azimuth where sn = 0
 
     // Principal axes in the order (pole, a, b), a right-handed frame: index and sign of each.
     std::array<int, 3> order_{0, 1, 2};
     std::array<double, 3> sign_{1.0, 1.0, 1.0};
-    bool pole_circulates_ = false;       // the pole is the axis that m circles (dn); else it is that of cn
-    double amplitude_cn_ = 0.0, amplitude_sn_ = 0.0, amplitude_dn_ = 0.0;   // amplitudes of m / |L|, signed
-    double phase_rate_ = 0.0, phase_start_ = 0.0;   // lambda (rad/s), u0
-    double half_period_ = 0.0;           // 2 K
-    double azimuth_factor_ = 0.0;        // rad, factor of the integral
+    bool pole_circulates_ = false;  // the pole is the axis that m circles (dn); else it is that of cn
+    double amplitude_cn_ = 0.0, amplitude_sn_ = 0.0, amplitude_dn_ = 0.0;  // amplitudes of m / |L|, signed
+    double phase_rate_ = 0.0, phase_start_ = 0.0;                          // lambda (rad/s), u0
+    double half_period_ = 0.0;                                             // 2 K
+    double azimuth_factor_ = 0.0;                                          // rad, factor of the integral
     double nu_ = 0.0;
-    double modulus_squared_ = 0.0, complement_squared_ = 0.0;   // k^2, k'^2
+    double modulus_squared_ = 0.0, complement_squared_ = 0.0;  // k^2, k'^2
     double integral_start_ = 0.0, integral_half_period_ = 0.0;
     // Landen's descending moduli, and the squares of their complements.
     struct Level {
@@ -86,7 +86,7 @@ private:
     };
     int levels_ = 0;
     std::array<Level, most_levels> level_{};
-    double landen_scale_ = 1.0;          // factor of u at the last level
+    double landen_scale_ = 1.0;  // factor of u at the last level
 };
 
 }  // namespace tumble

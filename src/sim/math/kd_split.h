@@ -11,7 +11,7 @@
 namespace tumble {
 
 struct PlacedBody {
-    Vec3 position;   // m
+    Vec3 position;  // m
     std::uint32_t body;
 
     static auto before(int axis) {

@@ -30,7 +30,7 @@ Vec3 rate_from_spin(const Vec3& phi, const Vec3& spin) {
     const double t2 = phi.squaredNorm(), t = std::sqrt(t2);
     double c = 1.0 / 12.0 + t2 / 720.0;
     if (t > small_angle) {
-        const SinCos half = sincos(0.5 * t);   // (1 + cos t)/sin t = cot(t/2), finite at t = pi
+        const SinCos half = sincos(0.5 * t);  // (1 + cos t)/sin t = cot(t/2), finite at t = pi
         c = 1.0 / t2 - half.cos / (2.0 * t * half.sin);
     }
     const Vec3 once = phi.cross(spin);
@@ -67,7 +67,8 @@ KeyframeTrack::KeyframeTrack(std::vector<Keyframe> keys, Interpolation interpola
     // At both ends the body is at rest, as it is outside of the keyframes.
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const double before = keys_[i].time - keys_[i - 1].time, after = keys_[i + 1].time - keys_[i].time;
-        velocity_[i] = smooth_slope<Vec3>((keys_[i].position - keys_[i - 1].position) / before, (keys_[i + 1].position - keys_[i].position) / after, before, after);
+        velocity_[i] = smooth_slope<Vec3>((keys_[i].position - keys_[i - 1].position) / before,
+                                          (keys_[i + 1].position - keys_[i].position) / after, before, after);
         // Rotating back along the last segment is -turn seen from its end: the same axis in both frames.
         spin_[i] = smooth_slope<Vec3>(turn_[i - 1] / before, turn_[i] / after, before, after);
     }

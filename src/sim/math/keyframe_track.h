@@ -21,16 +21,16 @@ public:
     struct Motion {
         Vec3 position;
         Quat rotation;
-        Vec3 velocity;           // m/s, of the origin
-        Vec3 angular_velocity;   // rad/s, world frame
+        Vec3 velocity;          // m/s, of the origin
+        Vec3 angular_velocity;  // rad/s, world frame
     };
     Motion at(double time) const;
 
 private:
     std::vector<Keyframe> keys_;
-    std::vector<Vec3> velocity_;   // tangents at the keys, m/s
-    std::vector<Vec3> turn_;       // segment i: rotation vector from key i to i + 1, in key i's frame
-    std::vector<Vec3> spin_;       // angular velocity at the keys, in the key's frame, rad/s
+    std::vector<Vec3> velocity_;  // tangents at the keys, m/s
+    std::vector<Vec3> turn_;      // segment i: rotation vector from key i to i + 1, in key i's frame
+    std::vector<Vec3> spin_;      // angular velocity at the keys, in the key's frame, rad/s
     bool smooth_;
 };
 

@@ -27,17 +27,16 @@ MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
     // Relative to the middle of the bounds, so that a mesh far from its origin loses no digits.
     const Vec3 apex = mesh.bounds().center();
     double volume = 0.0;
-    Vec3 first = Vec3::Zero();                  // integral of x dV
-    Mat3 second = Mat3::Zero();                 // integral of x x^T dV
+    Vec3 first = Vec3::Zero();   // integral of x dV
+    Mat3 second = Mat3::Zero();  // integral of x x^T dV
     for (const auto& t : mesh.triangles) {
         const Vec3 a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
-        const double det = a.dot(b.cross(c));   // six times the tetrahedron's signed volume
+        const double det = a.dot(b.cross(c));  // six times the tetrahedron's signed volume
         const Vec3 sum = a + b + c;
         volume += det / 6.0;
         first += det / 24.0 * sum;
         // Integral of x x^T over the tetrahedron (0, a, b, c): det/120 (aa + bb + cc + (a+b+c)(a+b+c)).
-        second += det / 120.0 *
-                  (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+        second += det / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
     MassProperties p;
     p.mass = density * volume;
@@ -53,13 +52,13 @@ MassProperties placed(const MassProperties& properties, const Vec3& position, co
     p.center_of_mass = position + rotation * properties.center_of_mass;
     const Mat3 turn = rotation.toRotationMatrix();
     const Mat3 inertia = turn * properties.inertia * turn.transpose();
-    p.inertia = 0.5 * (inertia + inertia.transpose());   // symmetric to the last bit
+    p.inertia = 0.5 * (inertia + inertia.transpose());  // symmetric to the last bit
     return p;
 }
 
 MassProperties sum_of_masses(const std::vector<MassProperties>& parts) {
     MassProperties whole;
-    Vec3 first = Vec3::Zero();   // sum of m x
+    Vec3 first = Vec3::Zero();  // sum of m x
     for (const MassProperties& part : parts) {
         whole.mass += part.mass;
         first += part.mass * part.center_of_mass;

@@ -9,9 +9,9 @@
 namespace tumble {
 
 struct MassProperties {
-    double mass = 0.0;                          // kg
-    Vec3 center_of_mass = Vec3::Zero();         // m, in the shape's frame
-    Mat3 inertia = Mat3::Zero();                // kg m^2, about the center of mass, axes of the shape's frame
+    double mass = 0.0;                   // kg
+    Vec3 center_of_mass = Vec3::Zero();  // m, in the shape's frame
+    Mat3 inertia = Mat3::Zero();         // kg m^2, about the center of mass, axes of the shape's frame
 };
 
 /// A solid box of full edge lengths `size`: I_x = m (y^2 + z^2) / 12 and cyclic.
@@ -34,8 +34,8 @@ MassProperties sum_of_masses(const std::vector<MassProperties>& parts);
 MassProperties with_mass(const MassProperties& properties, double mass);
 
 struct PrincipalInertia {
-    Vec3 moments = Vec3::Zero();       // kg m^2, in no particular order
-    Quat axes = Quat::Identity();      // rotates principal coordinates into the tensor's frame
+    Vec3 moments = Vec3::Zero();   // kg m^2, in no particular order
+    Quat axes = Quat::Identity();  // rotates principal coordinates into the tensor's frame
 };
 
 /// tensor = R diag(moments) R^T, by Jacobi's rotations (Golub and Van Loan 2013, "Matrix Computations", section 8.5).

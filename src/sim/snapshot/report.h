@@ -9,21 +9,21 @@ namespace tumble {
 
 /// A row of the energy table: sums over all dynamic bodies, world frame.
 struct Measurement {
-    double kinetic = 0.0;         // J
-    double potential = 0.0;       // J, -sum m g.x
-    Vec3 momentum = Vec3::Zero();           // kg m/s
-    Vec3 angular_momentum = Vec3::Zero();   // kg m^2/s about the world origin
-    int contacts = 0;             // number of touching contact points
-    double max_penetration = 0.0; // m, deepest overlap; 0 without overlaps
+    double kinetic = 0.0;                  // J
+    double potential = 0.0;                // J, -sum m g.x
+    Vec3 momentum = Vec3::Zero();          // kg m/s
+    Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s about the world origin
+    int contacts = 0;                      // number of touching contact points
+    double max_penetration = 0.0;          // m, deepest overlap; 0 without overlaps
 };
 
 /// One body as the simulation represents it, for `tumble info`.
 struct BodyReport {
-    double mass = 0.0;            // kg; infinity for fixed and kinematic bodies
-    Vec3 principal_inertia = Vec3::Zero();    // kg m^2, about the center of mass, ascending
-    Vec3 center_of_mass = Vec3::Zero();       // body frame, from the body's origin
-    std::size_t hull_vertices = 0;            // of its convex collision shape; 0 for planes and spheres
-    std::size_t triangles = 0;                // of a fixed mesh that collides as it is
+    double mass = 0.0;                      // kg; infinity for fixed and kinematic bodies
+    Vec3 principal_inertia = Vec3::Zero();  // kg m^2, about the center of mass, ascending
+    Vec3 center_of_mass = Vec3::Zero();     // body frame, from the body's origin
+    std::size_t hull_vertices = 0;          // of its convex collision shape; 0 for planes and spheres
+    std::size_t triangles = 0;              // of a fixed mesh that collides as it is
 };
 
 }  // namespace tumble

@@ -10,17 +10,17 @@ namespace tumble {
 
 /// One body at the snapshot's time; world frame.
 struct BodyState {
-    Vec3 origin;             // m, of the body's own origin: where its shape is drawn
-    Vec3 center_of_mass;     // m
-    Quat orientation;        // unit
-    Vec3 velocity;           // m/s, of the center of mass
-    Vec3 angular_velocity;   // rad/s
+    Vec3 origin;            // m, of the body's own origin: where its shape is drawn
+    Vec3 center_of_mass;    // m
+    Quat orientation;       // unit
+    Vec3 velocity;          // m/s, of the center of mass
+    Vec3 angular_velocity;  // rad/s
 };
 
 struct Snapshot {
     std::int64_t frame = 0;
-    double time = 0.0;               // s, frame / fps
-    std::vector<BodyState> bodies;   // in scene order, fixed ones included
+    double time = 0.0;              // s, frame / fps
+    std::vector<BodyState> bodies;  // in scene order, fixed ones included
 };
 
 }  // namespace tumble

@@ -20,13 +20,16 @@ public:
             return;
         }
         for (int looked = 0; round_.load(std::memory_order_acquire) == round; ++looked) {
-            if (looked < patience) __builtin_ia32_pause();
-            else std::this_thread::yield();
+            if (looked < patience)
+                __builtin_ia32_pause();
+            else
+                std::this_thread::yield();
         }
     }
 
 private:
-    static constexpr int patience = 100;   // spins, some microseconds in all; after that the core may be needed for the others
+    static constexpr int patience =
+        100;  // spins, some microseconds in all; after that the core may be needed for the others
     const std::size_t threads_;
     alignas(64) std::atomic<std::size_t> arrived_{0};
     alignas(64) std::atomic<std::size_t> round_{0};

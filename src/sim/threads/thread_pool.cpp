@@ -16,8 +16,10 @@ template <class Ready>
 bool look_for(Ready&& ready) {
     for (int looked = 0; looked < patience + yielding_patience; ++looked) {
         if (ready()) return true;
-        if (looked < patience) __builtin_ia32_pause();
-        else std::this_thread::yield();
+        if (looked < patience)
+            __builtin_ia32_pause();
+        else
+            std::this_thread::yield();
     }
     return false;
 }
@@ -26,9 +28,10 @@ bool look_for(Ready&& ready) {
 
 ThreadPool::ThreadPool(int threads) {
     try {
-        for (int i = 1; i < threads; ++i) workers_.push_back(start_thread<std::jthread>([this, i] { live(std::size_t(i)); }));
+        for (int i = 1; i < threads; ++i)
+            workers_.push_back(start_thread<std::jthread>([this, i] { live(std::size_t(i)); }));
     } catch (...) {
-        end_workers();   // workers that have started wait for work
+        end_workers();  // workers that have started wait for work
         throw;
     }
 }
@@ -46,7 +49,7 @@ void ThreadPool::live(std::size_t thread) {
         seen = round_;
         work(thread);
         if (running_.fetch_sub(1) == 1) {
-            const std::lock_guard lock(mutex_);   // the caller is either before its poll or asleep
+            const std::lock_guard lock(mutex_);  // the caller is either before its poll or asleep
             done_.notify_one();
         }
     }
@@ -60,7 +63,7 @@ void ThreadPool::end_workers() {
         stop_ = true;
     }
     start_.notify_all();
-    workers_.clear();   // joins them while the data that they use still exists
+    workers_.clear();  // joins them while the data that they use still exists
 }
 
 void ThreadPool::give(std::uint32_t body, std::size_t thread) {

@@ -69,7 +69,7 @@ private:
     void call(std::size_t item, std::size_t thread);
 
     std::vector<std::jthread> workers_;
-    std::vector<std::uint8_t> owner_;   // by body
+    std::vector<std::uint8_t> owner_;  // by body
     std::uint64_t owner_changes_ = 0;
     std::mutex mutex_;
     std::condition_variable start_, done_;

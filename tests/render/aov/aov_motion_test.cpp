@@ -8,7 +8,7 @@
 namespace tumble {
 namespace {
 
-constexpr double tolerance = 2e-5;   // pixels: depth and the result have single precision
+constexpr double tolerance = 2e-5;  // pixels: depth and the result have single precision
 
 struct Moving {
     SceneDescription scene;
@@ -69,7 +69,7 @@ TEST(AovMotion, OfMovingBodies) { expect_motion(moving_bodies()); }
 
 TEST(AovMotion, OfAnOrbitingCamera) {
     Moving m = moving_bodies();
-    m.scene.camera.orbit = 180.0;   // 3 degrees a frame
+    m.scene.camera.orbit = 180.0;  // 3 degrees a frame
     expect_motion(m);
     m.next.bodies = m.now.bodies;
     expect_motion(m);
@@ -115,7 +115,7 @@ TEST(AovMotion, IsNaNWhereThePointGoesBehindTheEye) {
 TEST(AovMotion, ACordIsCarriedByItsShareOfTheLength) {
     Moving m = moving_bodies();
     const Vec3 anchor(0.0, 3.0, 0.0);
-    m.scene.cords.push_back({1, Vec3::Zero(), anchor, 1e-3, {}});   // so thin that its points are on the axis
+    m.scene.cords.push_back({1, Vec3::Zero(), anchor, 1e-3, {}});  // so thin that its points are on the axis
     m.scene.output.width = 1280;
     m.scene.output.height = 720;
     const AovFrame frame = made(m);
@@ -127,8 +127,10 @@ TEST(AovMotion, ACordIsCarriedByItsShareOfTheLength) {
             const auto pixel = std::size_t(row * 1280 + column);
             if (frame.segmentation[pixel] != 4) continue;
             ++pixels;
-            const double share = (view.ray(column, row).at(frame.depth[pixel]) - anchor).dot(along) / along.squaredNorm();
-            const Eigen::Vector2d expected = view.place(anchor + share * next_along) - view.place(anchor + share * along);
+            const double share =
+                (view.ray(column, row).at(frame.depth[pixel]) - anchor).dot(along) / along.squaredNorm();
+            const Eigen::Vector2d expected =
+                view.place(anchor + share * next_along) - view.place(anchor + share * along);
             EXPECT_NEAR(frame.motion[2 * pixel], expected.x(), 0.1);
             EXPECT_NEAR(frame.motion[2 * pixel + 1], expected.y(), 0.1);
         }

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-constexpr double float_rounding = 6e-8;   // relative, of one rounding to float
+constexpr double float_rounding = 6e-8;  // relative, of one rounding to float
 
 AovSet all() {
     AovSet aovs;
@@ -142,9 +142,12 @@ SceneDescription random_scene(unsigned seed) {
     const auto torus = torus_asset(1.0, 0.4, 12, 8);
     for (int i = 0; i < 12; ++i) {
         const Vec3 at = vector(5.0);
-        if (i % 3 == 0) scene.bodies.push_back(box_body(at, (vector(2.0).array().abs() + 0.05).matrix(), {}, turn()));
-        else if (i % 3 == 1) scene.bodies.push_back(ball_body(at, between(0.1, 1.5), {}, turn()));
-        else scene.bodies.push_back(mesh_body(at, torus, {}, turn()));
+        if (i % 3 == 0)
+            scene.bodies.push_back(box_body(at, (vector(2.0).array().abs() + 0.05).matrix(), {}, turn()));
+        else if (i % 3 == 1)
+            scene.bodies.push_back(ball_body(at, between(0.1, 1.5), {}, turn()));
+        else
+            scene.bodies.push_back(mesh_body(at, torus, {}, turn()));
     }
     scene.bodies[5].surface.visible = false;
     return scene;
@@ -230,7 +233,8 @@ TEST(AovSurface, PartsOfACompoundAreOneBodyWithTheirOwnColors) {
     (*parts)[1].shape = SphereShape{0.3};
     (*parts)[1].position = Vec3(-1.0, 0.0, 0.0);
     (*parts)[1].color = Color{7, 8, 9};
-    BodyDescription body = box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3}, Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitY())));
+    BodyDescription body =
+        box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3}, Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitY())));
     body.shape = CompoundShape{parts};
     scene.bodies = {ground_plane(), body};
     const AovFrame frame = made(scene);

@@ -39,7 +39,7 @@ double depth_of(const PlaneShape& plane, const WorldRay& ray) {
 double triangle_depth(const Vec3& a, const Vec3& b, const Vec3& c, const WorldRay& ray) {
     const Vec3 ab = b - a, ac = c - a, p = ray.direction.cross(ac);
     const double volume = ab.dot(p);
-    if (volume <= 0.0) return -1.0;   // from behind
+    if (volume <= 0.0) return -1.0;  // from behind
     const Vec3 from = ray.eye - a, q = from.cross(ab);
     const double u = from.dot(p) / volume, v = ray.direction.dot(q) / volume;
     if (u < 0.0 || v < 0.0 || u + v > 1.0) return -1.0;

@@ -12,7 +12,7 @@
 namespace tumble {
 
 struct WorldRay {
-    Vec3 eye, direction;   // direction . forward = 1
+    Vec3 eye, direction;  // direction . forward = 1
     Vec3 at(double depth) const { return eye + depth * direction; }
 };
 

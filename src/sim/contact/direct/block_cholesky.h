@@ -47,13 +47,14 @@ private:
     std::uint32_t find_block(std::uint32_t row, std::uint32_t column) const;
 
     std::size_t bodies_ = 0, work_ = 0;
-    std::vector<Pair> pairs_;                       // of the last analysis
-    std::vector<std::uint32_t> place_;              // position of a body in the order of elimination
-    std::vector<std::uint32_t> first_, column_;     // blocks right of the diagonal, by row: [first_[r], first_[r + 1])
-    std::vector<std::uint32_t> first_target_, target_;   // by row: blocks that the products of its blocks are subtracted from
+    std::vector<Pair> pairs_;                    // of the last analysis
+    std::vector<std::uint32_t> place_;           // position of a body in the order of elimination
+    std::vector<std::uint32_t> first_, column_;  // blocks right of the diagonal, by row: [first_[r], first_[r + 1])
+    std::vector<std::uint32_t> first_target_,
+        target_;  // by row: blocks that the products of its blocks are subtracted from
     std::vector<Coupling> coupling_;
     std::vector<Block> diagonal_, upper_;
-    std::vector<double> inverse_pivot_;             // six per row
+    std::vector<double> inverse_pivot_;  // six per row
     mutable std::vector<Row> work_vector_;
 };
 

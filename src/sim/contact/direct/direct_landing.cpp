@@ -9,7 +9,6 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/settings.h"
 
-
 #include <algorithm>
 #include <cmath>
 

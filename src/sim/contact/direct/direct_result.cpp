@@ -8,7 +8,7 @@ namespace tumble {
 using namespace contact_rows;
 
 void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
-    std::vector<bool> reached(bodies.size(), pushed);   // by impulses or a push
+    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
     for (const Patch& patch : patches_) {
         Manifold& m = problem.manifolds[patch.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
@@ -19,7 +19,8 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
         m.tangent = geometry.tangent_1;
         const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
-        Vec3 force = friction, moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;   // about A's center
+        Vec3 force = friction,
+             moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;  // about A's center
         for (int i = 0; i < patch.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
             m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;
@@ -49,7 +50,8 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         if (way_.empty()) continue;
         const double rate = 1.0 / problem.patches.h;
         body.push_velocity += rate * Vec3::Map(way_.data() + 6 * k) - body.velocity;
-        body.push_angular_velocity += rate / length_ * Vec3::Map(way_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
+        body.push_angular_velocity +=
+            rate / length_ * Vec3::Map(way_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
     }
 }
 

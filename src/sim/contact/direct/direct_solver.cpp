@@ -19,7 +19,9 @@ int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
     return found != bodies.end() && *found == body ? int(found - bodies.begin()) : -1;
 }
 
-Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) { return Eigen::Map<Vec3>(numbers.data() + from); }
+Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) {
+    return Eigen::Map<Vec3>(numbers.data() + from);
+}
 Eigen::Map<const Vec3> three(const std::vector<double>& numbers, std::size_t from) {
     return Eigen::Map<const Vec3>(numbers.data() + from);
 }
@@ -79,8 +81,10 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
             patch.overlap[i] = -p.separation;
             speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
         }
-        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
-        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b, length_);
+        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b,
+                length_);
+        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b,
+                length_);
         Vec3 turn = Vec3::Zero();
         const Vec3 motion = problem.before[m.b].velocity - problem.before[m.a].velocity;
         if (patch.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
@@ -92,7 +96,8 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.friction[1].estimate = m.friction[1];
         patch.twist.estimate = m.twist;
         const Vec3& n = geometry.normal;
-        const double gives = n.dot((a.inverse_inertia + b.inverse_inertia) * n);   // zero for bodies that no impulse moves
+        const double gives =
+            n.dot((a.inverse_inertia + b.inverse_inertia) * n);  // zero for bodies that no impulse moves
         patch.free_slip = std::hypot(patch.friction[0].offset + dot(patch, patch.friction[0], free_),
                                      patch.friction[1].offset + dot(patch, patch.friction[1], free_));
         patch.free_spin = std::abs(patch.twist.offset + dot(patch, patch.twist, free_));
@@ -170,7 +175,7 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
         Row& row = patch.normal[i];
         const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
         row.impulse = std::max(0.0, y);
-        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;   // an untouched stack has only ties
+        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;  // an untouched stack has only ties
     }
     // Both friction directions and, where they share the limit, the torsional friction over its lever: a ball
     // (spin_friction.h).
@@ -194,9 +199,12 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
         }
     }
     if (patch.count < 2 || patch.spins) return;
-    const double turning = patch.twist.estimate - (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
+    const double turning = patch.twist.estimate -
+                           (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
     patch.twist.impulse = std::clamp(turning, -patch.twist_limit, patch.twist_limit);
-    if (weights) weights->friction[2][2] = std::abs(turning) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
+    if (weights)
+        weights->friction[2][2] =
+            std::abs(turning) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
 }
 
 // M (u - u*) - J^T f; returns its size as an energy: sum g^2 / m.
@@ -256,13 +264,19 @@ bool DirectSolver::factor(bool pushing) {
         }
         const auto add_row = [&](const Row& left, const Row& right, double weight) {
             if (weight == 0.0) return;
-            const BlockCholesky::Row ra = weight * BlockCholesky::Row{right.on_a[0], right.on_a[1], right.on_a[2], right.on_a[3], right.on_a[4], right.on_a[5], 0.0, 0.0};
-            const BlockCholesky::Row rb = weight * BlockCholesky::Row{right.on_b[0], right.on_b[1], right.on_b[2], right.on_b[3], right.on_b[4], right.on_b[5], 0.0, 0.0};
+            const BlockCholesky::Row ra =
+                weight * BlockCholesky::Row{right.on_a[0], right.on_a[1], right.on_a[2], right.on_a[3],
+                                            right.on_a[4], right.on_a[5], 0.0,           0.0};
+            const BlockCholesky::Row rb =
+                weight * BlockCholesky::Row{right.on_b[0], right.on_b[1], right.on_b[2], right.on_b[3],
+                                            right.on_b[4], right.on_b[5], 0.0,           0.0};
             if (patch.a != none) add_outer(matrix_.diagonal(std::size_t(patch.a)), left.on_a, ra);
             if (patch.b != none) add_outer(matrix_.diagonal(std::size_t(patch.b)), left.on_b, rb);
             if (!both) return;
-            if (transposed) add_outer(*across, left.on_b, ra);
-            else add_outer(*across, left.on_a, rb);
+            if (transposed)
+                add_outer(*across, left.on_b, ra);
+            else
+                add_outer(*across, left.on_a, rb);
         };
         for (int i = 0; i < patch.count; ++i) add_row(patch.normal[i], patch.normal[i], w.normal[i]);
         const Row* const friction[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
@@ -289,7 +303,8 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
     if (slope_high <= enough) return 1.0;
     double low = 0.0, slope_low = slope_0, x = 1.0;
     for (int k = 0; k < tuning::direct_line_search; ++k) {
-        x = std::clamp((low * slope_high - high * slope_low) / (slope_high - slope_low), low + 0.02 * (high - low), high - 0.02 * (high - low));
+        x = std::clamp((low * slope_high - high * slope_low) / (slope_high - slope_low), low + 0.02 * (high - low),
+                       high - 0.02 * (high - low));
         const double s = slope(x, mass_slope, mass_curvature);
         if (std::abs(s) < enough) break;
         if (s < 0.0) {
@@ -326,7 +341,7 @@ bool DirectSolver::minimise(int most_steps) {
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
         for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.change = 0.0; });
-        if (-slope_0 < 1e-30 * energy) return true;   // the remainder is rounding
+        if (-slope_0 < 1e-30 * energy) return true;  // the remainder is rounding
     }
     return false;
 }
@@ -434,7 +449,8 @@ bool DirectSolver::solve_rounds() {
             set_limits(patch);
         }
         if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
-        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening, tuning::direct_friction_stiff * compliance_);
+        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
+                                        tuning::direct_friction_stiff * compliance_);
     }
     return true;
 }

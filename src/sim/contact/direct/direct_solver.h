@@ -28,7 +28,8 @@ class DirectSolver {
 public:
     /// Solves the island and changes bodies and manifolds as ContactProblem specifies. Returns false, and changes
     /// nothing, when no solution was found.
-    bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
+    bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+               std::span<const std::uint32_t> manifolds);
 
     /// Block operations of a factorization for this island.
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
@@ -40,13 +41,15 @@ private:
     static constexpr int none = contact_rows::none;
     using Row = contact_rows::Row;
     using Patch = contact_rows::Patch;
-    struct Weights {                    // second derivatives of a constraint's terms
-        double normal[4] = {}, friction[3][3] = {};   // friction: both directions and the torsional row
+    struct Weights {                                 // second derivatives of a constraint's terms
+        double normal[4] = {}, friction[3][3] = {};  // friction: both directions and the torsional row
     };
 
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
-    void load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
-    void structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies, std::span<const std::uint32_t> manifolds);
+    void load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                      std::span<const std::uint32_t> manifolds);
+    void structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                   std::span<const std::uint32_t> manifolds);
     void start();
     void set_limits(Patch& patch);
     bool minimise(int most_steps);
@@ -67,16 +70,17 @@ private:
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
 
     struct Mass {
-        double mass = 0.0;      // kg
-        Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();   // kg, over the squared length
+        double mass = 0.0;                                            // kg
+        Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  // kg, over the squared length
     };
-    double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;   // m, kg, m/s, m/s
-    double compliance_ = 0.0, friction_compliance_ = 0.0;          // 1/kg: R
-    bool driven_ = false;            // touches a prescribed motion: energy may enter
+    double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;  // m, kg, m/s, m/s
+    double compliance_ = 0.0, friction_compliance_ = 0.0;                         // 1/kg: R
+    bool driven_ = false;  // touches a prescribed motion: energy may enter
     int factorisations_ = 0;
     std::vector<Mass> masses_;
-    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_, kept_;   // u*, u, du, ...; six numbers per body
-    std::vector<double> way_;        // m, displacement in the step of a body that is solved in parts
+    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_,
+        kept_;                 // u*, u, du, ...; six numbers per body
+    std::vector<double> way_;  // m, displacement in the step of a body that is solved in parts
     std::vector<Patch> patches_;
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

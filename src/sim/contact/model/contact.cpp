@@ -35,10 +35,11 @@ namespace {
 // Uniform pressure resists a spin as its points would with their distances from the friction point scaled by the
 // spread.
 void set_rubbing(const Manifold& m, std::span<Contact> contacts) {
-    const auto touching = std::size_t(std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.touching(); }));
+    const auto touching =
+        std::size_t(std::count_if(contacts.begin(), contacts.end(), [](const Contact& c) { return c.touching(); }));
     if (touching < 2) return;
     const bool whole = touching == contacts.size();
-    Vec3 center = Vec3::Zero();   // relative to A's center
+    Vec3 center = Vec3::Zero();  // relative to A's center
     double weights = 0.0;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         if (!contacts[i].touching()) continue;
@@ -90,7 +91,8 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     if (m.count > 1) set_rubbing(m, std::span(contacts).last(std::size_t(m.count)));
 }
 
-void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts) {
+void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+                   std::vector<Contact>& contacts) {
     contacts.clear();
     for (const Manifold& m : manifolds) add_contacts(m, bodies, contacts);
 }

@@ -16,24 +16,25 @@
 namespace tumble {
 
 struct Contact {
-    std::uint32_t a = 0, b = 0, part = 0;   // body indices, and the triangle index of a mesh
+    std::uint32_t a = 0, b = 0, part = 0;  // body indices, and the triangle index of a mesh
     std::uint64_t feature = 0;
-    Vec3 normal;                            // away from A
-    Vec3 arm_a, arm_b;                      // r = p - x, world
-    Vec3 rub = Vec3::Zero();                // m, world: from the contact to the point where its friction acts (contact_area.h)
-    Corners corners = Corners::neither;     // the normal rotates with the other body's face
-    Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();   // directions (world) of crossing edges; else zero
+    Vec3 normal;              // away from A
+    Vec3 arm_a, arm_b;        // r = p - x, world
+    Vec3 rub = Vec3::Zero();  // m, world: from the contact to the point where its friction acts (contact_area.h)
+    Corners corners = Corners::neither;                 // the normal rotates with the other body's face
+    Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();  // directions (world) of crossing edges; else zero
     OnBall on_ball = OnBall::no;
     // m, world, from the bodies' centers; on a ball: the places of its curve, or the ball's center
     Vec3 place_a = Vec3::Zero(), place_b = Vec3::Zero();
-    Vec3 straight = Vec3::Zero();           // direction of the curve's line (Curve)
-    double separation = 0.0;                // m; negative: overlap
-    double touch_distance = 0.0;            // m, contact tolerance
-    double restitution = 0.0, friction = 0.0;   // of the pair of materials
+    Vec3 straight = Vec3::Zero();              // direction of the curve's line (Curve)
+    double separation = 0.0;                   // m; negative: overlap
+    double touch_distance = 0.0;               // m, contact tolerance
+    double restitution = 0.0, friction = 0.0;  // of the pair of materials
 
-    double impact = 0.0;                    // N s, impulse of this step's impact
-    Vec3 impact_friction = Vec3::Zero();    // N s on B, across the normal: friction impulse of the impact itself, if computed
-    double bounce_velocity = 0.0;           // m/s, v_rel after the impact: the integration of gravity must not consume it
+    double impact = 0.0;  // N s, impulse of this step's impact
+    Vec3 impact_friction =
+        Vec3::Zero();              // N s on B, across the normal: friction impulse of the impact itself, if computed
+    double bounce_velocity = 0.0;  // m/s, v_rel after the impact: the integration of gravity must not consume it
 
     bool touching() const { return separation <= touch_distance; }
 };
@@ -47,7 +48,8 @@ void add_impulse(const Contact& c, const Vec3& impulse, Body& a, Body& b);
 void add_impact(const Contact& c, Body& a, Body& b);
 
 /// Contacts of the manifolds in their order. Contacts of a single manifold are appended to the existing ones.
-void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
+void make_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+                   std::vector<Contact>& contacts);
 void add_contacts(const Manifold& manifold, const std::vector<Body>& bodies, std::vector<Contact>& contacts);
 
 }  // namespace tumble

@@ -47,7 +47,8 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
     return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
 }
 
-bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower, const ConstraintSettings& settings) {
+bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower,
+                 const ConstraintSettings& settings) {
     const double restitution = pair_restitution(a, b);
     if (p.separation <= touch_distance(a.radius, b.radius) || restitution <= 0.0) return false;
     const double approach = -(relative_velocity(p, normal, a, b) + slower);
@@ -59,14 +60,14 @@ Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal
     return change - normal.dot(change) * normal;
 }
 
-ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
-                        const ConstraintSettings& settings) {
+ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
+                             const BodyVelocity& before_b, const ConstraintSettings& settings) {
     ContactConstraint patch;
     patch.size = std::min(a.radius, b.radius);
     const double near = tuning::friction_near * patch.size;
-    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();   // relative to A's center
+    Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();  // relative to A's center
     double weights = 0.0, shares = 0.0;
-    bool whole = true;   // whether all of the area touches or nearly does
+    bool whole = true;  // whether all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const PredictedGap seen = passing(m, i, a, b, before_a, before_b, settings.h);

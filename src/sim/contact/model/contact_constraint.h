@@ -12,33 +12,34 @@ namespace tumble {
 
 struct ContactConstraint {
     struct Point {
-        Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();   // r = p - x, world
-        double separation = 0.0;    // m
-        double lever = 0.0;         // m, lever against a spin: distance from the friction point, times the spread
-        double impulse = 0.0;       // N s, of the last step
-        int source = 0;             // index of the point in the manifold
+        Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  // r = p - x, world
+        double separation = 0.0;                          // m
+        double lever = 0.0;    // m, lever against a spin: distance from the friction point, times the spread
+        double impulse = 0.0;  // N s, of the last step
+        int source = 0;        // index of the point in the manifold
     };
     int count = 0;
-    Vec3 normal = Vec3::Zero(), tangent_1 = Vec3::Zero(), tangent_2 = Vec3::Zero();   // tangent_2 = normal x tangent_1
+    Vec3 normal = Vec3::Zero(), tangent_1 = Vec3::Zero(), tangent_2 = Vec3::Zero();  // tangent_2 = normal x tangent_1
     Vec3 friction_arm_a = Vec3::Zero(), friction_arm_b = Vec3::Zero();
-    double friction = 0.0;          // mu
-    double spread = 1.0;            // Manifold::spread
-    double size = 0.0;              // m, the smaller body's radius: tolerances are fractions of it
+    double friction = 0.0;  // mu
+    double spread = 1.0;    // Manifold::spread
+    double size = 0.0;      // m, the smaller body's radius: tolerances are fractions of it
     std::array<Point, Manifold::capacity> points;
 };
 
 /// Settings of the step for contact constraints.
 struct ConstraintSettings {
-    double h;                   // s
-    double bounce_threshold;    // m/s: with restitution, points that approach faster may overlap and collide,
-    double least_rebound = 0.0; // m/s: if their rebound is faster than this
+    double h;                    // s
+    double bounce_threshold;     // m/s: with restitution, points that approach faster may overlap and collide,
+    double least_rebound = 0.0;  // m/s: if their rebound is faster than this
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the
 /// surfaces, so that they keep their angular momentum. Else: on the surface of the body that impulses move. So a ball
 /// found somewhat inside or above the floor still has its radius as lever, and keeps its angular momentum about the
 /// place where it lands.
-inline Vec3 acting_place(const Vec3& position, double separation, const Vec3& normal, bool a_gives_way, bool b_gives_way) {
+inline Vec3 acting_place(const Vec3& position, double separation, const Vec3& normal, bool a_gives_way,
+                         bool b_gives_way) {
     if (a_gives_way == b_gives_way) return position;
     return position + (a_gives_way ? -0.5 : 0.5) * separation * normal;
 }
@@ -48,11 +49,12 @@ double relative_velocity(const ContactPoint& point, const Vec3& normal, const Bo
 
 /// Whether a point is skipped in this step because it will bounce: stopping it at the surface would take the speed of
 /// its rebound. `slower` (m/s): PredictedGap::slower.
-bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower, const ConstraintSettings& settings);
+bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower,
+                 const ConstraintSettings& settings);
 
 /// Returns a constraint without points when none has to be held.
 ContactConstraint make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
-                        const BodyVelocity& before_b, const ConstraintSettings& settings);
+                             const BodyVelocity& before_b, const ConstraintSettings& settings);
 
 /// A point on a turning kinematic body moves on an arc, but its velocity at the start of the step points along the
 /// tangent: with that alone, carried bodies would creep outward. Friction uses the velocity at the carried body's

@@ -27,7 +27,8 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
 void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
                           std::span<const std::uint32_t> awake) {
     ++round_;
-    for (const std::uint32_t i : awake) members_[i] = {.round = round_, .parent = i, .island = no_island, .role = Role::takes_part};
+    for (const std::uint32_t i : awake)
+        members_[i] = {.round = round_, .parent = i, .island = no_island, .role = Role::takes_part};
     held_.assign(touching.size(), no_island);
     for (std::size_t k = 0; k < touching.size(); ++k) {
         const auto [a, b] = touching[k];
@@ -78,7 +79,8 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         manifolds_[place] = k;
         pairs_[place] = touching[k];
         if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
-        if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still) floats_[number] = 0;
+        if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still)
+            floats_[number] = 0;
     }
 }
 

@@ -20,7 +20,8 @@ public:
     /// - `awake`: the bodies that take part, ascending: dynamic, not asleep, not ballistic.
     /// Other bodies belong to no island and connect none. Manifolds without a body that takes part, and bodies without
     /// manifolds, are skipped. The same pairs and the same awake bodies give the same islands.
-    void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake);
+    void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
+              std::span<const std::uint32_t> awake);
 
     /// Number of times the islands were rebuilt: equal numbers mean the same islands.
     std::uint64_t changes() const { return round_; }
@@ -32,11 +33,13 @@ public:
         return std::span(bodies_).subspan(first_body_[island], first_body_[island + 1] - first_body_[island]);
     }
     std::span<const std::uint32_t> manifolds(std::size_t island) const {
-        return std::span(manifolds_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
+        return std::span(manifolds_)
+            .subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
     }
     /// Body pairs of the island's manifolds, in the same order.
     std::span<const BodyPair> pairs(std::size_t island) const {
-        return std::span(pairs_).subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
+        return std::span(pairs_).subspan(first_manifold_[island],
+                                         first_manifold_[island + 1] - first_manifold_[island]);
     }
     /// Number of body pairs that touch; a pair of compounds or meshes may have many manifolds.
     std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
@@ -57,11 +60,11 @@ private:
         bool touched = false;
     };
     std::vector<Member> members_;
-    std::vector<std::uint32_t> held_;              // by manifold: index of one of its bodies that takes part
+    std::vector<std::uint32_t> held_;  // by manifold: index of one of its bodies that takes part
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
-    std::vector<BodyPair> pairs_;                  // in the order of manifolds_
-    std::vector<std::uint32_t> touching_pairs_;    // by island
+    std::vector<BodyPair> pairs_;                // in the order of manifolds_
+    std::vector<std::uint32_t> touching_pairs_;  // by island
     std::vector<std::uint8_t> floats_;
 };
 

@@ -2,22 +2,22 @@
 // one torsional friction. u holds six numbers per body: velocity, and the length (m) times angular velocity.
 #pragma once
 
-#include "sim/dynamics/body.h"
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/dynamics/body.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace tumble::contact_rows {
 
-inline constexpr int none = -1;   // index of a body that is not a dynamic body of the island
+inline constexpr int none = -1;  // index of a body that is not a dynamic body of the island
 
-struct Row {                        // a row of J and its scalars
+struct Row {  // a row of J and its scalars
     double on_a[6] = {}, on_b[6] = {};
-    double offset = 0.0;            // m/s, contribution of bodies with prescribed velocity
-    double target = 0.0;            // m/s: b in direct_solver.h
-    double estimate = 0.0, impulse = 0.0;   // N s: e and f in direct_solver.h
-    double speed = 0.0, change = 0.0;       // J u + offset, J du
+    double offset = 0.0;                   // m/s, contribution of bodies with prescribed velocity
+    double target = 0.0;                   // m/s: b in direct_solver.h
+    double estimate = 0.0, impulse = 0.0;  // N s: e and f in direct_solver.h
+    double speed = 0.0, change = 0.0;      // J u + offset, J du
 };
 struct Patch {
     int a = none, b = none, pair = none, count = 0;
@@ -25,9 +25,9 @@ struct Patch {
     Row normal[4], friction[2], twist;
     double lever[4] = {}, overlap[4] = {};  // m
     double coefficient = 0.0, limit = 0.0, twist_limit = 0.0, size = 0.0;
-    double spin_lever = 0.0;        // m, of torsional friction that shares the friction limit
-    double free_slip = 0.0, free_spin = 0.0, twist_mass = 0.0;   // m/s and rad/s after the forces alone; kg m^2
-    bool spins = false;             // the spin is faster than torsional friction can stop: it shares the friction limit
+    double spin_lever = 0.0;  // m, of torsional friction that shares the friction limit
+    double free_slip = 0.0, free_spin = 0.0, twist_mass = 0.0;  // m/s and rad/s after the forces alone; kg m^2
+    bool spins = false;  // the spin is faster than torsional friction can stop: it shares the friction limit
     Vec3 tangent_1 = Vec3::Zero();
     std::uint8_t source[4] = {};
     ContactConstraint geometry;
@@ -42,8 +42,8 @@ inline void put(double* six, const Vec3& linear, const Vec3& angular) {
 }
 
 /// A row of `patch`: direction . (velocity of B's point - that of A's point).
-void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a, const Body& b,
-             double length);
+void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a,
+             const Body& b, double length);
 /// The torsional row: normal . (angular velocity of B - that of A).
 void set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b, double length);
 

@@ -5,7 +5,8 @@
 namespace tumble {
 
 LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
-                         std::span<const std::uint32_t> island_bodies, std::span<const std::uint32_t> island_manifolds) {
+                                 std::span<const std::uint32_t> island_bodies,
+                                 std::span<const std::uint32_t> island_manifolds) {
     for (const std::uint32_t i : island_bodies) nodes_[i] = {-1, 0, 0, bodies[i].mass};
     const auto both = [&](const Manifold& m) { return bodies[m.a].dynamic() && bodies[m.b].dynamic(); };
     order_.clear();
@@ -35,7 +36,9 @@ LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vec
         neighbours_[nodes_[m.b].first + std::uint32_t(nodes_[m.b].neighbours++)] = m.a;
     }
     const auto each_neighbour = [&](std::uint32_t i, auto&& visit) {
-        for (int n = 0; n < nodes_[i].neighbours; ++n) visit(nodes_[neighbours_[nodes_[i].first + std::uint32_t(n)]], neighbours_[nodes_[i].first + std::uint32_t(n)]);
+        for (int n = 0; n < nodes_[i].neighbours; ++n)
+            visit(nodes_[neighbours_[nodes_[i].first + std::uint32_t(n)]],
+                  neighbours_[nodes_[i].first + std::uint32_t(n)]);
     };
     for (std::size_t k = 0; k < order_.size(); ++k) {
         const std::uint32_t i = order_[k];

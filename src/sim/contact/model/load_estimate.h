@@ -16,23 +16,23 @@ struct LoadEstimate {
     /// Starting with the bodies farthest from a fixed support, each body distributes its carried mass in equal shares
     /// to its neighbors one level nearer.
     double ratio = 1.0;
-    int levels = 1;   // number of bodies in the longest of the shortest chains to a fixed support, which does not count
+    int levels = 1;  // number of bodies in the longest of the shortest chains to a fixed support, which does not count
 };
 
 class LoadEstimates {
 public:
     explicit LoadEstimates(std::size_t bodies) : nodes_(bodies) {}
 
-    LoadEstimate find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> island_bodies,
-                std::span<const std::uint32_t> island_manifolds);
+    LoadEstimate find(const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
+                      std::span<const std::uint32_t> island_bodies, std::span<const std::uint32_t> island_manifolds);
 
 private:
     struct Node {
         int level = -1, neighbours = 0;
-        std::uint32_t first = 0;   // index of the first neighbor
-        double load = 0.0;         // kg
+        std::uint32_t first = 0;  // index of the first neighbor
+        double load = 0.0;        // kg
     };
-    std::vector<Node> nodes_;      // by body; valid for the island's bodies
+    std::vector<Node> nodes_;  // by body; valid for the island's bodies
     std::vector<std::uint32_t> neighbours_, order_;
 };
 

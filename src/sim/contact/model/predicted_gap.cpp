@@ -14,18 +14,22 @@ namespace {
 // With d the distance vector of the places across the line, initially d0 n, and u the relative velocity of the places
 // across the line, |d0 n + u t| is least at t = -d0 n.u / u^2, or at the end of the step.
 // If that is an overlap, the bodies do meet.
-double gap_of_curves(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+double gap_of_curves(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
+                     const BodyVelocity& before_b, double h) {
     const double gap = m.points[0].separation;
     if (!(gap > 0.0)) return gap;
     const Curve curve = m.curve();
-    const auto velocity = [](const BodyVelocity& v, const Vec3& arm) { return Vec3(v.velocity + v.angular_velocity.cross(arm)); };
+    const auto velocity = [](const BodyVelocity& v, const Vec3& arm) {
+        return Vec3(v.velocity + v.angular_velocity.cross(arm));
+    };
     Vec3 u = velocity(before_b, curve.on_b - b.position) - velocity(before_a, curve.on_a - a.position);
     u -= curve.straight.dot(u) * curve.straight;
     const double closing = -m.normal.dot(u), d = curve.distance, square = u.squaredNorm();
     if (!(closing * h > gap)) return gap;
     const double t = std::min(h, d * closing / square);
     const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
-    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap : std::max(gap, nearest + h * closing);
+    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap
+                                                                             : std::max(gap, nearest + h * closing);
 }
 
 RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
@@ -35,13 +39,16 @@ RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
 
 }  // namespace
 
-PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a,
+                     const BodyVelocity& before_b, double h) {
     const ContactPoint& p = m.points[std::size_t(index)];
     const PredictedGap as_it_is{p.position, p.separation, 0.0};
     if (m.on_ball == OnBall::curve) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
     const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;
-    if (square * before_a.angular_velocity.squaredNorm() < least && square * before_b.angular_velocity.squaredNorm() < least) return as_it_is;
+    if (square * before_a.angular_velocity.squaredNorm() < least &&
+        square * before_b.angular_velocity.squaredNorm() < least)
+        return as_it_is;
     const bool of_a = m.corners == Corners::of_a;
     const RigidMotion on_a = motion_of(a, before_a), on_b = motion_of(b, before_b);
     const RigidMotion &corner = of_a ? on_a : on_b, &face = of_a ? on_b : on_a;
@@ -56,23 +63,28 @@ PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b,
     if (!(bottom > 0.0)) return as_it_is;
     // Height of the path half a step before its bottom: a body that rolls over more than one corner per step may pass
     // by that much below the deepest point. Deeper is an impact.
-    const double passed = std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
+    const double passed =
+        std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
     if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, swing.closing_by_turn(bottom));
-    return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom), closing - swing.closing(bottom)};
+    return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom),
+            closing - swing.closing(bottom)};
 }
 
 // With r = r_e + r_x along and across the unit vector e of w:
 //   r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
-Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h) {
+Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
+                   const BodyVelocity& before_b, double h) {
     if (!m.ball_over_face()) return Vec3::Zero();
     const bool of_a = m.on_ball == OnBall::a_over_face;
     const Body &body = of_a ? a : b, &face = of_a ? b : a;
-    const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity, &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
+    const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity,
+               &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
     const Vec3 arm = m.ball() - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
-    if (face.moves() && h * face_turn.norm() > tuning::swing_turn) return Vec3::Zero();   // the face's rotation matters too
+    if (face.moves() && h * face_turn.norm() > tuning::swing_turn)
+        return Vec3::Zero();  // the face's rotation matters too
     const Vec3 axis = turn / w, beside = axis.cross(arm), across = arm - axis.dot(arm) * axis;
     const auto [sine, cosine] = sincos(w * h);
     const Vec3 round = ((cosine - 1.0) * across + (sine - w * h) * beside) / h;

@@ -12,20 +12,21 @@ namespace tumble {
 /// Replacement of a manifold's point for the solvers: a uniform approach to this gap, with arms from the bodies'
 /// positions at the start of the step to this position, ends where the bodies come nearest on their curves.
 struct PredictedGap {
-    Vec3 position = Vec3::Zero();   // world
-    double gap = 0.0;               // m
-    double slower = 0.0;            // m/s: decrease of the approach speed until then
+    Vec3 position = Vec3::Zero();  // world
+    double gap = 0.0;              // m
+    double slower = 0.0;           // m/s: decrease of the approach speed until then
 };
 
 /// `before`: the velocities before the step's forces; `h`: the time (s) in which the gap may be closed.
 /// For points on balls (OnBall::curve) only the gap changes.
-PredictedGap passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b,
-                double h);
+PredictedGap passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a,
+                     const BodyVelocity& before_b, double h);
 
 /// A ball off its body's center of mass, as in a compound, moves on an arc. Over a step of h seconds this differs from
 /// its velocity at the start of the step, w x r, times h. Returns the difference as a velocity (m/s) of B's ball
 /// relative to A's face, or of A's relative to B's. Without it, a rolling body hops where its center of mass is low and
 /// sinks where it is high.
-Vec3 carried_round(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a, const BodyVelocity& before_b, double h);
+Vec3 carried_round(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
+                   const BodyVelocity& before_b, double h);
 
 }  // namespace tumble

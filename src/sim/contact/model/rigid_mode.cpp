@@ -4,7 +4,9 @@ namespace tumble {
 namespace {
 
 // Inertia of a point mass at r: m (r.r - r r^T).
-Mat3 point_inertia(double mass, const Vec3& r) { return mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose()); }
+Mat3 point_inertia(double mass, const Vec3& r) {
+    return mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+}
 
 Mat3 inertia_of(const Body& body) { return body.rotation * body.inertia_body * body.rotation.transpose(); }
 
@@ -30,7 +32,7 @@ void RigidMode::add(const RigidMode& other) {
 void RigidMode::finish() {
     center_ = moment_ / mass_;
     velocity_ = momentum_ / mass_;
-    inertia_ -= point_inertia(mass_, center_);   // Steiner's theorem
+    inertia_ -= point_inertia(mass_, center_);  // Steiner's theorem
     angular_momentum_ -= center_.cross(momentum_);
     angular_velocity_ = inertia_.inverse() * angular_momentum_;
 }

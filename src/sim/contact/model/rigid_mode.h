@@ -21,18 +21,18 @@ public:
     /// Computes c, V and W. Precondition: all bodies were added.
     void finish();
 
-    double energy() const;                            // J
-    BodyVelocity at(const Vec3& position, const Vec3& origin) const;   // V + W x (x - c), W
+    double energy() const;                                            // J
+    BodyVelocity at(const Vec3& position, const Vec3& origin) const;  // V + W x (x - c), W
 
     /// Scales the body's motion relative to the mode, and keeps its displacement in the step.
     void scale_rest(double scale, const Vec3& origin, Body& body) const;
 
 private:
-    double mass_ = 0.0;                               // kg
-    Vec3 moment_ = Vec3::Zero();                      // kg m, first moment of the masses
+    double mass_ = 0.0;           // kg
+    Vec3 moment_ = Vec3::Zero();  // kg m, first moment of the masses
     Vec3 momentum_ = Vec3::Zero(), angular_momentum_ = Vec3::Zero();
     Mat3 inertia_ = Mat3::Zero();
-    Vec3 center_ = Vec3::Zero();                      // m, relative to the origin
+    Vec3 center_ = Vec3::Zero();  // m, relative to the origin
     Vec3 velocity_ = Vec3::Zero(), angular_velocity_ = Vec3::Zero();
 };
 

@@ -35,7 +35,7 @@ inline constexpr double passing_overlap = 2e-3;
 /// friction accelerates by 0.01 sin(angle) m/s^2.
 inline constexpr std::array<double, 4> sleep_times = {0.5, 1.0, 2.0, 4.0};
 inline constexpr double sleep_acceleration = 2.5e-5;
-inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }   // radii
+inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }  // radii
 
 /// Bodies with smaller accelerations are told by their velocity, which is sampled at this interval (s; at least one step).
 inline constexpr double sleep_look = sleep_times.front() / 16.0;

@@ -39,7 +39,8 @@ bool stands(const Body& body) {
 
 }  // namespace
 
-bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h, double speed_change) {
+bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h,
+                                double speed_change) {
     if (sleepers_ == 0) return false;
     bool woken = false;
     // A woken group may touch another sleeping one: repeat until no body wakes.
@@ -61,7 +62,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
 // Whether the body has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
-    const double least = (tuning::sleep_looks + 1) * h;   // steps may be as long as a span: its trend must be known
+    const double least = (tuning::sleep_looks + 1) * h;  // steps may be as long as a span: its trend must be known
     for (std::size_t k = 0; k < spans.size(); ++k) {
         Span& span = spans[k];
         const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
@@ -92,8 +93,8 @@ bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed
     return trend.steady >= tuning::sleep_looks;
 }
 
-void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
-                           double h, double speed_change) {
+void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds,
+                           std::vector<Body>& bodies, double h, double speed_change) {
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, leans = false;
         for (const std::uint32_t i : islands.bodies(island)) {

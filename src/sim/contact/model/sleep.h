@@ -6,9 +6,9 @@
 // free flight never sleep, however slow.
 #pragma once
 
+#include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/manifold.h"
-#include "sim/contact/model/contact_islands.h"
 
 #include <array>
 #include <memory>
@@ -30,29 +30,30 @@ public:
 
     /// Observes the awake bodies over a step of h seconds and puts islands at rest to sleep. `speed_change` (m/s): by
     /// gravity in the step.
-    void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies, double h,
-                 double speed_change = 0.0);
+    void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
+                 double h, double speed_change = 0.0);
 
     /// Increases whenever a body falls asleep or wakes.
     std::uint64_t changes() const { return changes_; }
 
 private:
     struct Span {
-        Vec3 position = Vec3::Constant(1e300);   // m, world, at the start of the span
+        Vec3 position = Vec3::Constant(1e300);  // m, world, at the start of the span
         Quat orientation = Quat::Identity();
-        double still = 0.0;                      // s
+        double still = 0.0;  // s
     };
     using Spans = std::array<Span, tuning::sleep_times.size()>;
     struct Trend {
-        using Velocity = Eigen::Matrix<double, 6, 1>;                      // m/s, of the center, and of the surface relative to it
-        Velocity velocity = Velocity::Zero(), change = Velocity::Zero();   // at the last sample; change since the one before
-        double since = 0.0;                                                // s, since the last sample
-        int steady = 0;                                                    // consecutive samples without rest
+        using Velocity = Eigen::Matrix<double, 6, 1>;  // m/s, of the center, and of the surface relative to it
+        Velocity velocity = Velocity::Zero(),
+                 change = Velocity::Zero();  // at the last sample; change since the one before
+        double since = 0.0;                  // s, since the last sample
+        int steady = 0;                      // consecutive samples without rest
     };
     struct Watch {
         Spans spans;
         Trend trend;
-        std::shared_ptr<const std::vector<std::uint32_t>> group;   // bodies that fell asleep together; set while asleep
+        std::shared_ptr<const std::vector<std::uint32_t>> group;  // bodies that fell asleep together; set while asleep
     };
     static bool follow(Spans& spans, const Body& body, double h);
     static bool follow(Trend& trend, const Body& body, double h, double speed_change);

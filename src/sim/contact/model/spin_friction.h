@@ -23,14 +23,14 @@
 
 namespace tumble::spin_friction {
 
-inline constexpr double disc = 9.0 / 4.0;             // squared ratio of a disc's radius to its mean distance
-inline constexpr double sliding_square = 9.0 / 16.0, spinning_square = 3.0 / 2.0;   // l^2 / d^2
-inline constexpr double spinning_limit = 2.0 / 3.0;   // k^2
-inline constexpr double steep = 0.3, bent = 0.42;     // fitted
+inline constexpr double disc = 9.0 / 4.0;  // squared ratio of a disc's radius to its mean distance
+inline constexpr double sliding_square = 9.0 / 16.0, spinning_square = 3.0 / 2.0;  // l^2 / d^2
+inline constexpr double spinning_limit = 2.0 / 3.0;                                // k^2
+inline constexpr double steep = 0.3, bent = 0.42;                                  // fitted
 
 struct Limit {
-    double lever = 1.0;   // l / d
-    double load = 1.0;    // k
+    double lever = 1.0;  // l / d
+    double load = 1.0;   // k
 };
 
 /// Precondition: of `slip` and `spin`, which are v^2 and (d w)^2, one is not zero.

@@ -12,7 +12,8 @@ void BodyBlocks::clear() {
 
 void BodyBlocks::add(std::span<const std::uint32_t> island, const std::vector<Body>& bodies) {
     if (island.size() <= most_) {
-        if (!open_ || order_.size() + island.size() - first_[first_.size() - 2] > most_) first_.push_back(order_.size());
+        if (!open_ || order_.size() + island.size() - first_[first_.size() - 2] > most_)
+            first_.push_back(order_.size());
         order_.insert(order_.end(), island.begin(), island.end());
         first_.back() = order_.size();
         open_ = true;
@@ -34,7 +35,9 @@ void BodyBlocks::cut(std::span<PlacedBody> items) {
     const int axis = longest_side(items);
     halves_.assign(items.begin(), items.end());
     const std::size_t half = cut_at_median(halves_, axis);
-    const auto lower = [before = PlacedBody::before(axis), median = halves_[half]](const PlacedBody& item) { return before(item, median); };
+    const auto lower = [before = PlacedBody::before(axis), median = halves_[half]](const PlacedBody& item) {
+        return before(item, median);
+    };
     const auto upper_half = std::copy_if(items.begin(), items.end(), halves_.begin(), lower);
     std::remove_copy_if(items.begin(), items.end(), upper_half, lower);
     std::copy(halves_.begin(), halves_.end(), items.begin());

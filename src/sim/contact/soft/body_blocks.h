@@ -33,7 +33,7 @@ private:
     std::size_t most_;
     std::vector<std::uint32_t> order_;
     std::vector<std::size_t> first_{0};
-    bool open_ = false;          // the last block accepts further small islands
+    bool open_ = false;  // the last block accepts further small islands
     std::vector<PlacedBody> items_, halves_;
 };
 

@@ -22,7 +22,8 @@ void open_account(ForceAccount& account, const Body& body, const BodyVelocity& b
     const Vec3 spun_up = body.angular_velocity - before.angular_velocity;
     account.impulse = body.mass * (body.velocity - before.velocity);
     account.turn = Vec3::Zero();
-    if (!spun_up.isZero(0.0)) account.turn = body.rotation * (body.inertia_body * (body.rotation.transpose() * spun_up));
+    if (!spun_up.isZero(0.0))
+        account.turn = body.rotation * (body.inertia_body * (body.rotation.transpose() * spun_up));
     account.with_forces = body.kinetic_energy();
     account.start = 0.5 * ((body.momentum - account.impulse).dot(before.velocity) +
                            (body.angular_momentum - account.turn).dot(before.angular_velocity));
@@ -31,7 +32,8 @@ void open_account(ForceAccount& account, const Body& body, const BodyVelocity& b
 
 void EnergyBudget::add(ForceAccount& forces, const Body& solved) {
     const double energy = solved.kinetic_energy(), forces_work = work_on(forces, solved);
-    forces.gain = std::clamp(energy - forces.start - forces_work, 0.0, energy);   // a lifted body without motion has none
+    forces.gain =
+        std::clamp(energy - forces.start - forces_work, 0.0, energy);  // a lifted body without motion has none
     start += forces.start;
     with_forces += forces.with_forces;
     now += energy;
@@ -48,7 +50,8 @@ void EnergyBudget::add(const EnergyBudget& other) {
 }
 
 double EnergyBudget::excess(bool lifted_free) const {
-    const double fastest = std::max(start, with_forces), most = lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
+    const double fastest = std::max(start, with_forces),
+                 most = lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
     return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
 }
 
@@ -69,7 +72,8 @@ void take_back(const ForceAccount& forces, double share, double way, Body& body)
     body.push_angular_velocity = angular_velocity - body.angular_velocity;
 }
 
-bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies, const std::vector<BodyVelocity>& before, double h) {
+bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies,
+                 const std::vector<BodyVelocity>& before, double h) {
     if (island.size() > tuning::soft_energy_bodies) return false;
     const double fast = tuning::soft_energy_turn * substeps_of(h) / h;
     return std::any_of(island.begin(), island.end(), [&](std::uint32_t i) {

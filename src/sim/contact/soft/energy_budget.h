@@ -18,17 +18,17 @@ namespace tumble {
 
 /// Effect of the step's forces on a body, before its contacts are solved.
 struct ForceAccount {
-    Vec3 impulse, turn;                // N s, N m s
-    double start, with_forces;         // J, kinetic: before and after the forces
-    double gain = 0.0;                 // J, added by the contacts; at most the body's energy
+    Vec3 impulse, turn;         // N s, N m s
+    double start, with_forces;  // J, kinetic: before and after the forces
+    double gain = 0.0;          // J, added by the contacts; at most the body's energy
 };
 void open_account(ForceAccount& account, const Body& body, const BodyVelocity& before);
 
 /// Sums over bodies that contacts have reached, J.
 struct EnergyBudget {
-    double start = 0.0, with_forces = 0.0, now = 0.0;   // kinetic: before and after the forces, and after the solve
-    double work = 0.0;                                  // by the forces along the coming displacement of the solved body
-    double gains = 0.0;                                 // sum over the bodies that gained
+    double start = 0.0, with_forces = 0.0, now = 0.0;  // kinetic: before and after the forces, and after the solve
+    double work = 0.0;                                 // by the forces along the coming displacement of the solved body
+    double gains = 0.0;                                // sum over the bodies that gained
 
     /// Adds a body and sets its own gain.
     void add(ForceAccount& forces, const Body& solved);
@@ -44,6 +44,7 @@ void take_back(const ForceAccount& forces, double share, double way, Body& body)
 
 /// Whether soft contacts may spin up a body of this island; its displacement is then limited by the budget. In other
 /// islands, resting bodies may be pushed out of an overlap at no cost.
-bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies, const std::vector<BodyVelocity>& before, double h);
+bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies,
+                 const std::vector<BodyVelocity>& before, double h);
 
 }  // namespace tumble

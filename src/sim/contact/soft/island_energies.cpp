@@ -2,7 +2,6 @@
 
 #include "sim/contact/soft/settings.h"
 
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -17,13 +16,18 @@ void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bod
     for (const SoftLayout::Island& island : layout.islands()) {
         const auto number = std::uint32_t(islands_.size());
         const std::size_t first_account = accounts_.size();
-        if (island.end_block <= island.first_block + 1) accounts_.push_back({island.first, island.end, number, {}, {}});
+        if (island.end_block <= island.first_block + 1)
+            accounts_.push_back({island.first, island.end, number, {}, {}});
         else
             for (std::size_t b = island.first_block; b < island.end_block; ++b)
                 accounts_.push_back({blocks.first(b), blocks.first(b + 1), number, {}, {}});
-        islands_.push_back({.first_account = first_account, .end_account = accounts_.size(), .origin = bodies[blocks.order()[island.first]].position,
-                            .leans = island.leans != 0, .driven = island.driven != 0});
-        for (std::size_t k = first_account; k < accounts_.size(); ++k) account_of_.resize(accounts_[k].end, std::uint32_t(k));
+        islands_.push_back({.first_account = first_account,
+                            .end_account = accounts_.size(),
+                            .origin = bodies[blocks.order()[island.first]].position,
+                            .leans = island.leans != 0,
+                            .driven = island.driven != 0});
+        for (std::size_t k = first_account; k < accounts_.size(); ++k)
+            account_of_.resize(accounts_[k].end, std::uint32_t(k));
     }
     forces_.resize(blocks.order().size());
     reached_.assign(blocks.order().size(), 0);
@@ -58,7 +62,8 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
             continue;
         }
         const std::size_t begin = accounts_[island.first_account].first, end = accounts_[island.end_account - 1].end;
-        const bool pays = !island.deep && may_spin_up(std::span(blocks.order()).subspan(begin, end - begin), bodies, before, h);
+        const bool pays =
+            !island.deep && may_spin_up(std::span(blocks.order()).subspan(begin, end - begin), bodies, before, h);
         const double way = pays ? sum.affordable_way() : 1.0;
         for (std::size_t k = account->first; k < account->end; ++k)
             if (reached_[k]) take_back(forces_[k], excess, way, bodies[blocks.order()[k]]);
@@ -66,7 +71,8 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
 }
 
 // A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.
-void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const {
+void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
+                                   std::vector<Body>& bodies) const {
     const Island& island = islands_[account.island];
     RigidMode motion;
     for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);

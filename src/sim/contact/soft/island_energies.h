@@ -23,7 +23,9 @@ public:
     void lies_deep(std::size_t place);
 
     /// Called before the solve, and after it if contacts have reached the body; each position by one thread.
-    void begin(std::size_t place, const Body& body, const BodyVelocity& before) { open_account(forces_[place], body, before); }
+    void begin(std::size_t place, const Body& body, const BodyVelocity& before) {
+        open_account(forces_[place], body, before);
+    }
     void end(std::size_t place, const Body& body);
 
     /// Removes the excess from the bodies at the positions first to last, which begin and end with blocks.
@@ -33,25 +35,26 @@ public:
 
 private:
     struct Account {
-        std::size_t first, end;   // positions in the blocks' order
+        std::size_t first, end;  // positions in the blocks' order
         std::uint32_t island;
         EnergyBudget energy;
-        RigidMode motion;      // of a free island
+        RigidMode motion;  // of a free island
     };
     struct Island {
         std::size_t first_account, end_account;
-        Vec3 origin;              // m, one of its bodies
-        bool leans, driven;       // touches a static body; touches a moving kinematic one, which may add energy
+        Vec3 origin;         // m, one of its bodies
+        bool leans, driven;  // touches a static body; touches a moving kinematic one, which may add energy
         std::uint8_t deep = 0;
     };
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
-    void hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks, std::vector<Body>& bodies) const;
+    void hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
+                       std::vector<Body>& bodies) const;
 
     std::vector<Island> islands_;
-    std::vector<Account> accounts_;           // ascending by position
-    std::vector<std::uint32_t> account_of_;   // by position
-    std::vector<ForceAccount> forces_;        // by position
-    std::vector<std::uint8_t> reached_;       // by position
+    std::vector<Account> accounts_;          // ascending by position
+    std::vector<std::uint32_t> account_of_;  // by position
+    std::vector<ForceAccount> forces_;       // by position
+    std::vector<std::uint8_t> reached_;      // by position
 };
 
 }  // namespace tumble

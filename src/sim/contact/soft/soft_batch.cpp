@@ -44,7 +44,8 @@ std::array<std::uint8_t, Manifold::capacity> deepest_last(const Manifold& m) {
     constexpr std::size_t n = Manifold::capacity;
     double gap[n];
     std::size_t place[n] = {0, 1, 2, 3};
-    for (std::size_t i = 0; i < n; ++i) gap[i] = int(i) < m.count ? m.points[i].separation : -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i)
+        gap[i] = int(i) < m.count ? m.points[i].separation : -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = i + 1; k < n; ++k) {
             const std::size_t before = gap[k] > gap[i];
@@ -77,10 +78,11 @@ void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayo
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.patches.h) * finer;
     d_ = problem.patches.h / substeps_;
-    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_), softness(tuning::soft_frequency_of_unlike / d_, d_),
+    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_),
+                softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_)};
     energies_.open(layout, problem.bodies);
-    const std::size_t dynamic = 1 + layout.blocks().order().size();   // number of slots
+    const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
     places_.resize(dynamic);
     reached_.assign(dynamic, 0);
     slots_ = dynamic + layout.movers().size();
@@ -107,9 +109,11 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
         const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
         const Mat3 inverse = mass_unit_ * body.inverse_inertia;
         const Vec3 turning = w + body.gyration;
-        put_all(state(k + 1), {v.x(), v.y(), v.z(), turning.x(), turning.y(), turning.z(), mass_unit_ * body.inverse_mass});
+        put_all(state(k + 1),
+                {v.x(), v.y(), v.z(), turning.x(), turning.y(), turning.z(), mass_unit_ * body.inverse_mass});
         put_all(state(k + 1) + 8, {});
-        put_all(forces_.data() + 8 * (k + 1), {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
+        put_all(forces_.data() + 8 * (k + 1),
+                {faster.x(), faster.y(), faster.z(), spun_up.x(), spun_up.y(), spun_up.z()});
         put_all(before_.data() + 8 * (k + 1), {});
         put_all(inertia_.data() + soft::inertia_floats * (k + 1),
                 {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)});
@@ -121,7 +125,8 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     const std::size_t dynamic = layout_->blocks().order().size();
     for (Floats* array : {&inertia_, &before_, &forces_}) {
         std::fill_n(array->data(), soft::inertia_floats, 0.0f);
-        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats, layout_->movers().size() * soft::inertia_floats, 0.0f);
+        std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats,
+                    layout_->movers().size() * soft::inertia_floats, 0.0f);
     }
     std::fill_n(state(0), soft::body_floats, 0.0f);
     std::fill_n(state(1 + dynamic), layout_->movers().size() * soft::body_floats, 0.0f);
@@ -153,7 +158,9 @@ const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t 
     const Body& b = problem.bodies[body];
     if (b.dynamic()) return places_[slot[body]];
     if (b.type != BodyType::kinematic) return made = place_of(b, 0);
-    const auto place = std::lower_bound(layout_->movers().begin(), layout_->movers().end(), SoftLayout::mover(problem.bodies, body, manifold)) - layout_->movers().begin();
+    const auto place = std::lower_bound(layout_->movers().begin(), layout_->movers().end(),
+                                        SoftLayout::mover(problem.bodies, body, manifold)) -
+                       layout_->movers().begin();
     return made = place_of(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
 }
 
@@ -163,7 +170,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     Manifold& m = problem.manifolds[manifold];
     temper(m, problem);
     Place made_a, made_b;
-    const Place &first = find_place(m.a, manifold, problem, slot, made_a), &second = find_place(m.b, manifold, problem, slot, made_b);
+    const Place &first = find_place(m.a, manifold, problem, slot, made_a),
+                &second = find_place(m.b, manifold, problem, slot, made_b);
     // Arms start at the body that moves, of two at the smaller one: from the other's center single precision may be too
     // coarse.
     const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
@@ -189,7 +197,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         const ContactPoint& p = m.points[std::size_t(i)];
         PredictedGap seen{p.position, p.separation, 0.0};
         // For one substep more than the step: the last sweep looks that far ahead.
-        if (curves) seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
+        if (curves)
+            seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
         if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
@@ -201,7 +210,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         point[soft::impulse * stride] = float(share * p.impulse);
         point += soft::point_rows * stride;
     }
-    if (count == 0) return release(m);   // skipped, because it will bounce
+    if (count == 0) return release(m);  // skipped, because it will bounce
     source.count = std::uint8_t(count);
     source.swapped = swapped;
     lane_points_[g] = std::max(lane_points_[g], source.count);
@@ -223,19 +232,21 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     const std::size_t lanes = std::size_t(kernel_.lanes);
     int points = 0;
     for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
-        if (const std::uint32_t m = layout_->manifold(lane); m != SoftLayout::none) points = std::max(points, int(problem.manifolds[m].count));
+        if (const std::uint32_t m = layout_->manifold(lane); m != SoftLayout::none)
+            points = std::max(points, int(problem.manifolds[m].count));
     std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     lane_points_[group] = 0;
     for (std::size_t l = 0; l < lanes; ++l) {
         sources_[lanes * group + l] = {};
-        if (const std::uint32_t m = layout_->manifold(lanes * group + l); m != SoftLayout::none) pack_lane(problem, m, group, l, slot);
+        if (const std::uint32_t m = layout_->manifold(lanes * group + l); m != SoftLayout::none)
+            pack_lane(problem, m, group, l, slot);
     }
 }
 
-void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
-                    SpinBarrier& barrier) {
+void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread,
+                    std::size_t team, SpinBarrier& barrier) {
     const auto meet = [&] {
         if (team > 1) barrier.wait();
     };
@@ -279,7 +290,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     meet();
     for (int step = 0; step < substeps_; ++step) {
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
-        if (!layout_->movers().empty()) {   // read by all threads
+        if (!layout_->movers().empty()) {  // read by all threads
             meet();
             if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
             meet();
@@ -312,7 +323,10 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         if (source.count == 0) continue;
         Manifold& m = problem.manifolds[layout_->manifold(lanes * g + l)];
         const float* head = row(g, 0) + l;
-        const auto three = [&](int r) { return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes], head[std::size_t(r + 2) * lanes]); };
+        const auto three = [&](int r) {
+            return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes],
+                        head[std::size_t(r + 2) * lanes]);
+        };
         release(m);
         const float* impulse = head + soft::head_rows * lanes + soft::impulse * lanes;
         for (int i = 0; i < source.count; ++i, impulse += soft::point_rows * lanes)
@@ -321,7 +335,8 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         m.friction[1] = all * double(head[soft::friction_2 * lanes]);
         m.twist = all * double(head[soft::twist * lanes]);
         m.tangent = three(soft::tangent_1);
-        const Vec3 force = mass_unit_ * three(soft::force), moment = mass_unit_ * three(soft::moment);   // on B; about A's center
+        const Vec3 force = mass_unit_ * three(soft::force),
+                   moment = mass_unit_ * three(soft::moment);  // on B; about A's center
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;

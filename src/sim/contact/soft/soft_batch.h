@@ -26,8 +26,8 @@ public:
     /// - `finer`: substep multiplier.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
     void prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit);
-    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team,
-             SpinBarrier& barrier);
+    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread,
+             std::size_t team, SpinBarrier& barrier);
 
 private:
     // Memory aligned for the widest kernel.
@@ -46,13 +46,13 @@ private:
         double radius = 0.0, friction = 0.0, restitution = 0.0;
         std::uint32_t slot = 0;
         bool dynamic = false;
-        bool swings = false;   // rotates so fast that its corners approach along curves
+        bool swings = false;  // rotates so fast that its corners approach along curves
     };
     // The manifold points that the points of a lane stand for.
     struct Source {
         std::uint8_t count = 0;
         std::uint8_t point[Manifold::capacity] = {};
-        bool swapped = false;   // the lane's A is the manifold's B
+        bool swapped = false;  // the lane's A is the manifold's B
     };
 
     static soft::Softness softness(double frequency, double d);
@@ -70,23 +70,25 @@ private:
     void hand_back(const ContactProblem& problem, std::size_t first, std::size_t last);
 
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
-    float* row(std::size_t group, int r) { return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes); }
+    float* row(std::size_t group, int r) {
+        return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes);
+    }
 
     const soft::Kernel& kernel_;
-    double d_ = 0.0;                                  // s, length of a substep
+    double d_ = 0.0;  // s, length of a substep
     int substeps_ = 1;
-    double mass_unit_ = 1.0;                          // kg
+    double mass_unit_ = 1.0;  // kg
     soft::Substep substep_{};
-    Floats state_, inertia_, before_, forces_, rows_;    // before_, forces_: 8 floats per slot
-    const SoftLayout* layout_ = nullptr;              // slot k + 1 is the k-th body of its blocks' order; the movers follow
+    Floats state_, inertia_, before_, forces_, rows_;  // before_, forces_: 8 floats per slot
+    const SoftLayout* layout_ = nullptr;  // slot k + 1 is the k-th body of its blocks' order; the movers follow
     std::size_t slots_ = 0;
-    std::vector<Place> places_;                       // by slot
+    std::vector<Place> places_;  // by slot
     IslandEnergies energies_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;
-    std::vector<Source> sources_;                     // by lane
-    std::vector<std::uint8_t> reached_;               // by slot: whether an impulse has reached it
+    std::vector<Source> sources_;        // by lane
+    std::vector<std::uint8_t> reached_;  // by slot: whether an impulse has reached it
 };
 
 }  // namespace tumble

@@ -12,36 +12,36 @@ namespace tumble::soft {
 /// body whose center is nearer to the contact, or the one that moves: arms start there, and the other's differ by
 /// `between`.
 enum Head : int {
-    normal = 0,            // 3: away from A
+    normal = 0,  // 3: away from A
     // 3: on entry that of the last step, or zero; then unit, across the normal. The second is normal x tangent_1
     tangent_1 = 3,
-    between = 6,           // 3: m, from B's center to A's
-    friction_arm = 9,      // 3: m, from A's center to the point where friction acts
-    inertia_a = 12,        // 6: inverse inertia tensor of A
-    force = 12,            // 3: on return, the sum of all impulses on B
-    moment = 15,           // 3: on return, the sum of their moments about A's center
+    between = 6,       // 3: m, from B's center to A's
+    friction_arm = 9,  // 3: m, from A's center to the point where friction acts
+    inertia_a = 12,    // 6: inverse inertia tensor of A
+    force = 12,        // 3: on return, the sum of all impulses on B
+    moment = 15,       // 3: on return, the sum of their moments about A's center
     inertia_b = 18,
-    stick_mass = 24,       // 3: inverse of the two-by-two compliance: 11, 12, 22
-    slide_mass = 27,       // of the direction with the largest compliance
+    stick_mass = 24,  // 3: inverse of the two-by-two compliance: 11, 12, 22
+    slide_mass = 27,  // of the direction with the largest compliance
     twist_mass = 28,
     friction_coefficient = 29,
-    size = 30,             // m, the smaller body's radius
-    friction_1 = 31,       // these three side by side,
+    size = 30,        // m, the smaller body's radius
+    friction_1 = 31,  // these three side by side,
     friction_2 = 32,
     twist = 33,
-    friction_1_sum = 34,   // sums of the three over the substeps
+    friction_1_sum = 34,  // sums of the three over the substeps
     friction_2_sum = 35,
     twist_sum = 36,
-    spread = 37,           // Manifold::spread
-    coupling = 38,         // 6: change of speed at one point per normal impulse at another, 1/kg: 01, 02, 12, 03, 13, 23
+    spread = 37,    // Manifold::spread
+    coupling = 38,  // 6: change of speed at one point per normal impulse at another, 1/kg: 01, 02, 12, 03, 13, 23
     head_rows = 44
 };
 enum Point : int {
-    turn = 0,              // 3: m, arm from A's center; prepare() replaces it by arm x normal
-    normal_mass = 3,       // on entry 1 in lanes that have this point, 0 in others; then the effective mass, kg
-    separation = 4,        // m, at the start of the step
-    gap = 5,               // m, at present; unset on entry
-    lever = 6,             // on entry Manifold::share; then m: distance from the point where friction acts, times the spread
+    turn = 0,         // 3: m, arm from A's center; prepare() replaces it by arm x normal
+    normal_mass = 3,  // on entry 1 in lanes that have this point, 0 in others; then the effective mass, kg
+    separation = 4,   // m, at the start of the step
+    gap = 5,          // m, at present; unset on entry
+    lever = 6,        // on entry Manifold::share; then m: distance from the point where friction acts, times the spread
     // 3: change of the slips and of the spin per normal impulse, and of the normal speed per friction impulse
     to_friction = 7,
     impulse = 10,
@@ -58,15 +58,15 @@ inline constexpr int inertia_floats = 8;
 
 /// Groups of one kernel's width.
 struct Groups {
-    float* rows = nullptr;                     // aligned to 64 bytes
-    const std::uint32_t* bodies = nullptr;     // per group: offsets of the states of all lanes' A, then those of B
-    const std::uint16_t* moved = nullptr;      // per group: bit mask of lanes whose A impulses move, then of those whose B
-    const std::uint8_t* points = nullptr;      // per group: largest number of points of a lane
+    float* rows = nullptr;                  // aligned to 64 bytes
+    const std::uint32_t* bodies = nullptr;  // per group: offsets of the states of all lanes' A, then those of B
+    const std::uint16_t* moved = nullptr;   // per group: bit mask of lanes whose A impulses move, then of those whose B
+    const std::uint8_t* points = nullptr;   // per group: largest number of points of a lane
 };
 /// Bodies that impulses do not move are read and never written. Slot 0 stands still.
 struct Bodies {
-    float* state = nullptr;                    // body_floats each, aligned to 64 bytes
-    const float* inertia = nullptr;            // inertia_floats each
+    float* state = nullptr;          // body_floats each, aligned to 64 bytes
+    const float* inertia = nullptr;  // inertia_floats each
     // 8 floats per body, like the velocities: change by the forces per substep, and the velocities at the start of the
     // substep, forces included.
     const float* forces = nullptr;

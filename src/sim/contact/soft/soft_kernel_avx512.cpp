@@ -1,12 +1,12 @@
 // The soft contact solver's inner loops, 16 lanes (avx512).
-#include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/model/settings.h"
-#include "sim/contact/soft/settings.h"
 #include "sim/contact/model/spin_friction.h"
+#include "sim/contact/soft/settings.h"
+#include "sim/contact/soft/soft_kernel.h"
 
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wuninitialized"   // false positive of g++ 12 on its own "undefined" vectors
+#pragma GCC diagnostic ignored "-Wuninitialized"  // false positive of g++ 12 on its own "undefined" vectors
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <immintrin.h>
 

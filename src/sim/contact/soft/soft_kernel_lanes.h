@@ -2,17 +2,20 @@
 // namespace, so that no two share a symbol. Equations: soft_solver.h.
 
 constexpr float friction_near = float(tuning::friction_near), friction_far_weight = float(tuning::friction_far_weight);
-constexpr float spin_share = float(tuning::spin_share), disc = float(spin_friction::disc), steep = float(spin_friction::steep),
-                bent = float(spin_friction::bent), sliding_square = float(spin_friction::sliding_square),
-                spinning_square = float(spin_friction::spinning_square), spinning_limit = float(spin_friction::spinning_limit);
+constexpr float spin_share = float(tuning::spin_share), disc = float(spin_friction::disc),
+                steep = float(spin_friction::steep), bent = float(spin_friction::bent),
+                sliding_square = float(spin_friction::sliding_square),
+                spinning_square = float(spin_friction::spinning_square),
+                spinning_limit = float(spin_friction::spinning_limit);
 constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stiff = float(tuning::soft_twice_as_stiff);
-constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit), least_give = float(tuning::soft_least_give);
+constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit),
+                least_give = float(tuning::soft_least_give);
 
 #include "sim/contact/soft/soft_lanes.h"
 
 struct Motion {
     Vector linear, angular;
-    Lanes inverse_mass;   // gathered with the velocities
+    Lanes inverse_mass;  // gathered with the velocities
 };
 
 // half 0: velocities, half 1: displacements.
@@ -30,8 +33,10 @@ inline Tensor load_inertia(const Bodies& bodies, const std::uint32_t* lane) {
 inline void save(const Bodies& bodies, const std::uint32_t* lane, std::uint32_t moved, const Motion& m) {
     const Eights e{transposed({{m.linear.x, m.linear.y, m.linear.z, m.angular.x}}),
                    transposed({{m.angular.y, m.angular.z, m.inverse_mass, Lanes{}}})};
-    if (moved == (1u << TUMBLE_LANES) - 1u) write(e, [&](int i) { return bodies.state + lane[i]; });
-    else write(e, [&](int i) { return moved >> i & 1u ? bodies.state + lane[i] : nullptr; });
+    if (moved == (1u << TUMBLE_LANES) - 1u)
+        write(e, [&](int i) { return bodies.state + lane[i]; });
+    else
+        write(e, [&](int i) { return moved >> i & 1u ? bodies.state + lane[i] : nullptr; });
 }
 
 struct Group {
@@ -41,14 +46,20 @@ struct Group {
     int points;
 
     Group(const Groups& groups, std::size_t index)
-        : rows(reinterpret_cast<Lanes*>(groups.rows) + index * group_rows), a(groups.bodies + 2 * TUMBLE_LANES * index),
-          b(a + TUMBLE_LANES), moved_a(groups.moved[2 * index]), moved_b(groups.moved[2 * index + 1]), points(groups.points[index]) {}
+        : rows(reinterpret_cast<Lanes*>(groups.rows) + index * group_rows),
+          a(groups.bodies + 2 * TUMBLE_LANES * index),
+          b(a + TUMBLE_LANES),
+          moved_a(groups.moved[2 * index]),
+          moved_b(groups.moved[2 * index + 1]),
+          points(groups.points[index]) {}
 
     Lanes& operator[](int row) const { return rows[row]; }
     Lanes& at(int point, int row) const { return rows[head_rows + point * point_rows + row]; }
     Vector vector(int row) const { return {rows[row], rows[row + 1], rows[row + 2]}; }
     Vector vector(int point, int row) const { return vector(head_rows + point * point_rows + row); }
-    Tensor tensor(int row) const { return {rows[row], rows[row + 1], rows[row + 2], rows[row + 3], rows[row + 4], rows[row + 5]}; }
+    Tensor tensor(int row) const {
+        return {rows[row], rows[row + 1], rows[row + 2], rows[row + 3], rows[row + 4], rows[row + 5]};
+    }
     void set(int row, const Vector& v) const {
         rows[row] = v.x;
         rows[row + 1] = v.y;
@@ -61,7 +72,7 @@ struct Group {
     }
 };
 
-constexpr int coupled(int i, int k) { return coupling + k * (k - 1) / 2 + i; }   // of points i < k
+constexpr int coupled(int i, int k) { return coupling + k * (k - 1) / 2 + i; }  // of points i < k
 
 // An impulse on B, and its moment about A's center.
 struct Impulse {
@@ -117,7 +128,8 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
         const Tensor of_a = load_inertia(bodies, g.a), of_b = load_inertia(bodies, g.b);
-        const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1), c = g.vector(between);
+        const Vector n = g.vector(normal), t1 = tangent(n, g.vector(tangent_1)), t2 = cross(n, t1),
+                     c = g.vector(between);
         // Lanes without a manifold have no normal: their compliances are set to 1, their impulses stay 0.
         const Lanes empty = n.x == 0.0f && n.y == 0.0f && n.z == 0.0f ? all(1.0f) : Lanes{};
         const Lanes both = load(bodies, g.a, 0).inverse_mass + load(bodies, g.b, 0).inverse_mass + empty;
@@ -128,7 +140,7 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         // Friction acts at the centroid of the area where all points touch or nearly do; else at the centroid of the
         // touching points.
         const Lanes near = friction_near * g[size];
-        Lanes far{};   // number of points not near
+        Lanes far{};  // number of points not near
         for (int i = 0; i < g.points; ++i) far += g.at(i, separation) < near ? Lanes{} : g.at(i, normal_mass);
         const auto whole = far == 0.0f;
         Vector center{};
@@ -163,7 +175,8 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
                 g[coupled(earlier, i)] = both + dot(other, ian) + dot(other + cn, ibn);
             }
             g.set(i, turn, an);
-            g.set(i, to_friction, {dot(an, ia1) + dot(bn, ib1), dot(an, ia2) + dot(bn, ib2), dot(an, ia3) + dot(bn, ib3)});
+            g.set(i, to_friction,
+                  {dot(an, ia1) + dot(bn, ib1), dot(an, ia2) + dot(bn, ib2), dot(an, ia3) + dot(bn, ib3)});
             g.at(i, gap) = g.at(i, separation);
             g.at(i, normal_mass) = g.at(i, normal_mass) / (both + dot(an, ian) + dot(bn, ibn));
         }
@@ -174,7 +187,10 @@ void warm_start(const Groups& groups, std::size_t first, std::size_t last, const
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
-        apply(g, total(g, g.points, [&](int i) { return g.at(i, impulse); }, g.vector(friction_1)), a, b);
+        apply(g,
+              total(
+                  g, g.points, [&](int i) { return g.at(i, impulse); }, g.vector(friction_1)),
+              a, b);
         save(bodies, g.a, g.moved_a, a);
         save(bodies, g.b, g.moved_b, b);
     }
@@ -204,7 +220,8 @@ inline void find_gaps(const Group& g, const Bodies& bodies) {
     const Relative moved(g, load(bodies, g.a, 1), load(bodies, g.b, 1));
     const Lanes parted = dot(g.vector(normal), moved.linear);
 #pragma GCC unroll 4
-    for (int i = 0; i < points; ++i) g.at(i, gap) = g.at(i, separation) + parted + dot(moved.angular, g.vector(i, turn));
+    for (int i = 0; i < points; ++i)
+        g.at(i, gap) = g.at(i, separation) + parted + dot(moved.angular, g.vector(i, turn));
 }
 
 // Velocities that a manifold's impulses act on: of its points along the normal; the slips along both tangents and the
@@ -216,7 +233,7 @@ struct Speeds {
     Vector friction;
 };
 template <int points>
-struct Changes {   // of the impulses of a manifold
+struct Changes {  // of the impulses of a manifold
     Lanes normal[points];
     Vector friction;
 };
@@ -237,11 +254,12 @@ inline Speeds<points> speeds_of(const Group& g, const Motion& a, const Motion& b
 // Moment of the load: sum over the points of load times lever (spin_friction.h).
 template <int points>
 inline Lanes levers_of(const Group& g, Lanes load_all, Lanes load_levers) {
-    Vector turning{};   // load times arm x normal, from A's center
+    Vector turning{};  // load times arm x normal, from A's center
 #pragma GCC unroll 4
     for (int i = 0; i < points; ++i) turning = turning + g.at(i, impulse) * g.vector(i, turn);
     const Vector t1 = g.vector(tangent_1), t2 = cross(g.vector(normal), t1), arm = g.vector(friction_arm);
-    const Lanes aside_1 = dot(turning, t2) + load_all * dot(arm, t1), aside_2 = dot(turning, t1) - load_all * dot(arm, t2);
+    const Lanes aside_1 = dot(turning, t2) + load_all * dot(arm, t1),
+                aside_2 = dot(turning, t1) - load_all * dot(arm, t2);
     return load_levers + (1.0f - g[spread]) * root(aside_1 * aside_1 + aside_2 * aside_2);
 }
 
@@ -264,12 +282,12 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
     Lanes j3 = larger(-twist_limit, smaller(twist_limit, still));
     const auto slips = j1 * j1 + j2 * j2 > limit * limit;
     auto turns = j3 != still;
-    if (any(Lanes(slips | turns))) {   // true is a nonzero bit pattern
+    if (any(Lanes(slips | turns))) {  // true is a nonzero bit pattern
         load_levers = levers_of<points>(g, load_all, load_levers);
         twist_limit = g[friction_coefficient] * load_levers;
         j3 = larger(-twist_limit, smaller(twist_limit, still));
         turns = j3 != still;
-        const Lanes reach = load_all > 0.0f ? load_levers / load_all : Lanes{};   // m, mean distance
+        const Lanes reach = load_all > 0.0f ? load_levers / load_all : Lanes{};  // m, mean distance
         const Lanes slip = v1 * v1 + v2 * v2, spin = reach * reach * v3 * v3;
         const auto spins = turns && twist_limit > 0.0f && spin > spin_share * spin_share * slip;
         const auto slides = spins || slips;
@@ -282,7 +300,8 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
         // Else one mass for all directions: friction then ends up opposite to the slip; separate masses would turn it
         // aside.
         const Lanes mass = spins ? smaller(g[slide_mass], g[twist_mass] * per_arm * per_arm) : g[slide_mass];
-        const Lanes s1 = g[friction_1] - mass * v1, s2 = g[friction_2] - mass * v2, s3 = per_arm * g[twist] - mass * arm * v3;
+        const Lanes s1 = g[friction_1] - mass * v1, s2 = g[friction_2] - mass * v2,
+                    s3 = per_arm * g[twist] - mass * arm * v3;
         const Lanes size = root(s1 * s1 + s2 * s2 + s3 * s3);
         const Lanes scale = size > limit ? limit / size : all(1.0f);
         j1 = slides ? scale * s1 : j1;
@@ -297,9 +316,11 @@ inline void solve_friction(const Group& g, const Speeds<points>& speeds, Changes
 
 // Visits one point after the other.
 template <bool pushing, int points>
-inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds, Changes<points>& changes) {
+inline void solve_normals(const Group& g, const Motion& a, const Motion& b, const Substep& substep,
+                          Speeds<points>& speeds, Changes<points>& changes) {
     const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
-    const auto unlike = larger(a.inverse_mass, b.inverse_mass) > unlike_masses * smaller(a.inverse_mass, b.inverse_mass) && !held;
+    const auto unlike =
+        larger(a.inverse_mass, b.inverse_mass) > unlike_masses * smaller(a.inverse_mass, b.inverse_mass) && !held;
     const auto choose = [&](float Softness::*value) {
         return held ? all(substep.fixed.*value) : unlike ? all(substep.unlike.*value) : all(substep.alike.*value);
     };
@@ -328,7 +349,8 @@ inline void solve_normals(const Group& g, const Motion& a, const Motion& b, cons
         g.at(i, impulse) = next;
         changes.normal[i] = next - old;
 #pragma GCC unroll 4
-        for (int later = i + 1; later < points; ++later) speeds.parting[later] += g[coupled(i, later)] * changes.normal[i];
+        for (int later = i + 1; later < points; ++later)
+            speeds.parting[later] += g[coupled(i, later)] * changes.normal[i];
     }
 }
 
@@ -358,7 +380,8 @@ inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) 
     if constexpr (!pushing) {
         // Friction last, so that it stays within the limit of the new normal impulses.
 #pragma GCC unroll 4
-        for (int i = 0; i < points; ++i) speeds.friction = speeds.friction + changes.normal[i] * g.vector(i, to_friction);
+        for (int i = 0; i < points; ++i)
+            speeds.friction = speeds.friction + changes.normal[i] * g.vector(i, to_friction);
         solve_friction(g, speeds, changes);
 #pragma GCC unroll 4
         for (int i = 0; i < points; ++i) g.at(i, impulse_sum) += g.at(i, impulse);
@@ -366,21 +389,34 @@ inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) 
         g[friction_2_sum] += g[friction_2];
         g[twist_sum] += g[twist];
     }
-    apply(g, total(g, points, [&](int i) { return changes.normal[i]; }, changes.friction), a, b);
+    apply(g,
+          total(
+              g, points, [&](int i) { return changes.normal[i]; }, changes.friction),
+          a, b);
     save(bodies, g.a, g.moved_a, a);
     save(bodies, g.b, g.moved_b, b);
 }
 
 template <bool pushing>
-inline void sweep(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
+inline void sweep(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies,
+                  const Substep& substep) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
-        switch (g.points) {   // each count in registers of its own
-            case 1: solve<pushing, 1>(g, bodies, substep); break;
-            case 2: solve<pushing, 2>(g, bodies, substep); break;
-            case 3: solve<pushing, 3>(g, bodies, substep); break;
-            case 4: solve<pushing, 4>(g, bodies, substep); break;
-            default: break;   // all points skipped because they will bounce
+        switch (g.points) {  // each count in registers of its own
+            case 1:
+                solve<pushing, 1>(g, bodies, substep);
+                break;
+            case 2:
+                solve<pushing, 2>(g, bodies, substep);
+                break;
+            case 3:
+                solve<pushing, 3>(g, bodies, substep);
+                break;
+            case 4:
+                solve<pushing, 4>(g, bodies, substep);
+                break;
+            default:
+                break;  // all points skipped because they will bounce
         }
     }
 }
@@ -395,7 +431,8 @@ void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodi
 void sum(const Groups& groups, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
-        const Impulse sums = total(g, g.points, [&](int i) { return g.at(i, impulse_sum); }, g.vector(friction_1_sum));
+        const Impulse sums = total(
+            g, g.points, [&](int i) { return g.at(i, impulse_sum); }, g.vector(friction_1_sum));
         g.set(force, sums.linear);
         g.set(moment, sums.angular);
     }

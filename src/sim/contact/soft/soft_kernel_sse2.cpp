@@ -1,8 +1,8 @@
 // The soft contact solver's inner loops, 4 lanes (sse2).
-#include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/model/settings.h"
-#include "sim/contact/soft/settings.h"
 #include "sim/contact/model/spin_friction.h"
+#include "sim/contact/soft/settings.h"
+#include "sim/contact/soft/soft_kernel.h"
 
 #pragma GCC target("sse2")
 #include <immintrin.h>

@@ -2,7 +2,7 @@
 // says how it is included.
 
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
-typedef float Eight __attribute__((vector_size(32)));   // a body's velocities, or its displacements
+typedef float Eight __attribute__((vector_size(32)));  // a body's velocities, or its displacements
 
 struct Vector {
     Lanes x, y, z;
@@ -19,7 +19,7 @@ inline Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-struct Tensor {   // symmetric
+struct Tensor {  // symmetric
     Lanes xx, xy, xz, yy, yz, zz;
     Vector operator*(const Vector& a) const {
         return {xx * a.x + xy * a.y + xz * a.z, xy * a.x + yy * a.y + yz * a.z, xz * a.x + yz * a.y + zz * a.z};
@@ -66,7 +66,8 @@ inline Lanes high_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b
 inline Lanes root(Lanes a) { return Lanes(_mm256_sqrt_ps(__m256(a))); }
 inline bool any(Lanes a) { return _mm256_movemask_ps(_mm256_cmp_ps(__m256(a), _mm256_setzero_ps(), _CMP_NEQ_UQ)) != 0; }
 inline Lanes joined(Lanes a, Lanes b, bool high) {
-    return Lanes(high ? _mm256_permute2f128_ps(__m256(a), __m256(b), 0x31) : _mm256_permute2f128_ps(__m256(a), __m256(b), 0x20));
+    return Lanes(high ? _mm256_permute2f128_ps(__m256(a), __m256(b), 0x31)
+                      : _mm256_permute2f128_ps(__m256(a), __m256(b), 0x20));
 }
 template <class Row>
 inline Eights read(Row&& row) {
@@ -82,7 +83,8 @@ template <class Row>
 inline void write(const Eights& e, Row&& row) {
     for (int i = 0; i < 4; ++i)
         for (const bool second : {false, true})
-            if (float* to = row(second ? 4 + i : i)) *reinterpret_cast<Lanes*>(to) = joined(e.low.r[i], e.high.r[i], second);
+            if (float* to = row(second ? 4 + i : i))
+                *reinterpret_cast<Lanes*>(to) = joined(e.low.r[i], e.high.r[i], second);
 }
 #else
 inline Lanes low_pairs(Lanes a, Lanes b) { return Lanes(_mm512_unpacklo_ps(__m512(a), __m512(b))); }
@@ -106,11 +108,12 @@ inline Eights read(Row&& row) {
 }
 template <class Row>
 inline void write(const Eights& e, Row&& row) {
-    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    const __m512i first = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11),
+                  second = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     for (int i = 0; i < 4; ++i)
         for (const int half : {0, 8}) {
-            const __m512 rows = _mm512_castpd_ps(_mm512_permutex2var_pd(_mm512_castps_pd(__m512(e.low.r[i])), half ? second : first,
-                                                                        _mm512_castps_pd(__m512(e.high.r[i]))));
+            const __m512 rows = _mm512_castpd_ps(_mm512_permutex2var_pd(
+                _mm512_castps_pd(__m512(e.low.r[i])), half ? second : first, _mm512_castps_pd(__m512(e.high.r[i]))));
             if (float* to = row(half + i)) _mm256_store_ps(to, _mm512_castps512_ps256(rows));
             if (float* to = row(half + 4 + i)) _mm256_store_ps(to, _mm512_extractf32x8_ps(rows, 1));
         }

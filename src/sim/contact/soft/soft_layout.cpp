@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t colors = 64;   // bits of a mask; a manifold without a free color is solved one by one
+constexpr std::size_t colors = 64;  // bits of a mask; a manifold without a free color is solved one by one
 // Manifolds of a color are grouped by cost: those with impulses before those without, which may stay idle, and by their
 // number of points: no lane waits for another's fourth.
 constexpr std::size_t costs = 2 * Manifold::capacity;
@@ -29,10 +29,11 @@ SoftLayout::Mover SoftLayout::mover(const std::vector<Body>& bodies, std::uint32
     return {body, bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
 }
 
-void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot, std::size_t team) {
+void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
+                      std::size_t team) {
     blocks_.clear();
     islands_.clear();
-    const std::size_t dynamic = 1 + part.bodies.size();   // number of slots
+    const std::size_t dynamic = 1 + part.bodies.size();  // number of slots
     block_of_.resize(dynamic);
     island_of_.resize(dynamic);
     lasts_ = true;
@@ -41,7 +42,8 @@ void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std
     for (const std::size_t end : part.island_ends) {
         const std::size_t first_block = blocks_.size();
         blocks_.add(std::span(part.bodies).subspan(first, end - first), bodies);
-        std::fill(island_of_.begin() + std::ptrdiff_t(first + 1), island_of_.begin() + std::ptrdiff_t(end + 1), std::uint32_t(islands_.size()));
+        std::fill(island_of_.begin() + std::ptrdiff_t(first + 1), island_of_.begin() + std::ptrdiff_t(end + 1),
+                  std::uint32_t(islands_.size()));
         islands_.push_back({.first = first, .end = end, .first_block = first_block, .end_block = blocks_.size()});
         lasts_ = lasts_ && blocks_.size() <= first_block + 1;
         first = end;
@@ -65,7 +67,7 @@ void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, co
     const Share own = blocks_of(thread, team);
     const std::size_t across = blocks_.size();
     for (std::size_t k = 0; k < part.pairs.size(); ++k) {
-        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];   // 0: not dynamic
+        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];  // 0: not dynamic
         const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
         const std::size_t home = inside ? block_of_[a != 0 ? a : b] : across;
         if (inside ? home < own.begin || home >= own.end : thread + 1 < team) continue;
@@ -73,13 +75,14 @@ void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, co
             Island& island = islands_[island_of_[a != 0 ? a : b]];
             const std::uint32_t other = a != 0 ? part.pairs[k].b : part.pairs[k].a;
             set(bodies[other].moves() ? island.driven : island.leans);
-            if (bodies[other].type == BodyType::kinematic) found_movers_[thread].push_back(mover(bodies, other, part.manifolds[k]));
+            if (bodies[other].type == BodyType::kinematic)
+                found_movers_[thread].push_back(mover(bodies, other, part.manifolds[k]));
         }
         std::uint64_t fixed = 0;
         std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
         std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
         const auto c = std::size_t(std::countr_one(of_a | of_b));
-        if (c == colors) {   // solved one by one at the end
+        if (c == colors) {  // solved one by one at the end
             class_[k] = none;
             continue;
         }
@@ -105,7 +108,7 @@ void SoftLayout::close(const SoftPart& part, std::size_t lanes) {
     for (std::size_t home = 0; home < homes; ++home) {
         for (std::size_t c = 0; c < colors; ++c) {
             std::uint32_t lane = std::uint32_t(groups * lanes);
-            for (std::size_t p = 0; p < costs; ++p) {   // sizes become positions
+            for (std::size_t p = 0; p < costs; ++p) {  // sizes become positions
                 std::uint32_t& of_class = class_size_[(home * colors + c) * costs + p];
                 const std::uint32_t size = of_class;
                 of_class = lane;

@@ -5,10 +5,10 @@
 // A layout is valid while the same pairs touch: that of small islands is kept from step to step.
 #pragma once
 
+#include "sim/contact/soft/body_blocks.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/geometry/body_pair.h"
 #include "sim/geometry/manifold.h"
-#include "sim/contact/soft/body_blocks.h"
 
 #include <cstdint>
 #include <span>
@@ -19,9 +19,9 @@ namespace tumble {
 /// A batch: manifolds (ascending) and dynamic bodies of one island or several, solved together.
 struct SoftPart {
     std::vector<std::uint32_t> bodies, manifolds;
-    std::vector<BodyPair> pairs;              // body pairs of the manifolds, in their order
-    std::vector<std::size_t> island_ends;     // positions in `bodies`
-    int finer = 1;                            // substep multiplier
+    std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
+    std::vector<std::size_t> island_ends;  // positions in `bodies`
+    int finer = 1;                         // substep multiplier
 };
 
 class SoftLayout {
@@ -37,10 +37,10 @@ public:
     static Mover mover(const std::vector<Body>& bodies, std::uint32_t body, std::uint32_t manifold);
 
     struct Island {
-        std::size_t first, end;               // positions in the blocks' order
-        std::size_t first_block, end_block;   // of a large island, its own blocks
-        std::uint8_t leans = 0;               // touches a body that stands
-        std::uint8_t driven = 0;              // touches a moving kinematic body
+        std::size_t first, end;              // positions in the blocks' order
+        std::size_t first_block, end_block;  // of a large island, its own blocks
+        std::uint8_t leans = 0;              // touches a body that stands
+        std::uint8_t driven = 0;             // touches a moving kinematic body
     };
     struct Share {
         std::size_t begin, end;
@@ -49,7 +49,8 @@ public:
     /// Called in this order: open() by one thread; the next by each thread of a team; close() by one. slot: by body,
     /// set for the batch's own bodies to the position in the blocks' order plus one; 0 for touching bodies that do not
     /// move.
-    void open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot, std::size_t team);
+    void open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
+              std::size_t team);
     void color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
     void close(const SoftPart& part, std::size_t lanes);
@@ -68,7 +69,7 @@ public:
         return std::span(blocks_.order()).subspan(blocks_.first(begin), blocks_.first(end) - blocks_.first(begin));
     }
     const std::vector<Island>& islands() const { return islands_; }
-    const std::vector<Mover>& movers() const { return movers_; }   // ascending
+    const std::vector<Mover>& movers() const { return movers_; }  // ascending
 
     std::size_t groups() const { return first_group_.back(); }
     /// Colors of a block, or, for the number of blocks, of the manifolds between blocks; and the first group of a
@@ -81,20 +82,20 @@ public:
 private:
     BodyBlocks blocks_{tuning::soft_block_bodies};
     std::vector<Island> islands_;
-    std::vector<std::uint32_t> block_of_, island_of_;   // by slot
+    std::vector<std::uint32_t> block_of_, island_of_;  // by slot
     std::vector<Mover> movers_;
-    std::vector<std::vector<Mover>> found_movers_;      // by thread
+    std::vector<std::vector<Mover>> found_movers_;  // by thread
     struct Taken {
         std::uint64_t inside = 0, across = 0;
     };
-    std::vector<Taken> taken_;                          // by slot: colors, inside the block and between blocks
-    std::vector<std::uint32_t> class_;                  // by manifold of the batch: home, color, cost
+    std::vector<Taken> taken_;          // by slot: colors, inside the block and between blocks
+    std::vector<std::uint32_t> class_;  // by manifold of the batch: home, color, cost
     std::vector<std::uint32_t> class_size_;
-    std::vector<std::size_t> first_group_;              // of each color in use, and the end
-    std::vector<std::size_t> first_color_;              // of each block, then of the manifolds between blocks, and the end
+    std::vector<std::size_t> first_group_;  // of each color in use, and the end
+    std::vector<std::size_t> first_color_;  // of each block, then of the manifolds between blocks, and the end
     std::vector<std::uint32_t> lane_manifolds_;
     bool lasts_ = false;
-    int steps_ = 0;   // since the layout was made
+    int steps_ = 0;  // since the layout was made
 };
 
 }  // namespace tumble

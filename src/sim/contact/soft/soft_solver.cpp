@@ -70,7 +70,8 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
     }
     // Neighbors in the list, and the same ones from step to step.
     const auto each_of = [&](std::size_t thread, std::size_t team, auto&& visit) {
-        for (std::size_t s = small_.size() * thread / team; s < small_.size() * (thread + 1) / team; ++s) visit(small_[s]);
+        for (std::size_t s = small_.size() * thread / team; s < small_.size() * (thread + 1) / team; ++s)
+            visit(small_[s]);
     };
     const auto run = [&](std::size_t thread, std::size_t team) {
         each_of(thread, team, [&](std::size_t k) {

@@ -38,7 +38,7 @@ namespace tumble {
 struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
-    const std::vector<BodyVelocity>& before;            // by body
+    const std::vector<BodyVelocity>& before;  // by body
     ConstraintSettings patches;
 };
 
@@ -58,11 +58,11 @@ public:
 
 private:
     const soft::Kernel& kernel_;
-    std::vector<std::uint32_t> slot_;                 // by body
-    std::vector<std::unique_ptr<SoftBatch>> batches_;     // one per thread
-    std::vector<SoftLayout> layouts_;                 // one per batch
-    std::vector<std::size_t> small_;                  // batches that one thread solves
-    double mass_unit_ = 0.0;                          // kg; of the scene's bodies, which do not change
+    std::vector<std::uint32_t> slot_;                  // by body
+    std::vector<std::unique_ptr<SoftBatch>> batches_;  // one per thread
+    std::vector<SoftLayout> layouts_;                  // one per batch
+    std::vector<std::size_t> small_;                   // batches that one thread solves
+    double mass_unit_ = 0.0;                           // kg; of the scene's bodies, which do not change
 };
 
 /// Number of substeps of a step of h seconds.

@@ -2,11 +2,11 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "sim/dynamics/settings.h"
-#include "sim/math/free_rotation.h"
 #include "sim/dynamics/integrators/extrapolation.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
 #include "sim/dynamics/integrators/splitting.h"
+#include "sim/dynamics/settings.h"
+#include "sim/math/free_rotation.h"
 
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
     }
     if (turns) {
         const double most = 1.0 / mass.principal_inertia.minCoeff();
-        const Vec3 omega = mass.inverse_inertia * (rotation.transpose() * s.angular_momentum);   // body axes
+        const Vec3 omega = mass.inverse_inertia * (rotation.transpose() * s.angular_momentum);  // body axes
         const double twice_energy = omega.dot(rotation.transpose() * s.angular_momentum);
         rate += std::min(std::sqrt(std::max(0.0, twice_energy) * most), s.angular_momentum.norm() * most);
         rate += std::sqrt(wrench.torque.norm() * most);
@@ -78,8 +78,10 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
     for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
-        if (kind == IntegratorKind::splitting) splitting_step(state, mass, ForceLaw(law), end - start);
-        else runge_kutta_4_step(state, mass, ForceLaw(law), end - start);
+        if (kind == IntegratorKind::splitting)
+            splitting_step(state, mass, ForceLaw(law), end - start);
+        else
+            runge_kutta_4_step(state, mass, ForceLaw(law), end - start);
     });
     set_state(body, state);
 }
@@ -105,9 +107,10 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
             double done = 0.0;
             for (int step = 0; done < span; ++step) {
                 if (step == tuning::most_substeps) {
-                    throw RunError(fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
-                                               "than {} steps: the forces on it are too large for its mass",
-                                               safe_text(body.name), start, end, tuning::most_substeps));
+                    throw RunError(
+                        fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
+                                    "than {} steps: the forces on it are too large for its mass",
+                                    safe_text(body.name), start, end, tuning::most_substeps));
                 }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
                 // Divides the rest into equal steps at the present rate; the next step decides anew.

@@ -8,8 +8,8 @@ namespace tumble {
 namespace {
 
 struct Part {
-    int count;       // n parts of h/n
-    double weight;   // of its result at h = 0: the product over the others of n^2 / (n^2 - m^2)
+    int count;      // n parts of h/n
+    double weight;  // of its result at h = 0: the product over the others of n^2 / (n^2 - m^2)
 };
 constexpr std::array counts{2, 4, 6, 8, 10};
 constexpr auto substep_counts = [] {

@@ -1,9 +1,9 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 #include "core/deterministic_math.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
-#include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/math/keyframe_track.h"
 
 #include <cmath>
@@ -13,9 +13,14 @@ namespace {
 
 // Longer by tan(x) / x, with half the angle for quaternions: advance_pose() rotates by the angle's tangent.
 Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
-    const double length = form == RotationForm::quaternion ? 0.5 * h : h, square = length * length * omega.squaredNorm();
+    const double length = form == RotationForm::quaternion ? 0.5 * h : h,
+                 square = length * length * omega.squaredNorm();
     if (square < tuning::spin_series_turn * tuning::spin_series_turn)
-        return (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0 + square * (62.0 / 2835.0 + square * (1382.0 / 155925.0)))))) * omega;
+        return (1.0 +
+                square * (1.0 / 3.0 +
+                          square * (2.0 / 15.0 + square * (17.0 / 315.0 +
+                                                           square * (62.0 / 2835.0 + square * (1382.0 / 155925.0)))))) *
+               omega;
     const double x = std::sqrt(square);
     const auto [sine, cosine] = sincos(x);
     return sine / (cosine * x) * omega;
@@ -23,9 +28,10 @@ Vec3 lengthened(const Vec3& omega, double h, RotationForm form) {
 
 Vec3 by_series(const Body& body, double h) {
     const Vec3 &omega = body.angular_velocity, &l = body.angular_momentum;
-    const Vec3 change = body.inverse_inertia * l.cross(omega);   // omega'
+    const Vec3 change = body.inverse_inertia * l.cross(omega);  // omega'
     // I^-1 rotates with the body: (I^-1)' = omega* I^-1 - I^-1 omega*.
-    const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) + body.inverse_inertia * l.cross(change);
+    const Vec3 second = omega.cross(change) - body.inverse_inertia * (omega.cross(l.cross(omega))) +
+                        body.inverse_inertia * l.cross(change);
     return omega + 0.5 * h * change + h * h / 6.0 * second + h * h / 12.0 * change.cross(omega);
 }
 
@@ -52,12 +58,14 @@ Vec3 mean_angular_velocity(const Body& body, double h, RotationForm form) {
 Vec3 gyration(const Body& body, double h) {
     if (body.spherical_top) return Vec3::Zero();
     const Vec3 g = body.angular_velocity.cross(body.angular_momentum);
-    if (!(h * h * g.dot(body.inverse_inertia * g) > tuning::spin_steady * spin(body)) || turns_too_far(body, h)) return Vec3::Zero();
+    if (!(h * h * g.dot(body.inverse_inertia * g) > tuning::spin_steady * spin(body)) || turns_too_far(body, h))
+        return Vec3::Zero();
     return mean(body, h) - body.angular_velocity;
 }
 
 Vec3 mean_angular_velocity_in_contact(const Body& body, double h, RotationForm form) {
-    return turns_too_far(body, h) ? body.angular_velocity : lengthened(body.angular_velocity + gyration(body, h), h, form);
+    return turns_too_far(body, h) ? body.angular_velocity
+                                  : lengthened(body.angular_velocity + gyration(body, h), h, form);
 }
 
 bool spin_grew(const Body& body, double before) { return spin(body) > (1.0 + tuning::spin_growth) * before; }
@@ -70,7 +78,8 @@ void limit_spin(Body& body, double before) {
 void turn_freely(Body& body, const Quat& from, double duration) {
     const RigidMass mass = mass_of(body);
     RigidState state = state_of(body);
-    state.orientation = FreeRotation(mass.principal_inertia, mass.principal_axes, from, body.angular_momentum).at(duration);
+    state.orientation =
+        FreeRotation(mass.principal_inertia, mass.principal_axes, from, body.angular_momentum).at(duration);
     set_state(body, state);
 }
 

@@ -25,8 +25,8 @@ Mat3 rotation_of(const Quat& q) {
     const double s = 2.0 / q.squaredNorm();
     const Vec3 v = q.vec(), u = s * v, w = s * q.w() * v;
     Mat3 r;
-    r << 1.0 - u.y() * v.y() - u.z() * v.z(), u.x() * v.y() - w.z(), u.x() * v.z() + w.y(),   //
-        u.x() * v.y() + w.z(), 1.0 - u.x() * v.x() - u.z() * v.z(), u.y() * v.z() - w.x(),    //
+    r << 1.0 - u.y() * v.y() - u.z() * v.z(), u.x() * v.y() - w.z(), u.x() * v.z() + w.y(),  //
+        u.x() * v.y() + w.z(), 1.0 - u.x() * v.x() - u.z() * v.z(), u.y() * v.z() - w.x(),   //
         u.x() * v.z() - w.y(), u.y() * v.z() + w.x(), 1.0 - u.x() * v.x() - u.y() * v.y();
     return r;
 }

@@ -11,10 +11,10 @@ struct Body;
 
 /// X = (x, q, P, L) (notes eq. 1 with section 3.1's quaternion).
 struct RigidState {
-    Vec3 position = Vec3::Zero();           // m, of the center of mass
-    Quat orientation = Quat::Identity();    // body to world
-    Vec3 momentum = Vec3::Zero();           // kg m/s
-    Vec3 angular_momentum = Vec3::Zero();   // kg m^2/s, about the center of mass
+    Vec3 position = Vec3::Zero();          // m, of the center of mass
+    Quat orientation = Quat::Identity();   // body to world
+    Vec3 momentum = Vec3::Zero();          // kg m/s
+    Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s, about the center of mass
 };
 
 /// Inertia of a body.

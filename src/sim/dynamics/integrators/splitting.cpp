@@ -36,7 +36,7 @@ void drift(RigidState& s, const RigidMass& mass, double h) {
     s.position += h * mass.inverse_mass * s.momentum;
     if (s.angular_momentum.isZero(0.0)) return;
     Quat q = s.orientation * mass.principal_axes;
-    Vec3 m = q.conjugate() * s.angular_momentum;   // in principal axes
+    Vec3 m = q.conjugate() * s.angular_momentum;  // in principal axes
     const Vec3& inertia = mass.principal_inertia;
     turn<0>(q, m, inertia, 0.5 * h);
     turn<1>(q, m, inertia, 0.5 * h);

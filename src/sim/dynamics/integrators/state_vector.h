@@ -5,7 +5,7 @@
 
 namespace tumble {
 
-using StateVector = Eigen::Matrix<double, 13, 1>;   // x, q (x, y, z, w), P, L
+using StateVector = Eigen::Matrix<double, 13, 1>;  // x, q (x, y, z, w), P, L
 
 StateVector vector_of(const RigidState& state);
 /// The state with its quaternion normalized.
