@@ -9,6 +9,10 @@ namespace tumble {
 
 /// Whether advance_one_step moves bodies of this kind (the two Euler methods belong to World).
 bool steps_whole_state(IntegratorKind kind);
+/// Whether a body without contact moves from its whole state at the start of the step: by those or in closed form.
+inline bool advances_whole_state(IntegratorKind kind) {
+    return kind == IntegratorKind::exact || steps_whole_state(kind);
+}
 
 /// One step of splitting or runge_kutta_4 from `from` to `to`, in s.
 void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces, std::size_t index, double from,

@@ -1,0 +1,47 @@
+#include "sim/step/body_set.h"
+
+#include "sim/detection/spatial_sort.h"
+#include "sim/dynamics/body_builder.h"
+#include "sim/dynamics/kinematic_body.h"
+#include "sim/event_driven/local_frame.h"
+
+namespace tumble {
+
+BodySet::BodySet(const SceneDescription& scene) {
+    const Vec3 gravity = scene.simulation.gravity;
+    if (scene.simulation.impacts == ImpactMode::exact) {
+        origin = local_origin(scene);
+        bodies = build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin));
+        scene_index = put_in_exact_order(bodies, gravity);
+    } else {
+        bodies = build_bodies(scene);
+        scene_index = put_in_memory_order(bodies, gravity);
+    }
+    old_velocities.resize(bodies.size());
+    motions.resize(bodies.size());
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].track) kinematic.push_back(i);
+}
+
+bool BodySet::list(const SleepMonitor& sleep) {
+    if (sleep.changes() == seen_sleep_changes_) return false;
+    seen_sleep_changes_ = sleep.changes();
+    awake.clear();
+    moving.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = bodies[i];
+        if (body.dynamic() && !body.asleep) awake.push_back(i);
+        if (body.moves() && !body.asleep)
+            moving.push_back(i);
+        else
+            motions[i] = {};
+    }
+    return true;
+}
+
+void BodySet::place_kinematic(const StepClock& clock, std::int64_t step) {
+    for (const std::uint32_t i : kinematic)
+        old_velocities[i] = place_on_track(bodies[i], clock.seconds(step), clock.seconds(step + 1), clock.seconds(1));
+}
+
+}  // namespace tumble

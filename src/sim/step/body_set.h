@@ -1,0 +1,35 @@
+// The bodies of a world, and the lists that the stages of a step loop over: the cost of a step scales with the awake
+// bodies.
+#pragma once
+
+#include "sim/contact/model/sleep.h"
+#include "sim/dynamics/body.h"
+#include "sim/event_driven/event_time.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+struct BodySet {
+    /// With exact impacts the bodies' coordinates and order follow from the scene alone: see local_frame.h.
+    explicit BodySet(const SceneDescription& scene);
+
+    Vec3 origin = Vec3::Zero();              // m, world: origin of the bodies' coordinates
+    std::vector<Body> bodies;                // in their order in memory
+    std::vector<std::uint32_t> scene_index;  // by body: its index in the scene
+    // Indices of bodies, ascending. awake: dynamic and not asleep; kinematic: with a track; moving: both together.
+    std::vector<std::uint32_t> awake, moving, kinematic;
+    std::vector<BodyVelocity> old_velocities;  // by body: at the start of the step, before its forces
+    std::vector<BodyVelocity> motions;         // by body: velocities that move its pose in this step; zero if it rests
+
+    /// Updates the lists if a body has fallen asleep or woken. Returns whether they changed.
+    bool list(const SleepMonitor& sleep);
+    /// Places the kinematic bodies on their tracks at the start of a step, with the velocities of that step.
+    void place_kinematic(const StepClock& clock, std::int64_t step);
+
+private:
+    std::uint64_t seen_sleep_changes_ = UINT64_MAX;
+};
+
+}  // namespace tumble

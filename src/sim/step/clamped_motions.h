@@ -1,0 +1,46 @@
+// The velocities that move the poses in a step, and the fractions of the step for which CCD lets the bodies move.
+#pragma once
+
+#include "sim/ccd/ccd_clamp.h"
+#include "sim/step/contact_detection.h"
+#include "sim/step/step_context.h"
+#include "sim/threads/settings.h"
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+class ClampedMotions {
+public:
+    explicit ClampedMotions(const std::vector<Body>& bodies) : clamp_(bodies) {}
+
+    /// Fills BodySet::motions: motion_of(i, body) for every moving body, on the body's thread. Throws RunError for a
+    /// state that is not finite: all must be finite before CCD.
+    template <class MotionOf>
+    void find(const StepContext& step, MotionOf&& motion_of) {
+        any_fast_ = false;
+        BodySet& set = step.set;
+        step.pool.for_bodies(set.moving, tuning::parallel_bodies, [&](std::uint32_t i) {
+            step.check.look_at(i, set.bodies);
+            BodyVelocity& motion = set.motions[i];
+            motion = motion_of(i, std::as_const(set.bodies[i]));
+            if (clamp_.fast(i, motion, step.h) && !any_fast_) any_fast_ = true;
+        });
+        stop_if_not_finite(step);
+    }
+
+    /// Limits by body. Precondition: find().
+    const std::vector<CcdFraction>& limits(const StepContext& step, ContactDetection& detection,
+                                           const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
+        return clamp_.limits(find_pairs, touch_depth(detection.manifolds(), step.set.bodies), step.set.bodies,
+                             step.set.motions, step.h, any_fast_, turns_freely);
+    }
+
+private:
+    CcdClamp clamp_;
+    std::atomic<bool> any_fast_{false};  // set by each body's own thread
+};
+
+}  // namespace tumble

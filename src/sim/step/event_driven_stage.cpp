@@ -1,0 +1,61 @@
+#include "sim/step/event_driven_stage.h"
+
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+
+namespace tumble {
+
+std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t until) {
+    std::vector<Body>& bodies = step.set.bodies;
+    const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
+    events_.place(bodies, reached);
+    step.check.look_at(step.set.awake, bodies, step.pool);
+    return reached;
+}
+
+std::int64_t EventDrivenStage::skip_steps(const StepContext& step, std::int64_t to) {
+    if (events_.stepping(step.set.bodies) || step.forces.field().ever_changes()) return step.index;
+    return run_events(step, to);
+}
+
+std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContext& step,
+                                                                const std::vector<Manifold>& manifolds) {
+    std::vector<Body>& bodies = step.set.bodies;
+    make_contacts(manifolds, bodies, contacts_);
+    events_.take_off(contacts_, bodies, step.forces.field(), step.index);
+    stepped_.clear();
+    for (const std::uint32_t i : step.set.awake)
+        if (!bodies[i].flying) stepped_.push_back(i);
+    return stepped_;
+}
+
+void EventDrivenStage::advance(const StepContext& step, ContactDetection& detection) {
+    BodySet& set = step.set;
+    motions_.find(step, [&](std::uint32_t, const Body& body) {
+        BodyVelocity motion;
+        if (body.flying) return motion;
+        // All bodies in contact move by the velocities of the solve, whatever their integrator.
+        motion.velocity = body.velocity + body.push_velocity;
+        motion.angular_velocity = body.angular_velocity;
+        if (body.dynamic()) motion.angular_velocity += gyration(body, step.h);
+        motion.angular_velocity += body.push_angular_velocity;
+        return motion;
+    });
+    // Only stepped bodies are clamped: ballistic bodies find their impacts themselves.
+    const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& {
+        pairs_ = detection.find_pairs(step);
+        std::erase_if(pairs_, [&](const BroadPhase::Pair& pair) {
+            return set.bodies[pair.a].flying || set.bodies[pair.b].flying;
+        });
+        return pairs_;
+    };
+    const auto& limits = motions_.limits(step, detection, find_pairs);
+    for (const std::uint32_t i : set.awake) {
+        Body& body = set.bodies[i];
+        if (!body.flying && limits[i].share < 1.0)
+            step.forces.lose_time(i, body, limits[i].share, step.forces.touched(i, body));
+    }
+    events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);
+    run_events(step, step.index + 1);
+}
+
+}  // namespace tumble

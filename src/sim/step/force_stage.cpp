@@ -1,0 +1,79 @@
+#include "sim/step/force_stage.h"
+
+#include "sim/ccd/ccd_clamp.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/step/step_context.h"
+#include "sim/threads/settings.h"
+
+namespace tumble {
+
+ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
+    : field_(scene, set.scene_index),
+      effects_(set.bodies.size()),
+      ending_(field_.ever_changes() ? set.bodies.size() : 0) {}
+
+void ForceStage::wake(const StepContext& step) const {
+    for (const std::uint32_t i : field_.pushed())
+        if (step.set.bodies[i].asleep && field_.changes(i, step.start(), step.end()))
+            step.sleep.wake(i, step.set.bodies);
+}
+
+void ForceStage::apply(const StepContext& step, OutOfDate derived) {
+    const double now = step.start(), next = step.end(), h = step.h;
+    BodySet& set = step.set;
+    step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
+        Body& body = set.bodies[i];
+        if (body.flying) return;
+        if (derived == OutOfDate::all)
+            body.derive();
+        else if (derived == OutOfDate::velocities)
+            body.derive_velocities();
+        set.old_velocities[i] = {body.velocity, body.angular_velocity};
+        const Wrench wrench = field_.throughout(i, body, now, next);
+        effects_[i].before = {body.momentum, body.angular_momentum};
+        advance_momenta(body, wrench.force, wrench.torque, h);
+        effects_[i].after.momentum = body.momentum;
+        effects_[i].after.angular_momentum = body.angular_momentum;
+        body.derive_velocities();
+        if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
+    });
+}
+
+void ForceStage::apply_brief(const StepContext& step) {
+    const double now = step.start(), next = step.end();
+    for (const std::uint32_t i : field_.pushed()) {
+        Body& body = step.set.bodies[i];
+        ending_[i] = {};
+        if (body.asleep || body.flying) continue;
+        ending_[i] = field_.ending(i, body, now, next);
+        if (!field_.changes(i, now, next)) continue;
+        const Impulse brief = field_.brief(i, body, now, next);
+        advance_momenta(body, brief);
+        effects_[i].after.momentum += brief.linear;
+        effects_[i].after.angular_momentum += brief.angular;
+        if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, step.h);
+    }
+}
+
+void ForceStage::accept(std::uint32_t i, const BodySet& set) {
+    effects_[i].after = {set.bodies[i].momentum, set.bodies[i].angular_momentum};
+}
+
+void ForceStage::set_back(std::uint32_t i, Body& body) const {
+    body.momentum = effects_[i].before.momentum;
+    body.angular_momentum = effects_[i].before.angular_momentum;
+}
+
+void ForceStage::lose_time(std::uint32_t i, Body& body, double share, bool in_contact) const {
+    const Momenta &before = effects_[i].before, &after = effects_[i].after;
+    const Impulse ending = ending_.empty() ? Impulse{} : ending_[i];
+    const Vec3 push = after.momentum - before.momentum - ending.linear;
+    const Vec3 turn = after.angular_momentum - before.angular_momentum - ending.angular;
+    if (in_contact) return return_work(body, push, turn, share);
+    body.momentum = before.momentum + share * push + ending.linear;
+    body.angular_momentum = before.angular_momentum + share * turn + ending.angular;
+    body.derive_velocities();
+}
+
+}  // namespace tumble

@@ -1,0 +1,61 @@
+// External forces in a step: their effect on the momenta, which shows what contact has added to it, and which is taken
+// back in part if the body is clamped (ccd_clamp.h).
+#pragma once
+
+#include "sim/dynamics/forces.h"
+#include "sim/step/body_set.h"
+
+#include <vector>
+
+namespace tumble {
+
+struct StepContext;
+
+class ForceStage {
+public:
+    ForceStage(const SceneDescription& scene, const BodySet& set);
+
+    const ForceField& field() const { return field_; }
+
+    /// Wakes bodies on which a force begins or ends in the step.
+    void wake(const StepContext& step) const;
+
+    /// Which derived quantities of the awake bodies are out of date when the forces are applied.
+    enum class OutOfDate { none, velocities, all };
+    /// F and tau at t_n change P and L; the velocities before it are kept in BodySet.
+    void apply(const StepContext& step, OutOfDate derived);
+
+    /// Forces at points for the fraction of the step in which they act. Call it after the bounces, which keep their
+    /// speed against the forces that act throughout: a bounce must not cancel a brief force.
+    void apply_brief(const StepContext& step);
+
+    /// Takes the body's present momenta for those that the forces alone would have given it.
+    void accept(std::uint32_t body, const BodySet& set);
+    /// Sets the body back to its momenta before the forces: the start of an integrator of higher order.
+    void set_back(std::uint32_t i, Body& body) const;
+
+    /// Whether contact has added anything to the effect of the step's forces.
+    bool touched(std::uint32_t i, const Body& body) const {
+        return effects_[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
+               !body.push_angular_velocity.isZero(0.0);
+    }
+
+    /// Removes the effect of the lost part of a step from a clamped body that moved for the fraction `share` of it. In
+    /// contact the work of the forces along the lost displacement is removed; else the forces have acted for as long as
+    /// it moved. Forces at points that end at some time give all of their impulse.
+    void lose_time(std::uint32_t i, Body& body, double share, bool in_contact) const;
+
+private:
+    struct Momenta {
+        Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+        bool operator==(const Momenta&) const = default;
+    };
+    struct alignas(64) Effect {
+        Momenta before, after;
+    };
+    ForceField field_;
+    std::vector<Effect> effects_;  // by body
+    std::vector<Impulse> ending_;  // by body: of forces that end at some time; empty without forces at points
+};
+
+}  // namespace tumble

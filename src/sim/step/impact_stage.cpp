@@ -1,0 +1,99 @@
+#include "sim/step/impact_stage.h"
+
+#include "sim/dynamics/integrators/advance.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/impact/settings.h"
+#include "sim/step/contact_detection.h"
+#include "sim/step/step_context.h"
+#include "sim/threads/settings.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+// Whether touching points with restitution approach faster than resting contact does.
+bool collides(std::size_t island, ContactDetection& detection, const std::vector<Body>& bodies, double threshold) {
+    const auto touching = detection.islands().pairs(island);
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        const Body &a = bodies[touching[k].a], &b = bodies[touching[k].b];
+        if (pair_restitution(a, b) <= 0.0) continue;
+        const Manifold& m = detection.manifolds()[detection.islands().manifolds(island)[k]];
+        const double touch = touch_distance(a.radius, b.radius);
+        for (int i = 0; i < m.count; ++i) {
+            const ContactPoint& p = m.points[std::size_t(i)];
+            if (p.separation <= touch && relative_velocity(p, m.normal, a, b) < -threshold) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+double ImpactStage::threshold(const StepContext& step) { return tuning::restitution_threshold * step.gravity_speed(); }
+
+void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) {
+    std::vector<Body>& bodies = step.set.bodies;
+    const ContactIslands& islands = detection.islands();
+    std::vector<Manifold>& manifolds = detection.manifolds();
+    struck_.clear();
+    impulses_before_.clear();
+    colliding_.clear();
+    contacts_.clear();
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (!collides(k, detection, bodies, threshold(step))) continue;
+        Island& island = colliding_.emplace_back();
+        island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+        for (const std::uint32_t m : islands.manifolds(k)) {
+            struck_.push_back(m);
+            impulses_before_.push_back(normal_impulse(manifolds[m]));
+            const auto first = std::uint32_t(contacts_.size());
+            add_contacts(manifolds[m], bodies, contacts_);
+            for (std::uint32_t i = first; i < contacts_.size(); ++i) island.contacts.push_back(i);
+        }
+    }
+    if (struck_.empty()) return;
+    const ImpactSettings impacts{.threshold = threshold(step),
+                                 .slow = tuning::impact_slow * threshold(step),
+                                 .law = step.settings.impact_law,
+                                 .friction = true};
+    step.pool.for_each(colliding_.size(), tuning::parallel_grain,
+                       [&](std::size_t i, std::size_t) { resolve_impacts(colliding_[i], contacts_, bodies, impacts); });
+    std::size_t next = 0;
+    for (const std::uint32_t k : struck_) {
+        for (int i = 0; i < manifolds[k].count; ++i) {
+            const Contact& c = contacts_[next++];
+            // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
+            if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
+        }
+    }
+}
+
+void ImpactStage::hold_bounces(const StepContext& step) {
+    std::vector<Body>& bodies = step.set.bodies;
+    step.pool.for_each(colliding_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
+        tumble::hold_bounces(colliding_[i], contacts_, bodies, threshold(step));
+        // No contact holds a body that only bounces: it rotates as in flight, which adds nothing to its spin.
+        for (const std::uint32_t k : colliding_[i].bodies) {
+            if (!advances_whole_state(bodies[k].integrator)) step.forces.accept(k, step.set);
+            if (bodies[k].integrator != IntegratorKind::explicit_euler) find_gyration(bodies[k], step.h);
+        }
+    });
+}
+
+void ImpactStage::limit_warm_start(const StepContext& step, ContactDetection& detection) const {
+    const std::vector<Body>& bodies = step.set.bodies;
+    for (std::size_t k = 0; k < struck_.size(); ++k) {
+        Manifold& m = detection.manifolds()[struck_[k]];
+        double lighter = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t i : {m.a, m.b})
+            if (bodies[i].dynamic()) lighter = std::min(lighter, bodies[i].mass);
+        const double sum = normal_impulse(m),
+                     most = 2.0 * std::max(impulses_before_[k], lighter * step.gravity_speed());
+        if (sum > most) scale_impulses(m, most / sum);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,41 @@
+// Impacts of a step: contacts with restitution whose points approach are resolved with all contacts of their islands
+// (notes eq. 20), before the step's forces.
+#pragma once
+
+#include "sim/contact/model/contact.h"
+#include "sim/geometry/manifold.h"
+#include "sim/impact/impacts.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+class ContactDetection;
+struct StepContext;
+
+class ImpactStage {
+public:
+    /// v_rel < 0: impulses with restitution.
+    void resolve(const StepContext& step, ContactDetection& detection);
+    /// Whether the step has impacts: momenta have changed.
+    bool any() const { return !struck_.empty(); }
+
+    /// Restores the speeds of the bounces after the step's forces.
+    void hold_bounces(const StepContext& step);
+
+    /// After the contacts are solved: an impulse that stopped an impact in this step is a bad initial guess for the
+    /// next. A contact may keep at most twice its last value, or twice the weight of the lighter body.
+    void limit_warm_start(const StepContext& step, ContactDetection& detection) const;
+
+    /// Approach speed (m/s) below which a contact does not bounce.
+    static double threshold(const StepContext& step);
+
+private:
+    std::vector<Contact> contacts_;        // of the colliding islands, point by point
+    std::vector<Island> colliding_;        // islands with impacts in this step
+    std::vector<std::uint32_t> struck_;    // indices of the manifolds of these islands
+    std::vector<double> impulses_before_;  // N s, by entry of struck_: before the step
+};
+
+}  // namespace tumble

@@ -1,0 +1,32 @@
+// The data of a step that all of its stages share.
+#pragma once
+
+#include "sim/contact/model/sleep.h"
+#include "sim/event_driven/event_time.h"
+#include "sim/step/body_set.h"
+#include "sim/step/force_stage.h"
+#include "sim/step/state_check.h"
+#include "sim/threads/thread_pool.h"
+
+#include <cstdint>
+
+namespace tumble {
+
+struct StepContext {
+    const SimulationSettings& settings;
+    BodySet& set;
+    ForceStage& forces;
+    SleepMonitor& sleep;
+    StateCheck& check;
+    ThreadPool& pool;
+    StepClock clock;
+    std::int64_t index;  // number of the step, from 0
+    double h;            // s, length of the step
+
+    double start() const { return clock.seconds(index); }    // s
+    double end() const { return clock.seconds(index + 1); }  // s
+    /// Change of speed by gravity in a step, m/s.
+    double gravity_speed() const { return settings.gravity.norm() * h; }
+};
+
+}  // namespace tumble

@@ -1,0 +1,95 @@
+#include "sim/step/stepped_motion.h"
+
+#include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/advance.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/dynamics/kinematic_body.h"
+#include "sim/impact/settings.h"
+#include "sim/threads/settings.h"
+
+namespace tumble {
+namespace {
+
+// Whether the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
+// rotation is that of free rotation, which keeps the energy all along.
+bool turns_freely(std::uint32_t i, const StepContext& step) {
+    const Body& body = step.set.bodies[i];
+    return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && !step.forces.touched(i, body) &&
+           (!body.gyration.isZero(0.0) || turns_too_far(body, step.h));
+}
+
+}  // namespace
+
+SteppedMotion::SteppedMotion(const SceneDescription& scene, const BodySet& set, const StepClock& clock)
+    : motions_(set.bodies), free_flights_(set.bodies.size(), scene.simulation.gravity, clock) {}
+
+double SteppedMotion::least_rebound(const StepContext& step) const {
+    return tuning::restitution_rebound * step.gravity_speed();
+}
+
+// Explicit Euler moves a pose by the velocities of the step's start, all others by those of its end; the rotation by
+// their mean.
+BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const StepContext& step) const {
+    const bool before = body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
+    const BodyVelocity& old = step.set.old_velocities[i];
+    BodyVelocity motion;
+    motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;
+    motion.angular_velocity = before ? old.angular_velocity : body.angular_velocity;
+    if (!before && body.dynamic()) {
+        const Vec3 mean = step.forces.touched(i, body)
+                              ? mean_angular_velocity_in_contact(body, step.h, step.settings.rotation)
+                              : mean_angular_velocity(body, step.h, step.settings.rotation);
+        motion.angular_velocity = mean;  // through a named variable: see find_gyration()
+    }
+    motion.angular_velocity += body.push_angular_velocity;
+    return motion;
+}
+
+void SteppedMotion::advance(const StepContext& step, ContactDetection& detection) {
+    BodySet& set = step.set;
+    motions_.find(step, [&](std::uint32_t i, const Body& body) { return motion(i, body, step); });
+    const auto& limits = motions_.limits(
+        step, detection, [&]() -> const auto& { return detection.find_pairs(step); },
+        [&](std::uint32_t i) { return turns_freely(i, step); });
+    step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
+        move(i, limits[i], step);
+        step.check.look_at(i, set.bodies);
+    });
+}
+
+void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepContext& step) {
+    Body& body = step.set.bodies[i];
+    const ForceStage& forces = step.forces;
+    const double share = limit.share, h = step.h;
+    // Contact is solved for the velocities at the step's end: bodies in contact move by those, as in symplectic Euler.
+    const bool in_contact = forces.touched(i, body);
+    const bool flies = advances_whole_state(body.integrator) && !in_contact;
+    if (body.flew != flies) body.flew = flies;  // all threads read the neighboring data: written only where it changes
+    if (body.flew) {
+        forces.set_back(i, body);
+        const double end = step.start() + share * h;
+        if (body.integrator == IntegratorKind::exact)
+            free_flights_.advance(i, body, forces.field(), step.index, share);
+        else
+            advance_one_step(body, body.integrator, forces.field(), i, step.start(), end);
+        if (share < 1.0) advance_momenta(body, forces.field().ending(i, body, end, step.end()));
+    } else {
+        const BodyVelocity& motion = step.set.motions[i];
+        const double spin_before = spin(body);
+        const Quat orientation = body.orientation;
+        const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
+        advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
+        body.push_velocity.setZero();
+        body.push_angular_velocity.setZero();
+        if (!in_contact && share < 1.0) forces.lose_time(i, body, share, false);
+        body.derive();
+        if (freely)
+            turn_freely(body, orientation, share * h);
+        else if (in_contact && spin_grew(body, spin_before))
+            limit_spin(body, spin_before);
+        if (in_contact && share < 1.0) forces.lose_time(i, body, share, true);
+    }
+    if (limit.carrier != CcdFraction::none) carry_along(body, step.set.bodies[limit.carrier], share, h);
+}
+
+}  // namespace tumble

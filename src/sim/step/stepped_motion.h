@@ -1,0 +1,32 @@
+// Time stepping (impacts = "stepped"): all bodies move by the velocities of the step, clamped where they would pass
+// through each other. A body without contact is moved by its integrator.
+#pragma once
+
+#include "sim/event_driven/free_flights.h"
+#include "sim/step/clamped_motions.h"
+#include "sim/step/motion_stage.h"
+
+namespace tumble {
+
+class SteppedMotion final : public MotionStage {
+public:
+    SteppedMotion(const SceneDescription& scene, const BodySet& set, const StepClock& clock);
+
+    std::int64_t skip_steps(const StepContext& step, std::int64_t) override { return step.index; }
+    std::span<const std::uint32_t> choose_stepped(const StepContext& step, const std::vector<Manifold>&) override {
+        return step.set.awake;
+    }
+    bool has_ballistic_bodies() const override { return false; }
+    double least_rebound(const StepContext& step) const override;
+    void advance(const StepContext& step, ContactDetection& detection) override;
+    void bodies_fell_asleep(const StepContext&) override {}
+
+private:
+    BodyVelocity motion(std::uint32_t i, const Body& body, const StepContext& step) const;
+    void move(std::uint32_t i, const CcdFraction& limit, const StepContext& step);
+
+    ClampedMotions motions_;
+    FreeFlights free_flights_;  // of bodies with integrator = "exact"
+};
+
+}  // namespace tumble
