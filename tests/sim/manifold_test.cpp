@@ -108,7 +108,7 @@ TEST(Manifold, RemovedPointsAreNoCurve) {
     m.points[0] = {{0.0, 0.5, 0.0}, gap, 1};
     m.points[1] = {Vec3::Zero(), 1.0, 2};
     m.points[3].position = b.position;
-    EXPECT_EQ(passing(m, 0, a, b, still, passes, h).gap, gap);
-    m.set_curve({1.0, Vec3::Zero(), a.position, b.position});
-    EXPECT_GT(passing(m, 0, a, b, still, passes, h).gap, gap);
+    EXPECT_EQ(predicted_gap(m, 0, {a, b, still, passes}, h).gap, gap);
+    m.geometry = CurvedGap{1.0, Vec3::Zero(), a.position, b.position};
+    EXPECT_GT(predicted_gap(m, 0, {a, b, still, passes}, h).gap, gap);
 }

@@ -22,27 +22,31 @@ Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, b
 // n' of the contact's normal (1/s): it rotates with the body whose face it is; of crossing edges n stays across both,
 // so that with c = e_a x e_b, n' is the component of c' / |c| across n.
 Vec3 normal_rate(const Contact& c, const Body& a, const Body& b) {
-    if (c.corners == Corners::of_a || c.on_ball == OnBall::a_over_face) return b.angular_velocity.cross(c.normal);
-    if (c.corners == Corners::of_b || c.on_ball == OnBall::b_over_face) return a.angular_velocity.cross(c.normal);
-    const Vec3 across = c.edge_a.cross(c.edge_b);
+    const auto* ball = std::get_if<BallOverFace>(&c.geometry);
+    if (c.corners == Corners::of_a || (ball && ball->ball_of_a)) return b.angular_velocity.cross(c.normal);
+    if (c.corners == Corners::of_b || ball) return a.angular_velocity.cross(c.normal);
+    const auto* edges = std::get_if<CrossingEdges>(&c.geometry);
+    if (!edges) return Vec3::Zero();
+    const Vec3 across = edges->of_a.cross(edges->of_b);
     const double length = across.norm();
     if (!(length > 0.0)) return Vec3::Zero();
-    const Vec3 change =
-        a.angular_velocity.cross(c.edge_a).cross(c.edge_b) + c.edge_a.cross(b.angular_velocity.cross(c.edge_b));
+    const Vec3 change = a.angular_velocity.cross(edges->of_a).cross(edges->of_b) +
+                        edges->of_a.cross(b.angular_velocity.cross(edges->of_b));
     const double sign = across.dot(c.normal) < 0.0 ? -1.0 : 1.0;
     return sign / length * (change - c.normal.dot(change) * c.normal);
 }
 
-// Contribution of the normal's rotation to the acceleration along n, for places with the relative velocity v. For the
+// Contribution of the normal's rotation to the acceleration along n, for points with the relative velocity v. For the
 // gap between two points, d n, or between a point and a line along the unit e, less a radius: with s = d n.e,
 // d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. For any other gap: d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based
 // Modeling", resting contact).
 double turning(const Contact& c, const Body& a, const Body& b, const Vec3& v) {
-    if (c.on_ball != OnBall::curve) return 2.0 * normal_rate(c, a, b).dot(v);
-    const double distance = (b.position + c.place_b - a.position - c.place_a).norm();
+    const auto* gap = std::get_if<CurvedGap>(&c.geometry);
+    if (!gap) return 2.0 * normal_rate(c, a, b).dot(v);
+    const double distance = (b.position + c.gap_arm_b - a.position - c.gap_arm_a).norm();
     if (!(distance > 0.0)) return 0.0;
     const Body& edged = std::holds_alternative<Ball>(a.collider) ? b : a;
-    const double along = v.dot(c.straight) + distance * c.normal.dot(edged.angular_velocity.cross(c.straight));
+    const double along = v.dot(gap->line) + distance * c.normal.dot(edged.angular_velocity.cross(gap->line));
     return ((v - c.normal.dot(v) * c.normal).squaredNorm() - along * along) / distance;
 }
 
@@ -55,8 +59,7 @@ double beyond_rounding(double sum, double terms) {
 
 double pressing_acceleration(const Contact& c, const Body& a, const Body& b, const Vec3& gravity, bool a_supported,
                              bool b_supported) {
-    const bool on_ball = c.on_ball != OnBall::no;
-    const Vec3 &arm_a = on_ball ? c.place_a : c.arm_a, &arm_b = on_ball ? c.place_b : c.arm_b;
+    const Vec3 &arm_a = c.gap_arm_a, &arm_b = c.gap_arm_b;
     const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported),
                of_b = free_acceleration(b, arm_b, gravity, b_supported);
     const double more = turning(c, a, b, b.point_velocity(arm_b) - a.point_velocity(arm_a));

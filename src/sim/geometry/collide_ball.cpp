@@ -53,7 +53,7 @@ void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball&
     const double separation = height - b.radius;
     if (separation > margin) return;
     add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
-    out.back().set_ball(pose_b.position);
+    out.back().geometry = BallOverFace{false, pose_b.position};
 }
 
 void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
@@ -66,7 +66,7 @@ void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose&
     const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
     add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
-    out.back().set_curve({distance, Vec3::Zero(), pose_a.position, pose_b.position});
+    out.back().geometry = CurvedGap{distance, Vec3::Zero(), pose_a.position, pose_b.position};
 }
 
 void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
@@ -90,7 +90,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
         const Vec3 normal = pose_a.rotation * face->normal;
         const double separation = most - b.radius;
         add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
-        out.back().set_ball(pose_b.position);
+        out.back().geometry = BallOverFace{false, pose_b.position};
         return;
     }
     // Only faces with the center on their outer side can hold the nearest point.
@@ -116,9 +116,9 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     const Vec3 point = pose_a.to_world(nearest.point);
     add_point(normal, point + 0.5 * separation * normal, separation, out);
     if (of_face)
-        out.back().set_ball(pose_b.position);
+        out.back().geometry = BallOverFace{false, pose_b.position};
     else
-        out.back().set_curve({distance, pose_a.rotation * nearest.edge, point, pose_b.position});
+        out.back().geometry = CurvedGap{distance, pose_a.rotation * nearest.edge, point, pose_b.position};
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,

@@ -86,9 +86,9 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
             const int k = hit.feature - 1;
             const Vec3 edge =
                 hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
-            m.set_curve({hit.distance, pose_a.rotation * edge, point, pose_b.position});
+            m.geometry = CurvedGap{hit.distance, pose_a.rotation * edge, point, pose_b.position};
         } else {
-            m.set_ball(pose_b.position);
+            m.geometry = BallOverFace{false, pose_b.position};
         }
         out.push_back(m);
     }

@@ -49,7 +49,7 @@ void add_edge_manifold(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec
     m.count = 1;
     m.points[0] = {frame.to_world(0.5 * (a0 + s * u + b0 + t * v)), separation,
                    (std::uint64_t(1) << 62) | (edge_a << 24) | edge_b};
-    m.set_edges(frame.rotation * u, frame.rotation * v);
+    m.geometry = CrossingEdges{frame.rotation * u, frame.rotation * v};
     out.push_back(m);
 }
 

@@ -34,7 +34,18 @@ double gain(const Manifold& chosen, const Vec3& p) {
     return -std::min({turn * area(0, 1), turn * area(1, 2), turn * area(2, 0)});
 }
 
+struct Swap {
+    PointGeometry operator()(const NoCurve&) const { return NoCurve{}; }
+    PointGeometry operator()(const BallOverFace& ball) const { return BallOverFace{!ball.ball_of_a, ball.center}; }
+    PointGeometry operator()(const CurvedGap& gap) const {
+        return CurvedGap{gap.distance, gap.line, gap.on_b, gap.on_a};
+    }
+    PointGeometry operator()(const CrossingEdges& edges) const { return CrossingEdges{edges.of_b, edges.of_a}; }
+};
+
 }  // namespace
+
+PointGeometry swapped(const PointGeometry& geometry) { return std::visit(Swap{}, geometry); }
 
 std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
     std::vector<BodyPair> pairs;

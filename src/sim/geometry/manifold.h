@@ -6,7 +6,7 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
+#include <variant>
 #include <vector>
 
 namespace tumble {
@@ -19,32 +19,45 @@ struct ContactPoint {
     double impulse = 0.0;  // N s along the normal: of the last step, then of this step
 };
 
-/// Predicted gap at a point as the bodies pass each other: the distance of two places, one on each body, or of a place
-/// and a straight line, less a constant. A place is a ball's center or a corner; a line is an edge.
-struct Curve {
-    double distance = 0.0;                          // m, initial distance of the places
-    Vec3 straight = Vec3::Zero();                   // world, direction of the line; zero for a place
-    Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();  // world, the places on A and on B
-};
-
 /// Body whose corners are the points of a manifold; the other body has the face below them. neither: crossing edges,
 /// points on balls.
 enum class Corners : std::uint8_t { neither, of_a, of_b };
 
-/// Kind of a manifold's single point on a ball: A's or B's ball over the other body's face, or a gap along a Curve.
-enum class OnBall : std::uint8_t { no, a_over_face, b_over_face, curve };
+/// Geometry of a manifold's single point, where its gap or its normal changes otherwise than that of corners over a
+/// face. All vectors in the world frame.
+struct NoCurve {};
+/// A ball over the other body's face: the gap is the height of the ball's center, less the radius.
+struct BallOverFace {
+    bool ball_of_a = false;
+    Vec3 center = Vec3::Zero();
+};
+/// The gap is the distance of two points, one on each body, or of a point and a line, less a constant. A point is a
+/// ball's center or a corner; a line is an edge.
+struct CurvedGap {
+    double distance = 0.0;                          // m, initial distance of the points
+    Vec3 line = Vec3::Zero();                       // direction of the line; zero for two points
+    Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();  // the points on A and on B
+};
+/// The directions of two crossing edges determine how the normal rotates.
+struct CrossingEdges {
+    Vec3 of_a = Vec3::Zero(), of_b = Vec3::Zero();
+};
+using PointGeometry = std::variant<NoCurve, BallOverFace, CurvedGap, CrossingEdges>;
+
+/// The same with A and B exchanged.
+PointGeometry swapped(const PointGeometry& geometry);
 
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
     static constexpr int capacity = 4;  // spans most flat contact areas; a second manifold holds further points
 
+    PointGeometry geometry;      // of a single point. First, so that its kind lies beside the indices
     std::uint32_t a = 0, b = 0;  // body indices
     std::uint32_t part = 0;      // of compounds and meshes: identifies the parts and the triangle that meet, else 0
     std::int16_t count = 0;
     bool more = false;             // those of the same two faces' points that the first manifold has no room for
     bool solved_directly = false;  // whether the direct solver solved it in the last step
     Corners corners = Corners::neither;
-    OnBall on_ball = OnBall::no;
     std::uint16_t left_out = 0;  // number of its candidates in CollisionScratch::left_out, for a manifold just found
     std::uint32_t first_left_out = 0;
     Vec3 normal = Vec3::Zero();
@@ -67,39 +80,11 @@ struct Manifold {
         return false;
     }
 
-    /// For a manifold on a ball, which has one point: stored in the place of further points.
-    void set_curve(const Curve& c) {
-        on_ball = OnBall::curve;
-        points[1] = {c.straight, c.distance};
-        points[2].position = c.on_a;
-        points[3].position = c.on_b;
-    }
-    Curve curve() const { return {points[1].separation, points[1].position, points[2].position, points[3].position}; }
-
-    /// For crossing edges: their directions (world), stored in the same way. They determine how the normal rotates.
-    void set_edges(const Vec3& of_a, const Vec3& of_b) {
-        points[1].position = of_a;
-        points[2].position = of_b;
-    }
-    bool of_edges() const { return count == 1 && (points[0].feature >> 62) == 1; }
-
-    /// For B's ball over a face: its center, world, stored in the same way.
-    void set_ball(const Vec3& center) {
-        on_ball = OnBall::b_over_face;
-        points[2].position = center;
-    }
-    bool ball_over_face() const { return on_ball == OnBall::a_over_face || on_ball == OnBall::b_over_face; }
-    const Vec3& ball() const { return points[2].position; }
-
     /// Exchanges A and B.
     void swap() {
         normal = -normal;
         if (corners != Corners::neither) corners = corners == Corners::of_a ? Corners::of_b : Corners::of_a;
-        if (of_edges()) std::swap(points[1].position, points[2].position);
-        if (on_ball == OnBall::curve)
-            std::swap(points[2].position, points[3].position);
-        else if (ball_over_face())
-            on_ball = on_ball == OnBall::a_over_face ? OnBall::b_over_face : OnBall::a_over_face;
+        geometry = swapped(geometry);
     }
 
     /// For a manifold on a face: whether the normal is that of a face of B (feature_contact.cpp).

@@ -59,7 +59,8 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         const Manifold& m = problem.manifolds[k];
         const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         Patch patch;
-        patch.geometry = make_patch(m, a, b, problem.before[m.a], problem.before[m.b], problem.patches);
+        const BodiesInStep both{a, b, problem.before[m.a], problem.before[m.b]};
+        patch.geometry = make_constraint(m, both, problem.patches);
         const ContactConstraint& geometry = patch.geometry;
         if (geometry.count == 0) continue;
         patch.a = place_of(bodies, m.a);
@@ -68,7 +69,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.manifold = k;
         patch.coefficient = geometry.friction;
         patch.size = geometry.size;
-        const Vec3 round = carried_round(m, a, b, problem.before[m.a], problem.before[m.b], h);
+        const Vec3 round = arc_velocity(m, both, h);
         driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves()) || !round.isZero(0.0);
         for (int i = 0; i < patch.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];

@@ -65,19 +65,12 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.friction = pair_friction(a, b);
     c.touch_distance = touch_distance(a.radius, b.radius);
     c.corners = m.corners;
-    if (m.of_edges()) {
-        c.edge_a = m.points[1].position;
-        c.edge_b = m.points[2].position;
-    }
-    c.on_ball = m.on_ball;
-    if (m.on_ball == OnBall::curve) {
-        const Curve curve = m.curve();
-        c.place_a = curve.on_a - a.position;
-        c.place_b = curve.on_b - b.position;
-        c.straight = curve.straight;
-    } else if (m.ball_over_face()) {
-        c.place_a = m.ball() - a.position;
-        c.place_b = m.ball() - b.position;
+    c.geometry = m.geometry;
+    const auto* gap = std::get_if<CurvedGap>(&m.geometry);
+    const auto* ball = std::get_if<BallOverFace>(&m.geometry);
+    if (gap || ball) {
+        c.gap_arm_a = (gap ? gap->on_a : ball->center) - a.position;
+        c.gap_arm_b = (gap ? gap->on_b : ball->center) - b.position;
     }
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
@@ -86,6 +79,10 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
         const Vec3 place = acting_place(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
         c.arm_a = place - a.position;
         c.arm_b = place - b.position;
+        if (!gap && !ball) {
+            c.gap_arm_a = c.arm_a;
+            c.gap_arm_b = c.arm_b;
+        }
         contacts.push_back(c);
     }
     if (m.count > 1) set_rubbing(m, std::span(contacts).last(std::size_t(m.count)));

@@ -21,12 +21,10 @@ struct Contact {
     Vec3 normal;              // away from A
     Vec3 arm_a, arm_b;        // r = p - x, world
     Vec3 rub = Vec3::Zero();  // m, world: from the contact to the point where its friction acts (contact_area.h)
-    Corners corners = Corners::neither;                 // the normal rotates with the other body's face
-    Vec3 edge_a = Vec3::Zero(), edge_b = Vec3::Zero();  // directions (world) of crossing edges; else zero
-    OnBall on_ball = OnBall::no;
-    // m, world, from the bodies' centers; on a ball: the places of its curve, or the ball's center
-    Vec3 place_a = Vec3::Zero(), place_b = Vec3::Zero();
-    Vec3 straight = Vec3::Zero();              // direction of the curve's line (Curve)
+    Corners corners = Corners::neither;  // the normal rotates with the other body's face
+    PointGeometry geometry;              // of the manifold's single point
+    // m, world, from the bodies' centers: the points of a CurvedGap, or the center of a BallOverFace. Else the arms
+    Vec3 gap_arm_a = Vec3::Zero(), gap_arm_b = Vec3::Zero();
     double separation = 0.0;                   // m; negative: overlap
     double touch_distance = 0.0;               // m, contact tolerance
     double restitution = 0.0, friction = 0.0;  // of the pair of materials

@@ -1,6 +1,5 @@
 #include "sim/contact/model/contact_constraint.h"
 
-#include "sim/contact/model/predicted_gap.h"
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
 
@@ -60,21 +59,21 @@ Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal
     return change - normal.dot(change) * normal;
 }
 
-ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
-                             const BodyVelocity& before_b, const ConstraintSettings& settings) {
-    ContactConstraint patch;
-    patch.size = std::min(a.radius, b.radius);
-    const double near = tuning::friction_near * patch.size;
+ContactConstraint make_constraint(const Manifold& m, const BodiesInStep& bodies, const ConstraintSettings& settings) {
+    const Body &a = bodies.a, &b = bodies.b;
+    ContactConstraint constraint;
+    constraint.size = std::min(a.radius, b.radius);
+    const double near = tuning::friction_near * constraint.size;
     Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();  // relative to A's center
     double weights = 0.0, shares = 0.0;
     bool whole = true;  // whether all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
-        const PredictedGap seen = passing(m, i, a, b, before_a, before_b, settings.h);
+        const PredictedGap seen = predicted_gap(m, i, bodies, settings.h);
         if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
         const Vec3 place = acting_place(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
         const Vec3 arm_a = place - a.position, arm_b = place - b.position;
-        ContactConstraint::Point& to = patch.points[std::size_t(patch.count++)];
+        ContactConstraint::Point& to = constraint.points[std::size_t(constraint.count++)];
         to.arm_a = arm_a;
         to.arm_b = arm_b;
         to.separation = seen.gap;
@@ -88,19 +87,19 @@ ContactConstraint make_patch(const Manifold& m, const Body& a, const Body& b, co
         shares += share;
         whole = whole && seen.gap < near;
     }
-    if (patch.count == 0) return patch;
-    patch.normal = m.normal;
-    patch.tangent_1 = tangent_of(m);
-    patch.tangent_2 = patch.normal.cross(patch.tangent_1);
-    patch.friction = pair_friction(a, b);
-    patch.friction_arm_a = whole ? of_area / shares : center / weights;
-    patch.spread = double(m.spread);
-    patch.friction_arm_b = patch.friction_arm_a + (a.position - b.position);
-    for (int i = 0; i < patch.count; ++i) {
-        ContactConstraint::Point& p = patch.points[std::size_t(i)];
-        p.lever = patch.spread * (p.arm_a - patch.friction_arm_a).norm();
+    if (constraint.count == 0) return constraint;
+    constraint.normal = m.normal;
+    constraint.tangent_1 = tangent_of(m);
+    constraint.tangent_2 = constraint.normal.cross(constraint.tangent_1);
+    constraint.friction = pair_friction(a, b);
+    constraint.friction_arm_a = whole ? of_area / shares : center / weights;
+    constraint.spread = double(m.spread);
+    constraint.friction_arm_b = constraint.friction_arm_a + (a.position - b.position);
+    for (int i = 0; i < constraint.count; ++i) {
+        ContactConstraint::Point& p = constraint.points[std::size_t(i)];
+        p.lever = constraint.spread * (p.arm_a - constraint.friction_arm_a).norm();
     }
-    return patch;
+    return constraint;
 }
 
 }  // namespace tumble

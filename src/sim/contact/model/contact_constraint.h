@@ -2,8 +2,7 @@
 // of the pair. Built anew each step; the impulses stay with the manifold.
 #pragma once
 
-#include "sim/dynamics/body.h"
-#include "sim/geometry/manifold.h"
+#include "sim/contact/model/predicted_gap.h"
 
 #include <array>
 #include <cstdint>
@@ -53,8 +52,8 @@ bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, c
                  const ConstraintSettings& settings);
 
 /// Returns a constraint without points when none has to be held.
-ContactConstraint make_patch(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
-                             const BodyVelocity& before_b, const ConstraintSettings& settings);
+ContactConstraint make_constraint(const Manifold& manifold, const BodiesInStep& bodies,
+                                  const ConstraintSettings& settings);
 
 /// A point on a turning kinematic body moves on an arc, but its velocity at the start of the step points along the
 /// tangent: with that alone, carried bodies would creep outward. Friction uses the velocity at the carried body's

@@ -14,16 +14,15 @@ namespace {
 // With d the distance vector of the places across the line, initially d0 n, and u the relative velocity of the places
 // across the line, |d0 n + u t| is least at t = -d0 n.u / u^2, or at the end of the step.
 // If that is an overlap, the bodies do meet.
-double gap_of_curves(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
-                     const BodyVelocity& before_b, double h) {
+double gap_of_curve(const Manifold& m, const CurvedGap& curve, const BodiesInStep& bodies, double h) {
+    const auto& [a, b, before_a, before_b] = bodies;
     const double gap = m.points[0].separation;
     if (!(gap > 0.0)) return gap;
-    const Curve curve = m.curve();
     const auto velocity = [](const BodyVelocity& v, const Vec3& arm) {
         return Vec3(v.velocity + v.angular_velocity.cross(arm));
     };
     Vec3 u = velocity(before_b, curve.on_b - b.position) - velocity(before_a, curve.on_a - a.position);
-    u -= curve.straight.dot(u) * curve.straight;
+    u -= curve.line.dot(u) * curve.line;
     const double closing = -m.normal.dot(u), d = curve.distance, square = u.squaredNorm();
     if (!(closing * h > gap)) return gap;
     const double t = std::min(h, d * closing / square);
@@ -39,11 +38,12 @@ RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
 
 }  // namespace
 
-PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b, const BodyVelocity& before_a,
-                     const BodyVelocity& before_b, double h) {
+PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bodies, double h) {
+    const auto& [a, b, before_a, before_b] = bodies;
     const ContactPoint& p = m.points[std::size_t(index)];
     const PredictedGap as_it_is{p.position, p.separation, 0.0};
-    if (m.on_ball == OnBall::curve) return {p.position, gap_of_curves(m, a, b, before_a, before_b, h), 0.0};
+    if (const auto* curve = std::get_if<CurvedGap>(&m.geometry))
+        return {p.position, gap_of_curve(m, *curve, bodies, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
     const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;
     if (square * before_a.angular_velocity.squaredNorm() < least &&
@@ -73,14 +73,15 @@ PredictedGap passing(const Manifold& m, int index, const Body& a, const Body& b,
 
 // With r = r_e + r_x along and across the unit vector e of w:
 //   r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
-Vec3 carried_round(const Manifold& m, const Body& a, const Body& b, const BodyVelocity& before_a,
-                   const BodyVelocity& before_b, double h) {
-    if (!m.ball_over_face()) return Vec3::Zero();
-    const bool of_a = m.on_ball == OnBall::a_over_face;
+Vec3 arc_velocity(const Manifold& m, const BodiesInStep& bodies, double h) {
+    const auto* ball = std::get_if<BallOverFace>(&m.geometry);
+    if (!ball) return Vec3::Zero();
+    const auto& [a, b, before_a, before_b] = bodies;
+    const bool of_a = ball->ball_of_a;
     const Body &body = of_a ? a : b, &face = of_a ? b : a;
     const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity,
                &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
-    const Vec3 arm = m.ball() - body.position;
+    const Vec3 arm = ball->center - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
     if (face.moves() && h * face_turn.norm() > tuning::swing_turn)

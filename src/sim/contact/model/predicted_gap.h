@@ -17,16 +17,20 @@ struct PredictedGap {
     double slower = 0.0;           // m/s: decrease of the approach speed until then
 };
 
-/// `before`: the velocities before the step's forces; `h`: the time (s) in which the gap may be closed.
-/// For points on balls (OnBall::curve) only the gap changes.
-PredictedGap passing(const Manifold& manifold, int point, const Body& a, const Body& b, const BodyVelocity& before_a,
-                     const BodyVelocity& before_b, double h);
+/// The bodies of a manifold, with their velocities before the step's forces.
+struct BodiesInStep {
+    const Body &a, &b;
+    const BodyVelocity &before_a, &before_b;
+};
+
+/// `h`: the time (s) in which the gap may be closed.
+/// For a CurvedGap only the gap changes.
+PredictedGap predicted_gap(const Manifold& manifold, int point, const BodiesInStep& bodies, double h);
 
 /// A ball off its body's center of mass, as in a compound, moves on an arc. Over a step of h seconds this differs from
 /// its velocity at the start of the step, w x r, times h. Returns the difference as a velocity (m/s) of B's ball
 /// relative to A's face, or of A's relative to B's. Without it, a rolling body hops where its center of mass is low and
 /// sinks where it is high.
-Vec3 carried_round(const Manifold& manifold, const Body& a, const Body& b, const BodyVelocity& before_a,
-                   const BodyVelocity& before_b, double h);
+Vec3 arc_velocity(const Manifold& manifold, const BodiesInStep& bodies, double h);
 
 }  // namespace tumble

@@ -190,15 +190,15 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     float* point = head + soft::head_rows * stride;
     int count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
-    const bool curves = a.swings || b.swings || m.on_ball == OnBall::curve;
+    const BodiesInStep bodies{body_a, body_b, problem.before[m.a], problem.before[m.b]};
+    const bool curves = a.swings || b.swings || std::holds_alternative<CurvedGap>(m.geometry);
     const auto order = deepest_last(m);
     for (int k = 0; k < m.count; ++k) {
         const int i = order[std::size_t(k)];
         const ContactPoint& p = m.points[std::size_t(i)];
         PredictedGap seen{p.position, p.separation, 0.0};
         // For one substep more than the step: the last sweep looks that far ahead.
-        if (curves)
-            seen = passing(m, i, body_a, body_b, problem.before[m.a], problem.before[m.b], problem.patches.h + d_);
+        if (curves) seen = predicted_gap(m, i, bodies, problem.patches.h + d_);
         if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
