@@ -15,6 +15,11 @@ using tumble::testing::trials;
 
 namespace {
 
+using Rows = ManifoldRows<float>;
+using Point = PointRows<float>;
+
+Vec3 to_double(const Vector3<float>& v) { return {v.x, v.y, v.z}; }
+
 /// Memory aligned to 64 bytes.
 struct alignas(64) Line {
     float f[16] = {};
@@ -31,7 +36,7 @@ struct Lane {
     Vec3 normal = Vec3::UnitY(), tangent = Vec3::UnitX();
     Vec3 between = Vec3::Zero();  // from B's center to A's
     double friction = 0.0, size = 1.0, spread = 1.0;
-    double start_friction[3] = {};
+    Vec3 start_friction = Vec3::Zero();
     std::vector<LanePoint> points;
 };
 
@@ -55,14 +60,14 @@ public:
     float* state(std::size_t slot) { return state_[slot].f; }
     float* inertia(std::size_t slot) { return inertia_[slot / 2].f + 8 * (slot % 2); }
     float* force(std::size_t slot) { return forces_[slot / 2].f + 8 * (slot % 2); }
-    float& head(std::size_t lane, int row) {
-        return reinterpret_cast<float*>(
-            rows_.data())[((lane / lanes_) * group_rows + std::size_t(row)) * lanes_ + lane % lanes_];
+    ManifoldLane manifold(std::size_t lane) {
+        return {reinterpret_cast<float*>(rows_.data()) + (lane / lanes_) * group_rows * lanes_ + lane % lanes_, lanes_};
     }
-    float& at(std::size_t lane, int point, int row) { return head(lane, head_rows + point * point_rows + row); }
+    float impulse(std::size_t lane, std::size_t point) { return manifold(lane).point(point)[&Point::impulse]; }
+    Vec3 friction(std::size_t lane) { return to_double(manifold(lane).vector(&Rows::friction)); }
 
-    void prepare() { call(kernel_.prepare); }
-    void warm_start() { call(kernel_.warm_start); }
+    void prepare() { kernel_.prepare(groups(), 0, groups_, bodies()); }
+    void warm_start() { kernel_.warm_start(groups(), 0, groups_, bodies()); }
     void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, alike, unlike, fixed}); }
     void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
     void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
@@ -77,10 +82,6 @@ private:
         return {reinterpret_cast<float*>(state_.data()), reinterpret_cast<float*>(inertia_.data()),
                 reinterpret_cast<float*>(forces_.data()), reinterpret_cast<float*>(start_.data())};
     }
-    void call(void (*pass)(const Groups&, std::size_t, std::size_t, const Bodies&)) {
-        pass(groups(), 0, groups_, bodies());
-    }
-
     void pack(std::size_t k, const Lane& lane) {
         const std::size_t group = k / lanes_, l = k % lanes_;
         bodies_[2 * lanes_ * group + l] = std::uint32_t(body_floats) * lane.a;
@@ -88,26 +89,21 @@ private:
         moved_[2 * group] |= std::uint16_t((lane.a && lane.moves_a) << l);
         moved_[2 * group + 1] |= std::uint16_t((lane.b && lane.moves_b) << l);
         points_[group] = std::max(points_[group], std::uint8_t(lane.points.size()));
-        const auto vector = [&](int row, const Vec3& v) {
-            for (int i = 0; i < 3; ++i) head(k, row + i) = float(v[i]);
-        };
-        vector(normal, lane.normal);
-        vector(tangent_1, lane.tangent);
-        head(k, friction_coefficient) = float(lane.friction);
-        vector(between, lane.between);
-        head(k, size) = float(lane.size);
-        head(k, spread) = float(lane.spread);
-        head(k, friction_1) = float(lane.start_friction[0]);
-        head(k, friction_2) = float(lane.start_friction[1]);
-        head(k, twist) = float(lane.start_friction[2]);
+        const ManifoldLane to = manifold(k);
+        to.set(&Rows::normal, lane.normal);
+        to.set(&Rows::tangent, lane.tangent);
+        to[&Rows::friction_coefficient] = float(lane.friction);
+        to.set(&Rows::between, lane.between);
+        to[&Rows::size] = float(lane.size);
+        to[&Rows::spread] = float(lane.spread);
+        to.set(&Rows::friction, lane.start_friction);
         for (std::size_t i = 0; i < lane.points.size(); ++i) {
             const LanePoint& p = lane.points[i];
-            const int base = head_rows + int(i) * point_rows;
-            vector(base + turn, p.arm);
-            at(k, int(i), normal_mass) = 1.0f;
-            at(k, int(i), lever) = float(p.share);
-            at(k, int(i), separation) = float(p.separation);
-            at(k, int(i), impulse) = float(p.impulse);
+            to.point(i).set(&Point::arm, p.arm);
+            to.point(i)[&Point::present] = 1.0f;
+            to.point(i)[&Point::load_share] = float(p.share);
+            to.point(i)[&Point::separation] = float(p.separation);
+            to.point(i)[&Point::impulse] = float(p.impulse);
         }
     }
 
@@ -190,12 +186,12 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
                 lane.friction = random(0.0, 1.0);
                 lane.between = random.vector(1.0);
                 lane.size = random(0.01, 3.0);
-                for (double& f : lane.start_friction) f = random(-0.01, 0.01);
+                for (int i = 0; i < 3; ++i) lane.start_friction[i] = random(-0.01, 0.01);
                 for (int i = 1 + random.below(4); i > 0; --i)
                     lane.points.push_back({random.vector(1.0), random(-0.05, 0.02), random(0.0, 0.1)});
                 if (random.below(3) == 0) {  // idle
                     for (LanePoint& p : lane.points) p.impulse = 0.0;
-                    for (double& f : lane.start_friction) f = 0.0;
+                    lane.start_friction.setZero();
                 }
                 lanes.push_back(lane);
             }
@@ -223,14 +219,13 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
             for (std::size_t s = 0; s <= std::size_t(2 * count); ++s)
                 result.insert(result.end(), color.state(s), color.state(s) + body_floats);
             for (std::size_t k = 0; k < lanes.size(); ++k) {
-                for (const int row :
-                     std::initializer_list<int>{friction_1, friction_2, twist, friction_1_sum, friction_2_sum,
-                                                twist_sum, force, force + 1, force + 2, moment, moment + 1, moment + 2})
-                    result.push_back(color.head(k, row));
-                for (std::size_t i = 0; i < lanes[k].points.size(); ++i) {
-                    result.push_back(color.at(k, int(i), impulse));
-                    result.push_back(color.at(k, int(i), impulse_sum));
-                }
+                const ManifoldLane lane = color.manifold(k);
+                const auto total = lane.total_impulse();
+                for (const auto& v :
+                     {lane.vector(&Rows::friction), lane.vector(&Rows::friction_sum), total.linear, total.angular})
+                    result.insert(result.end(), {v.x, v.y, v.z});
+                for (std::size_t i = 0; i < lanes[k].points.size(); ++i)
+                    result.insert(result.end(), {lane.point(i)[&Point::impulse], lane.point(i)[&Point::impulse_sum]});
             }
             for (const float f : result) ASSERT_TRUE(std::isfinite(f));
             results.push_back(result);
@@ -272,20 +267,20 @@ TEST(SoftKernel, AContactStopsAnApproach) {
     for (const Kernel* kernel : kernels()) {
         OneColor central = ball(*kernel, ball_lane(0.0), {0.0, -3.0, 0.0});
         central.relax(480.0f);
-        EXPECT_NEAR(central.at(0, 0, impulse), m * 3.0, 1e-5);
+        EXPECT_NEAR(central.impulse(0, 0), m * 3.0, 1e-5);
         EXPECT_NEAR(central.state(1)[1], 0.0, 1e-6);
         Lane lane = ball_lane(0.0);
         lane.between = Vec3(0.4, -0.3, 0.0);
         OneColor aside = ball(*kernel, lane, {0.0, -3.0, 0.0});
         aside.relax(480.0f);
         const double j = 3.0 / (1.0 / m + 0.4 * 0.4 / moment_of_inertia);
-        EXPECT_NEAR(aside.at(0, 0, impulse), j, 1e-5);
+        EXPECT_NEAR(aside.impulse(0, 0), j, 1e-5);
         EXPECT_NEAR(aside.state(1)[1], -3.0 + j / m, 1e-5);
         EXPECT_NEAR(aside.state(1)[5], 0.4 * j / moment_of_inertia, 1e-4);  // about z: x arm times y impulse
         OneColor leaving = ball(*kernel, ball_lane(0.5), {1.0, 0.1, 0.0});
         leaving.push(480.0f);
         leaving.relax(480.0f);
-        EXPECT_EQ(leaving.at(0, 0, impulse), 0.0f);
+        EXPECT_EQ(leaving.impulse(0, 0), 0.0f);
         EXPECT_EQ(leaving.state(1)[0], 1.0f);
     }
 }
@@ -311,10 +306,10 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved) {
         color.fixed = {50.0f, 0.8f, 0.2f};
         color.push(480.0f);
         const double bias = 50.0 * 0.009 * (1.0 + 0.009 / (tuning::soft_twice_as_stiff * lane.size));
-        EXPECT_NEAR(color.at(0, 0, impulse), m * 0.8 * bias, 1e-5);
+        EXPECT_NEAR(color.impulse(0, 0), m * 0.8 * bias, 1e-5);
         color.push(480.0f);
         const double first = m * 0.8 * bias, v = first / m;
-        EXPECT_NEAR(color.at(0, 0, impulse), first - m * 0.8 * (v - bias) - 0.2 * first, 1e-5);
+        EXPECT_NEAR(color.impulse(0, 0), first - m * 0.8 * (v - bias) - 0.2 * first, 1e-5);
         color.relax(480.0f);
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
         lane.size = 0.1 / tuning::push_limit;
@@ -348,7 +343,7 @@ TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
             const double overlap = 0.01 - tuning::soft_slop * lane.size;
             const double expected =
                 (unlike ? 0.6 * 8.0 : 2.0 * (other == 0.0 ? 0.9 * 12.0 : 0.8 * 10.0)) * overlap / (1.0 + other);
-            EXPECT_NEAR(color.at(0, 0, impulse), expected, 1e-5) << other;
+            EXPECT_NEAR(color.impulse(0, 0), expected, 1e-5) << other;
         }
 }
 
@@ -357,20 +352,20 @@ TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
 TEST(SoftKernel, FrictionIsADisc) {
     for (const Kernel* kernel : kernels())
         for (const double angle : {0.0, 0.7, 2.0, -1.1}) {
-            const Vec3 way(std::cos(angle), 0.0, std::sin(angle));
-            OneColor slides = ball(*kernel, ball_lane(0.3), 5.0 * way + Vec3(0.0, -2.0, 0.0));
+            const Vec3 direction(std::cos(angle), 0.0, std::sin(angle));
+            OneColor slides = ball(*kernel, ball_lane(0.3), 5.0 * direction + Vec3(0.0, -2.0, 0.0));
             slides.relax(480.0f);
             const double j = m * 2.0;
-            EXPECT_NEAR(std::hypot(slides.head(0, friction_1), slides.head(0, friction_2)), 0.3 * j, 1e-5);
-            EXPECT_NEAR(slides.state(1)[0], (5.0 - 0.3 * 2.0) * way.x(), 1e-5);
-            EXPECT_NEAR(slides.state(1)[2], (5.0 - 0.3 * 2.0) * way.z(), 1e-5);
-            // The spin of the impulse -0.3 j way at (0, -r, 0).
-            const Vec3 spin = Vec3(0.0, -r, 0.0).cross(Vec3(-0.3 * j * way)) / moment_of_inertia;
+            EXPECT_NEAR(slides.friction(0).head<2>().norm(), 0.3 * j, 1e-5);
+            EXPECT_NEAR(slides.state(1)[0], (5.0 - 0.3 * 2.0) * direction.x(), 1e-5);
+            EXPECT_NEAR(slides.state(1)[2], (5.0 - 0.3 * 2.0) * direction.z(), 1e-5);
+            // The spin of the impulse -0.3 j direction at (0, -r, 0).
+            const Vec3 spin = Vec3(0.0, -r, 0.0).cross(Vec3(-0.3 * j * direction)) / moment_of_inertia;
             for (int i = 0; i < 3; ++i) EXPECT_NEAR(slides.state(1)[3 + i], spin[i], 1e-4);
-            OneColor sticks = ball(*kernel, ball_lane(0.3), 0.5 * way + Vec3(0.0, -2.0, 0.0));
+            OneColor sticks = ball(*kernel, ball_lane(0.3), 0.5 * direction + Vec3(0.0, -2.0, 0.0));
             sticks.relax(480.0f);
-            EXPECT_NEAR(std::hypot(sticks.head(0, friction_1), sticks.head(0, friction_2)), m * 0.5 / 3.5, 1e-5);
-            EXPECT_NEAR(sticks.state(1)[0], (0.5 - 0.5 / 3.5) * way.x(), 1e-5);
+            EXPECT_NEAR(sticks.friction(0).head<2>().norm(), m * 0.5 / 3.5, 1e-5);
+            EXPECT_NEAR(sticks.state(1)[0], (0.5 - 0.5 / 3.5) * direction.x(), 1e-5);
         }
 }
 
@@ -382,7 +377,7 @@ TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
         for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         fast.push(480.0f);
-        EXPECT_NEAR(fast.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
+        EXPECT_NEAR(fast.friction(0).z(), -0.5 * 0.2 * 0.8, 1e-6);
         EXPECT_NEAR(fast.state(1)[4], 10.0 - 0.5 * 0.2 * 0.8 / moment_of_inertia, 1e-4);
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
         slow.push(480.0f);
@@ -391,12 +386,12 @@ TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
         lane.spread = 0.5;
         OneColor even = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         even.push(480.0f);
-        EXPECT_NEAR(even.head(0, twist), -0.5 * 0.5 * 0.2 * 0.8, 1e-6);
+        EXPECT_NEAR(even.friction(0).z(), -0.5 * 0.5 * 0.2 * 0.8, 1e-6);
         lane.points[0].impulse = 0.8;
         lane.points[1].impulse = 0.0;
         OneColor aside = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         aside.push(480.0f);
-        EXPECT_NEAR(aside.head(0, twist), -0.5 * 0.2 * 0.8, 1e-6);
+        EXPECT_NEAR(aside.friction(0).z(), -0.5 * 0.2 * 0.8, 1e-6);
     }
 }
 
@@ -410,9 +405,9 @@ TEST(SoftKernel, FrictionActsAtTheCentroidOfTheArea) {
                 lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4, 1.0 + 0.25 * side});
             lane.points.push_back({Vec3(0.0, 0.0, 0.3), gap, 0.0, 1.0});
             OneColor color = ball(*kernel, lane, Vec3::Zero());
-            const float x = color.head(0, friction_arm), z = color.head(0, friction_arm + 2);
-            EXPECT_NEAR(x, gap > 0.0 ? 0.0 : 0.2 * 0.5 / 3.0, 1e-6);
-            EXPECT_NEAR(z, gap > 0.0 ? 0.3 * 0.01 / 2.01 : 0.1, 1e-6);
+            const auto arm = color.manifold(0).vector(&Rows::friction_arm);
+            EXPECT_NEAR(arm.x, gap > 0.0 ? 0.0 : 0.2 * 0.5 / 3.0, 1e-6);
+            EXPECT_NEAR(arm.z, gap > 0.0 ? 0.3 * 0.01 / 2.01 : 0.1, 1e-6);
         }
 }
 
@@ -456,7 +451,7 @@ TEST(SoftKernel, PointsAreCoupled) {
                     velocity[k] += inverse[k] * impulse;
                     spin[k] += inverse_inertia[k] * arm[k].cross(impulse);
                 }
-                EXPECT_NEAR(color.at(0, i, impulse), j, 2e-5);
+                EXPECT_NEAR(color.impulse(0, std::size_t(i)), j, 2e-5);
             }
             for (std::size_t k = 0; k < 2; ++k)
                 for (int i = 0; i < 3; ++i) {
@@ -497,7 +492,7 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
                     EXPECT_NEAR(relative.dot(lane.normal), 0.0, 1e-4);
                 else
                     EXPECT_LT(relative.cross(lane.normal).norm(), 1e-4);
-                EXPECT_GT(color.at(0, 0, impulse), 0.0f);
+                EXPECT_GT(color.impulse(0, 0), 0.0f);
             }
         }
 }

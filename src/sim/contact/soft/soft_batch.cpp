@@ -12,10 +12,13 @@
 namespace tumble {
 namespace {
 
-void put(float* row, int stride, const Vec3& v) {
-    row[0] = float(v.x());
-    row[stride] = float(v.y());
-    row[2 * stride] = float(v.z());
+using Rows = soft::ManifoldRows<float>;
+using Point = soft::PointRows<float>;
+
+Vec3 to_double(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
+
+void put(float* row, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) row[k] = float(v[k]);
 }
 
 void put_all(float* row, const std::array<double, 8>& values) {
@@ -145,10 +148,10 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
         }
         float* s = state(1 + dynamic + k);
         float* f = forces_.data() + soft::inertia_floats * (1 + dynamic + k);
-        put(s, 1, start.velocity - 0.5 * (faster + turned));
-        put(s + 3, 1, start.angular_velocity - 0.5 * spun_up);
-        put(f, 1, faster + turned);
-        put(f + 3, 1, spun_up);
+        put(s, start.velocity - 0.5 * (faster + turned));
+        put(s + 3, start.angular_velocity - 0.5 * spun_up);
+        put(f, faster + turned);
+        put(f + 3, spun_up);
     }
 }
 
@@ -177,7 +180,6 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
     const Place &a = swapped ? second : first, &b = swapped ? first : second;
     const std::size_t lanes = std::size_t(kernel_.lanes);
-    const int stride = kernel_.lanes;
     lane_bodies_[2 * lanes * g + l] = std::uint32_t(soft::body_floats) * a.slot;
     lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
     lane_moved_[2 * g] |= std::uint16_t(a.dynamic << l);
@@ -186,9 +188,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     const double size = std::min(a.radius, b.radius);
     const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
     Source& source = sources_[lanes * g + l];
-    float* const head = row(g, 0) + l;
-    float* point = head + soft::head_rows * stride;
-    int count = 0;
+    const soft::ManifoldLane lane(rows_of(g) + l, lanes);
+    std::size_t count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
     const BodiesInStep bodies{body_a, body_b, problem.before[m.a], problem.before[m.b]};
     const bool curves = a.swings || b.swings || std::holds_alternative<CurvedGap>(m.geometry);
@@ -200,32 +201,29 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         // For one substep more than the step: the last sweep looks that far ahead.
         if (curves) seen = predicted_gap(m, i, bodies, problem.patches.h + d_);
         if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
+        const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
         const Vec3 place = acting_place(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
-        put(point + soft::turn * stride, stride, place - a.position);
-        point[soft::normal_mass * stride] = 1.0f;
-        point[soft::lever * stride] = m.share[std::size_t(i)];
-        point[soft::separation * stride] = float(seen.gap);
-        point[soft::impulse * stride] = float(share * p.impulse);
-        point += soft::point_rows * stride;
+        point.set(&Point::arm, place - a.position);
+        point[&Point::present] = 1.0f;
+        point[&Point::load_share] = m.share[std::size_t(i)];
+        point[&Point::separation] = float(seen.gap);
+        point[&Point::impulse] = float(share * p.impulse);
     }
     if (count == 0) return release(m);  // skipped, because it will bounce
     source.count = std::uint8_t(count);
     source.swapped = swapped;
     lane_points_[g] = std::max(lane_points_[g], source.count);
-
-    const auto put_row = [&](int r, double value) { head[r * stride] = float(value); };
-    put(head + soft::normal * stride, stride, swapped ? Vec3(-m.normal) : m.normal);
-    put(head + soft::tangent_1 * stride, stride, m.tangent);
-    put(head + soft::between * stride, stride, a.position - b.position);
-    put_row(soft::friction_coefficient, a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
-    put_row(soft::size, size);
-    put_row(soft::spread, double(m.spread));
+    lane.set(&Rows::normal, swapped ? Vec3(-m.normal) : m.normal);
+    lane.set(&Rows::tangent, m.tangent);
+    lane.set(&Rows::between, a.position - b.position);
+    lane[&Rows::friction_coefficient] =
+        float(a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    lane[&Rows::size] = float(size);
+    lane[&Rows::spread] = m.spread;
     // Seen from the other body the second tangent is reversed too, and so is an impulse along the first.
-    put_row(soft::friction_1, (swapped ? -share : share) * m.friction[0]);
-    put_row(soft::friction_2, share * m.friction[1]);
-    put_row(soft::twist, share * m.twist);
+    lane.set(&Rows::friction, Vec3((swapped ? -share : share) * m.friction[0], share * m.friction[1], share * m.twist));
 }
 
 void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
@@ -234,7 +232,7 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     for (std::size_t lane = lanes * group; lane < lanes * (group + 1); ++lane)
         if (const std::uint32_t m = layout_->manifold(lane); m != SoftLayout::none)
             points = std::max(points, int(problem.manifolds[m].count));
-    std::fill_n(row(group, 0), std::size_t(soft::head_rows + points * soft::point_rows) * lanes, 0.0f);
+    std::fill_n(rows_of(group), (soft::manifold_rows + std::size_t(points) * soft::point_rows) * lanes, 0.0f);
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     lane_points_[group] = 0;
@@ -322,21 +320,18 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         const Source& source = sources_[lanes * g + l];
         if (source.count == 0) continue;
         Manifold& m = problem.manifolds[layout_->manifold(lanes * g + l)];
-        const float* head = row(g, 0) + l;
-        const auto three = [&](int r) {
-            return Vec3(head[std::size_t(r) * lanes], head[std::size_t(r + 1) * lanes],
-                        head[std::size_t(r + 2) * lanes]);
-        };
+        const soft::ManifoldLane lane(rows_of(g) + l, lanes);
         release(m);
-        const float* impulse = head + soft::head_rows * lanes + soft::impulse * lanes;
-        for (int i = 0; i < source.count; ++i, impulse += soft::point_rows * lanes)
-            m.points[source.point[i]].impulse = all * double(*impulse);
-        m.friction[0] = (source.swapped ? -all : all) * double(head[soft::friction_1 * lanes]);
-        m.friction[1] = all * double(head[soft::friction_2 * lanes]);
-        m.twist = all * double(head[soft::twist * lanes]);
-        m.tangent = three(soft::tangent_1);
-        const Vec3 force = mass_unit_ * three(soft::force),
-                   moment = mass_unit_ * three(soft::moment);  // on B; about A's center
+        for (std::size_t i = 0; i < source.count; ++i)
+            m.points[source.point[i]].impulse = all * double(lane.point(i)[&Point::impulse]);
+        const Vec3 friction = to_double(lane.vector(&Rows::friction));
+        m.friction[0] = (source.swapped ? -all : all) * friction.x();
+        m.friction[1] = all * friction.y();
+        m.twist = all * friction.z();
+        m.tangent = to_double(lane.vector(&Rows::tangent));
+        const auto total = lane.total_impulse();
+        const Vec3 force = mass_unit_ * to_double(total.linear),
+                   moment = mass_unit_ * to_double(total.angular);  // on B; about A's center
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;

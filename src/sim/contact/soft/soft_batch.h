@@ -70,9 +70,7 @@ private:
     void hand_back(const ContactProblem& problem, std::size_t first, std::size_t last);
 
     float* state(std::size_t s) { return state_.data() + soft::body_floats * s; }
-    float* row(std::size_t group, int r) {
-        return rows_.data() + (group * soft::group_rows + std::size_t(r)) * std::size_t(kernel_.lanes);
-    }
+    float* rows_of(std::size_t group) { return rows_.data() + group * soft::group_rows * std::size_t(kernel_.lanes); }
 
     const soft::Kernel& kernel_;
     double d_ = 0.0;  // s, length of a substep

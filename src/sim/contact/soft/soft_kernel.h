@@ -8,47 +8,121 @@
 
 namespace tumble::soft {
 
-/// Rows of a group, each as wide as the kernel's lanes. World frame, SI units; impulses in N s of one substep. A is the
-/// body whose center is nearer to the contact, or the one that moves: arms start there, and the other's differ by
-/// `between`.
-enum Head : int {
-    normal = 0,  // 3: away from A
-    // 3: on entry that of the last step, or zero; then unit, across the normal. The second is normal x tangent_1
-    tangent_1 = 3,
-    between = 6,       // 3: m, from B's center to A's
-    friction_arm = 9,  // 3: m, from A's center to the point where friction acts
-    inertia_a = 12,    // 6: inverse inertia tensor of A
-    force = 12,        // 3: on return, the sum of all impulses on B
-    moment = 15,       // 3: on return, the sum of their moments about A's center
-    inertia_b = 18,
-    stick_mass = 24,  // 3: inverse of the two-by-two compliance: 11, 12, 22
-    slide_mass = 27,  // of the direction with the largest compliance
-    twist_mass = 28,
-    friction_coefficient = 29,
-    size = 30,        // m, the smaller body's radius
-    friction_1 = 31,  // these three side by side,
-    friction_2 = 32,
-    twist = 33,
-    friction_1_sum = 34,  // sums of the three over the substeps
-    friction_2_sum = 35,
-    twist_sum = 36,
-    spread = 37,    // Manifold::spread
-    coupling = 38,  // 6: change of speed at one point per normal impulse at another, 1/kg: 01, 02, 12, 03, 13, 23
-    head_rows = 44
+template <class Real>
+struct Vector3 {
+    Real x, y, z;
 };
-enum Point : int {
-    turn = 0,         // 3: m, arm from A's center; prepare() replaces it by arm x normal
-    normal_mass = 3,  // on entry 1 in lanes that have this point, 0 in others; then the effective mass, kg
-    separation = 4,   // m, at the start of the step
-    gap = 5,          // m, at present; unset on entry
-    lever = 6,        // on entry Manifold::share; then m: distance from the point where friction acts, times the spread
-    // 3: change of the slips and of the spin per normal impulse, and of the normal speed per friction impulse
-    to_friction = 7,
-    impulse = 10,
-    impulse_sum = 11,
-    point_rows = 12
+template <class Real>
+struct Symmetric3 {
+    Real xx, xy, xz, yy, yz, zz;
 };
-inline constexpr int group_rows = head_rows + 4 * point_rows;
+
+/// Sum of the impulses of all substeps on B, and of their moments about A's center.
+template <class Real>
+struct TotalImpulse {
+    Vector3<Real> linear, angular;
+};
+
+/// Data of a manifold's point: rows of a group, each as wide as the kernel's lanes (Real: a vector of all lanes; float:
+/// the layout of one lane). World frame, SI units; impulses in N s of one substep. Members of a union belong to
+/// successive phases: the first until prepare(), the second from then on.
+template <class Real>
+struct PointRows {
+    union {
+        Vector3<Real> arm;         // m, from A's center
+        Vector3<Real> moment_arm;  // m, arm x normal
+    };
+    union {
+        Real present;         // 1 in lanes that have this point, 0 in others
+        Real effective_mass;  // kg
+    };
+    Real separation;  // m, at the start of the step
+    Real gap;         // m, at present; set by prepare()
+    union {
+        Real load_share;  // Manifold::share
+        Real lever;       // m, distance from the point where friction acts, times the spread
+    };
+    /// Change of the slips and of the spin per normal impulse, and of the normal speed per friction impulse; set by
+    /// prepare().
+    Vector3<Real> to_friction;
+    Real impulse, impulse_sum;  // along the normal; the sum over the substeps
+};
+
+/// Data of a manifold, in the same way. A is the body whose center is nearer to the contact, or the one that moves:
+/// arms start there, and the other's differ by `between`. Of friction vectors, x and y are along the two tangents, z
+/// (N m s) is torsional, about the normal.
+template <class Real>
+struct ManifoldRows {
+    Vector3<Real> normal;  // unit, away from A
+    /// That of the last step, or zero, until prepare(); then unit, across the normal. The second is normal x tangent.
+    Vector3<Real> tangent;
+    Vector3<Real> between;       // m, from B's center to A's
+    Vector3<Real> friction_arm;  // m, from A's center to the point where friction acts; set by prepare()
+    union {
+        Symmetric3<Real> inverse_inertia_a;  // from prepare() to sum()
+        TotalImpulse<Real> total_impulse;    // set by sum()
+    };
+    Symmetric3<Real> inverse_inertia_b;  // set by prepare(), like the following masses, in kg or kg m^2
+    struct {
+        Real xx, xy, yy;
+    } sticking_mass;    // inverse of the compliance along the two tangents
+    Real sliding_mass;  // of the direction with the largest compliance
+    Real torsional_mass;
+    Real friction_coefficient;
+    Real size;  // m, the smaller body's radius
+    Vector3<Real> friction, friction_sum;
+    Real spread;       // Manifold::spread
+    Real coupling[6];  // 1/kg, change of speed at one point per normal impulse at another: 01, 02, 12, 03, 13, 23
+    PointRows<Real> point[4];
+};
+
+/// Numbers of rows; a group has its manifolds' rows first, then those of their points, one point after the other.
+inline constexpr std::size_t point_rows = sizeof(PointRows<float>) / sizeof(float),
+                             group_rows = sizeof(ManifoldRows<float>) / sizeof(float),
+                             manifold_rows = group_rows - 4 * point_rows;
+
+/// One lane of a group by the names of its fields.
+template <class Rows>
+class LaneOf {
+public:
+    using Field = float Rows::*;
+    using VectorField = Vector3<float> Rows::*;
+
+    /// `first`: the lane's place in the first row; `stride`: number of lanes.
+    LaneOf(float* first, std::size_t stride) : first_(first), stride_(stride) {}
+
+    float& operator[](Field field) const { return first_[row(field) * stride_]; }
+    template <class V>
+    void set(VectorField field, const V& v) const {
+        for (std::size_t k = 0; k < 3; ++k) first_[(row(field) + k) * stride_] = float(v[int(k)]);
+    }
+    Vector3<float> vector(VectorField field) const { return vector(row(field)); }
+
+protected:
+    Vector3<float> vector(std::size_t row) const {
+        const float* r = first_ + row * stride_;
+        return {r[0], r[stride_], r[2 * stride_]};
+    }
+    template <class T>
+    static std::size_t row(T Rows::*field) {
+        static constexpr Rows layout{};  // only its addresses are used
+        return std::size_t(reinterpret_cast<const float*>(&(layout.*field)) - reinterpret_cast<const float*>(&layout));
+    }
+
+    float* first_;
+    std::size_t stride_;
+};
+
+using PointLane = LaneOf<PointRows<float>>;
+class ManifoldLane : public LaneOf<ManifoldRows<float>> {
+public:
+    using LaneOf::LaneOf;
+    PointLane point(std::size_t i) const { return {first_ + (manifold_rows + i * point_rows) * stride_, stride_}; }
+    auto total_impulse() const {
+        const std::size_t first = row(&ManifoldRows<float>::total_impulse);
+        return TotalImpulse<float>{vector(first), vector(first + 3)};
+    }
+};
 
 /// Floats of a body: velocity and angular velocity (6), inverse mass, 1 unused; displacement and rotation (6) since the
 /// start of the step, 2 unused.

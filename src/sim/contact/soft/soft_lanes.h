@@ -4,9 +4,8 @@
 typedef float Lanes __attribute__((vector_size(4 * TUMBLE_LANES)));
 typedef float Eight __attribute__((vector_size(32)));  // a body's velocities, or its displacements
 
-struct Vector {
-    Lanes x, y, z;
-};
+using Vector = Vector3<Lanes>;
+using Tensor = Symmetric3<Lanes>;
 
 inline Lanes all(float value) { return value - Lanes{}; }
 inline Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
@@ -19,12 +18,10 @@ inline Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-struct Tensor {  // symmetric
-    Lanes xx, xy, xz, yy, yz, zz;
-    Vector operator*(const Vector& a) const {
-        return {xx * a.x + xy * a.y + xz * a.z, xy * a.x + yy * a.y + yz * a.z, xz * a.x + yz * a.y + zz * a.z};
-    }
-};
+inline Vector operator*(const Tensor& t, const Vector& a) {
+    return {t.xx * a.x + t.xy * a.y + t.xz * a.z, t.xy * a.x + t.yy * a.y + t.yz * a.z,
+            t.xz * a.x + t.yz * a.y + t.zz * a.z};
+}
 
 // Four floats per lane: lane after lane in memory, transposed in registers.
 struct Quads {
