@@ -77,8 +77,8 @@ TEST(BroadPhase, HoldsAllPairsThatMayTouch) {
                     if (std::holds_alternative<HalfSpace>(a.collider) ||
                         std::holds_alternative<HalfSpace>(b.collider)) {
                         std::vector<Manifold> out;
-                        collide(a.collider, a.pose(), b.collider, b.pose(), 0.02 * (a.moves() ? a.radius : b.radius),
-                                scratch, out);
+                        const double margin = 0.02 * (a.moves() ? a.radius : b.radius);
+                        collide(a.collider, b.collider, {a.pose(), b.pose(), margin, scratch, out});
                         EXPECT_TRUE(out.empty()) << i << " " << j;
                     } else {
                         EXPECT_FALSE(within(a, b)) << i << " " << j << " step " << step;

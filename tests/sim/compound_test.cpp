@@ -138,9 +138,9 @@ TEST(CompoundContact, IsTheUnionOverItsParts) {
             for (const bool swapped : {false, true}) {
                 std::vector<Manifold> found, expected;
                 if (swapped)
-                    collide(b, pose_b, a.collider, pose_a, 0.05, scratch, found);
+                    collide(b, a.collider, {pose_b, pose_a, 0.05, scratch, found});
                 else
-                    collide(a.collider, pose_a, b, pose_b, 0.05, scratch, found);
+                    collide(a.collider, b, {pose_a, pose_b, 0.05, scratch, found});
                 for (const Compound::Part& p : compound_in(a).parts) {
                     std::vector<std::pair<CollisionShape, Pose>> pieces{{b, pose_b}};
                     if (const auto* whole = std::get_if<std::shared_ptr<const Compound>>(&b)) {
@@ -150,9 +150,9 @@ TEST(CompoundContact, IsTheUnionOverItsParts) {
                     }
                     for (const auto& [shape, pose] : pieces) {
                         if (swapped)
-                            collide(shape, pose, p.collider, part_pose(pose_a, p), 0.05, scratch, expected);
+                            collide(shape, p.collider, {pose, part_pose(pose_a, p), 0.05, scratch, expected});
                         else
-                            collide(p.collider, part_pose(pose_a, p), shape, pose, 0.05, scratch, expected);
+                            collide(p.collider, shape, {part_pose(pose_a, p), pose, 0.05, scratch, expected});
                     }
                 }
                 // Points nearer than the margin along an axis may be farther apart than it: both results may then skip
@@ -197,7 +197,7 @@ TEST(CompoundContact, OverlappingPartsAreHeldAtAnyDepth) {
     for (const double depth : {1e-6, 0.01, 0.1, 0.3, 0.6, 1.2}) {
         std::vector<Manifold> found;
         const Pose pose{{0.0, 0.4 - depth, 0.0}, Mat3::Identity()};
-        collide(HalfSpace{Vec3::UnitY(), 0.0}, Pose{}, body.collider, pose, 0.01, scratch, found);
+        collide(HalfSpace{Vec3::UnitY(), 0.0}, body.collider, {Pose{}, pose, 0.01, scratch, found});
         double deepest = 0.0;
         for (const Manifold& m : found)
             for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[std::size_t(i)].separation);

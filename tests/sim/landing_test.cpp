@@ -34,7 +34,7 @@ std::vector<Manifold> manifolds(const Body& a, const Body& b, double margin) {
     CollisionScratch scratch;
     scratch.choice = AxisChoice::nearest;
     std::vector<Manifold> found;
-    collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch, found);
+    collide(a.collider, b.collider, {a.pose(), b.pose(), margin, scratch, found});
     return found;
 }
 

@@ -86,7 +86,7 @@ inline std::vector<Manifold> collide_all(const CollisionShape& a, const Pose& po
                                          const Pose& pose_b, double margin) {
     CollisionScratch scratch;
     std::vector<Manifold> out;
-    collide(a, pose_a, b, pose_b, margin, scratch, out);
+    collide(a, b, {pose_a, pose_b, margin, scratch, out});
     return out;
 }
 

@@ -40,8 +40,8 @@ double gap(const Flying& a, const Flying& b, double t) {
     CollisionScratch scratch;
     scratch.choice = AxisChoice::nearest;
     const Pose b_in_a{ma.rotation.transpose() * (mb.position - ma.position), ma.rotation.transpose() * mb.rotation};
-    return find_separating_axis(shape_of(a.body), shape_of(b.body), b_in_a, 1e9, EdgeSearch::all, Vec3::Zero(), scratch)
-        .separation;
+    const AxisQuery query{shape_of(a.body), shape_of(b.body), b_in_a, 1e9, EdgeSearch::all, Vec3::Zero()};
+    return find_separating_axis(query, scratch).separation;
 }
 
 struct Ground {

@@ -94,14 +94,15 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
     };
 }
 
-const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                                 const std::vector<Body>& bodies,
-                                                 const std::vector<BodyVelocity>& motions, double h, bool any_fast,
-                                                 const TurnsFreely& turns_freely) {
+const std::vector<CcdFraction>& CcdClamp::limits(const CcdStep& step, const FindPairs& find_pairs,
+                                                 const TouchDepth& touch_depth) {
+    const std::vector<Body>& bodies = step.bodies;
+    const std::vector<BodyVelocity>& motions = step.motions;
+    const double h = step.h;
     for (const std::uint32_t i : shortened_) limits_[i] = {};
     shortened_.clear();
     fast_.clear();
-    if (!any_fast) return limits_;
+    if (!step.any_fast) return limits_;
     for (const BroadPhase::Pair& pair : find_pairs()) {
         const Body &a = bodies[pair.a], &b = bodies[pair.b];
         const double depth_a = depth_[pair.a], depth_b = depth_[pair.b];
@@ -128,7 +129,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const FindPairs& find_pairs, co
     still_.resize(bodies.size());
     for (const FastPair& pair : fast_) {
         for (const std::uint32_t k : {pair.a, pair.b}) {
-            paths_[k] = turns_freely && turns_freely(k)
+            paths_[k] = step.turns_freely && step.turns_freely(k)
                             ? Trajectory::drift(bodies[k], motions[k].velocity)
                             : Trajectory::uniform(bodies[k], motions[k].velocity, motions[k].angular_velocity);
             still_[k] = paths_[k];

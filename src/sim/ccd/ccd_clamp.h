@@ -33,6 +33,15 @@ using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 /// Whether a body rotates in free rotation, not by its motion's angular velocity; none: no body does.
 using TurnsFreely = std::function<bool(std::uint32_t body)>;
 
+/// Bodies and their motions in a step.
+struct CcdStep {
+    const std::vector<Body>& bodies;
+    const std::vector<BodyVelocity>& motions;  // by body; zero for bodies that do not move
+    double h;                                  // s
+    bool any_fast;                             // whether any motion is fast
+    TurnsFreely turns_freely = nullptr;
+};
+
 /// The forces have done work on a body in contact as if it had moved for the whole step, by an impulse (N s) and an
 /// angular impulse (N m s). Removes the part for the displacement lost to the clamp, `share` being the fraction done: a
 /// body clamped again and again would otherwise gain all of its fall's speed on the spot.
@@ -46,11 +55,9 @@ public:
     /// limits.
     bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;
 
-    /// Limits by body; `motions` too is by body, zero for bodies that do not move. `any_fast`: whether any of those is
-    /// fast. Touching pairs belong to the contact solver and may only overlap a little more.
-    const std::vector<CcdFraction>& limits(const FindPairs& find_pairs, const TouchDepth& touch_depth,
-                                           const std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
-                                           double h, bool any_fast, const TurnsFreely& turns_freely = nullptr);
+    /// Limits by body. Touching pairs belong to the contact solver and may only overlap a little more.
+    const std::vector<CcdFraction>& limits(const CcdStep& step, const FindPairs& find_pairs,
+                                           const TouchDepth& touch_depth);
 
 private:
     struct FastPair {

@@ -312,8 +312,8 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
     } else {
         manifolds_.clear();
         scratch_.left_out.clear();
-        collide(collider_of(pair.a), pose_of(pair.a, a), collider_of(pair.b), pose_of(pair.b, b), 16.0 * near, scratch_,
-                manifolds_);
+        const Pose pose_a = pose_of(pair.a, a), pose_b = pose_of(pair.b, b);
+        collide(collider_of(pair.a), collider_of(pair.b), {pose_a, pose_b, 16.0 * near, scratch_, manifolds_});
         for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
     }
     if (distance > 0.0) normals_.push_back(*v / distance);
@@ -322,9 +322,8 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
                *hull_b = std::get_if<PolyhedronRef>(&collider_of(pair.b));
     if (hull_a && hull_b) {  // an edge along the border of a face: touching, though no contact point lies on the face
         const Pose at = pose_of(pair.a, a), b_in_a = seen_from(at, pose_of(pair.b, b));
-        normals_.push_back(at.rotation * find_separating_axis(**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby,
-                                                              Vec3::Zero(), scratch_)
-                                             .normal);
+        const AxisQuery query{**hull_a, **hull_b, b_in_a, infinity, EdgeSearch::nearby, Vec3::Zero()};
+        normals_.push_back(at.rotation * find_separating_axis(query, scratch_).normal);
         return;
     }
     const Vec3 from = pair.a.part ? pose_of(pair.a, a).position : a_.center;

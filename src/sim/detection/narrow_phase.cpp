@@ -237,7 +237,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
     if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball)
-        return search(index, a, b, reach, 0.0, h, found);
+        return search(index, reach, 0.0, h, found);
 
     // The bodies' own motion is available and often small enough; else their relative motion is computed.
     const double travel = a.travel + b.travel;
@@ -254,7 +254,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     last.sank = last.sank || now == Standing::sank;
     const double moved = last.spent;
     last.spent = 0.0f;
-    search(index, a, b, reach, moved, h, found);
+    search(index, reach, moved, h, found);
 }
 
 // Whether the last result is still valid after a relative motion (m) of the bodies. Refreshes its manifolds.
@@ -285,9 +285,9 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
     return missed ? Standing::sank : told(stands);
 }
 
-void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, double reach, double moved, double h,
-                         Found& found) {
+void NarrowPhase::search(std::uint32_t index, double reach, double moved, double h, Found& found) {
     const Entry& entry = entries_[index];
+    const View &a = views_[entry.pair.a], &b = views_[entry.pair.b];
     Search& last = searches_[entry.search];
     const double radius = std::min(a.radius, b.radius);
     const auto begin = std::uint32_t(found.manifolds.size());
@@ -299,7 +299,7 @@ void NarrowPhase::search(std::uint32_t index, const View& a, const View& b, doub
     found.scratch.way = h * (b.velocity - a.velocity);
     found.scratch.turning =
         h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
-    collide(*a.collider, a.pose, *b.collider, b.pose, reach, found.scratch, found.manifolds);
+    collide(*a.collider, *b.collider, {a.pose, b.pose, reach, found.scratch, found.manifolds});
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);
     for (std::size_t k = begin; k < found.manifolds.size(); ++k) {

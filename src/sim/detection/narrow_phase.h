@@ -109,7 +109,7 @@ private:
     Standing standing(const Entry& entry, const View& a, const View& b, double reach, const Search& last, double moved);
     void ask_for(std::uint32_t entry) const;
     void examine(std::uint32_t entry, double h, Found& found);
-    void search(std::uint32_t entry, const View& a, const View& b, double margin, double moved, double h, Found& found);
+    void search(std::uint32_t entry, double margin, double moved, double h, Found& found);
     void add_more(const Entry& entry, double radius, std::size_t begin, Found& found);
     void put_in_order(ThreadPool& pool);
 

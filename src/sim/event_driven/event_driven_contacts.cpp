@@ -217,7 +217,7 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
         const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
         const bool any_fast = std::any_of(near.begin(), near.end(),
                                           [&](std::uint32_t k) { return motion_limit_.fast(k, motions_[k], rest); });
-        limits = &motion_limit_.limits(find_pairs, depth, bodies, motions_, rest, any_fast);
+        limits = &motion_limit_.limits({bodies, motions_, rest, any_fast}, find_pairs, depth);
         std::vector<std::uint32_t> stopped;
         for (const std::uint32_t k : near)
             if (!goes(k) && held(bodies[k]) && (*limits)[k].share < 1.0) stopped.push_back(k);

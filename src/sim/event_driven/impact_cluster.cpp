@@ -51,7 +51,7 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
     const std::size_t first = manifolds_.size();
     scratch_.left_out.clear();
-    tumble::collide(a.collider, a.pose(), b.collider, b.pose(), margin, scratch_, manifolds_);
+    tumble::collide(a.collider, b.collider, {a.pose(), b.pose(), margin, scratch_, manifolds_});
     // Faces that meet at a negligible angle meet at once: otherwise, corner after corner, that angle alone would decide
     // their motion.
     const auto apart = [&](const Manifold& m) {

@@ -15,30 +15,15 @@ using CompoundRef = std::shared_ptr<const Compound>;
 
 // Shape pairs that have a routine, in the order of its arguments.
 struct Pair {
-    const Pose &pose_a, &pose_b;
-    double margin;
-    CollisionScratch& scratch;
-    std::vector<Manifold>& out;
+    const CollisionQuery& query;
 
-    void operator()(const HalfSpace& a, const Ball& b) const {
-        collide_half_space_ball(a, pose_a, b, pose_b, margin, out);
-    }
-    void operator()(const HalfSpace& a, const PolyhedronRef& b) const {
-        collide_half_space_polyhedron(a, pose_a, *b, pose_b, margin, scratch, out);
-    }
-    void operator()(const Ball& a, const Ball& b) const { collide_balls(a, pose_a, b, pose_b, margin, out); }
-    void operator()(const PolyhedronRef& a, const Ball& b) const {
-        collide_polyhedron_ball(*a, pose_a, b, pose_b, margin, out);
-    }
-    void operator()(const PolyhedronRef& a, const PolyhedronRef& b) const {
-        collide_polyhedra(*a, pose_a, *b, pose_b, margin, scratch, out);
-    }
-    void operator()(const SurfaceRef& a, const Ball& b) const {
-        collide_surface_ball(*a, pose_a, b, pose_b, margin, scratch, out);
-    }
-    void operator()(const SurfaceRef& a, const PolyhedronRef& b) const {
-        collide_surface_polyhedron(*a, pose_a, *b, pose_b, margin, scratch, out);
-    }
+    void operator()(const HalfSpace& a, const Ball& b) const { collide_half_space_ball(a, b, query); }
+    void operator()(const HalfSpace& a, const PolyhedronRef& b) const { collide_half_space_polyhedron(a, *b, query); }
+    void operator()(const Ball& a, const Ball& b) const { collide_balls(a, b, query); }
+    void operator()(const PolyhedronRef& a, const Ball& b) const { collide_polyhedron_ball(*a, b, query); }
+    void operator()(const PolyhedronRef& a, const PolyhedronRef& b) const { collide_polyhedra(*a, *b, query); }
+    void operator()(const SurfaceRef& a, const Ball& b) const { collide_surface_ball(*a, b, query); }
+    void operator()(const SurfaceRef& a, const PolyhedronRef& b) const { collide_surface_polyhedron(*a, *b, query); }
 };
 
 // Pairs of shapes that are both fixed.
@@ -92,19 +77,22 @@ bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Man
 }
 
 // Collides each part of a compound with the whole other shape, in the given order.
-void collide_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other,
-                   bool whole_is_a, double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+void collide_parts(const Compound& whole, const CollisionShape& other, bool whole_is_a, const CollisionQuery& query) {
+    const Pose &pose = whole_is_a ? query.pose_a : query.pose_b, &pose_other = whole_is_a ? query.pose_b : query.pose_a;
+    CollisionScratch& scratch = query.scratch;
+    std::vector<Manifold>& out = query.out;
     const std::uint32_t stride = part_count(other);
     std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
-    find_near_parts(whole, pose, other, pose_other, margin, near);
+    find_near_parts(whole, pose, other, pose_other, query.margin, near);
     for (const std::uint32_t k : near) {
         const std::size_t first = out.size();
         const Compound::Part& part = whole.parts[k];
+        const Pose pose_part = part_pose(pose, part);
         scratch.part += k * stride;
         if (whole_is_a)
-            collide(part.collider, part_pose(pose, part), other, pose_other, margin, scratch, out);
+            collide(part.collider, other, {pose_part, pose_other, query.margin, scratch, out});
         else
-            collide(other, pose_other, part.collider, part_pose(pose, part), margin, scratch, out);
+            collide(other, part.collider, {pose_other, pose_part, query.margin, scratch, out});
         const auto seam = [&](const Manifold& m) {
             return at_seam(whole, pose, k, m, whole_is_a ? m.normal : Vec3(-m.normal));
         };
@@ -122,31 +110,24 @@ bool CollisionScratch::was_on_b() const {
     return found != before.end() && found->on_b();
 }
 
-void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b, double margin,
-             CollisionScratch& scratch, std::vector<Manifold>& out) {
-    if (const auto* whole = std::get_if<CompoundRef>(&a)) {
-        collide_parts(**whole, pose_a, b, pose_b, true, margin, scratch, out);
-        return;
-    }
-    if (const auto* whole = std::get_if<CompoundRef>(&b)) {
-        collide_parts(**whole, pose_b, a, pose_a, false, margin, scratch, out);
-        return;
-    }
+void collide(const CollisionShape& a, const CollisionShape& b, const CollisionQuery& query) {
+    if (const auto* whole = std::get_if<CompoundRef>(&a)) return collide_parts(**whole, b, true, query);
+    if (const auto* whole = std::get_if<CompoundRef>(&b)) return collide_parts(**whole, a, false, query);
     std::visit(
         [&](const auto& shape_a, const auto& shape_b) {
             using A = std::decay_t<decltype(shape_a)>;
             using B = std::decay_t<decltype(shape_b)>;
-            const std::size_t first = out.size();
+            const std::size_t first = query.out.size();
             if constexpr ((immovable<A> && immovable<B>) || compound<A> || compound<B>) {
                 return;
             } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
-                Pair{pose_a, pose_b, margin, scratch, out}(shape_a, shape_b);
+                Pair{query}(shape_a, shape_b);
             } else {  // the same pair in the other order: swap, collide, turn the normals
-                Pair{pose_b, pose_a, margin, scratch, out}(shape_b, shape_a);
-                for (std::size_t i = first; i < out.size(); ++i) out[i].swap();
+                Pair{query.swapped()}(shape_b, shape_a);
+                for (std::size_t i = first; i < query.out.size(); ++i) query.out[i].swap();
             }
             if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>)
-                scratch.on_ball = scratch.on_ball || out.size() > first;
+                query.scratch.on_ball = query.scratch.on_ball || query.out.size() > first;
         },
         a, b);
 }

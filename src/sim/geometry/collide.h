@@ -52,30 +52,30 @@ struct CollisionScratch {
     std::vector<std::uint32_t> near_parts[2];
 };
 
-/// Appends the manifolds of the pair: points with a gap below `margin` (m). Normals point away from `a`; the caller
-/// sets the body indices. Two half-spaces, two meshes, and a half-space with a mesh give no manifolds: they cannot
-/// move.
-void collide(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b, const Pose& pose_b, double margin,
-             CollisionScratch& scratch, std::vector<Manifold>& out);
+/// Poses of two shapes A and B, and the destination of their manifolds: points with a gap below `margin` (m).
+struct CollisionQuery {
+    const Pose &pose_a, &pose_b;
+    double margin;
+    CollisionScratch& scratch;
+    std::vector<Manifold>& out;
+
+    CollisionQuery swapped() const { return {pose_b, pose_a, margin, scratch, out}; }
+};
+
+/// Appends the manifolds of the pair. Normals point away from `a`; the caller sets the body indices. Two half-spaces,
+/// two meshes, and a half-space with a mesh give no manifolds: they cannot move.
+void collide(const CollisionShape& a, const CollisionShape& b, const CollisionQuery& query);
 
 // The routines per pair, each with its first shape as A.
-void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                             std::vector<Manifold>& out);
-void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
-                                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                   std::vector<Manifold>& out);
-void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                             std::vector<Manifold>& out);
-void collide_polyhedra(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
-                       CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQuery& query);
+void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query);
+void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const CollisionQuery& query);
+void collide_polyhedra(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
 /// Precondition: both are boxes (Polyhedron::is_box). Gives the result of the general routine in a fraction of the
 /// time.
-void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
-                   CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                          CollisionScratch& scratch, std::vector<Manifold>& out);
-void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
-                                double margin, CollisionScratch& scratch, std::vector<Manifold>& out);
+void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_surface_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
+void collide_surface_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
 
 }  // namespace tumble

@@ -46,33 +46,30 @@ Nearest nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, c
 
 }  // namespace
 
-void collide_half_space_ball(const HalfSpace& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                             std::vector<Manifold>& out) {
-    const Vec3 normal = pose_a.rotation * a.normal;
-    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
+void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQuery& query) {
+    const Vec3 normal = query.pose_a.rotation * a.normal;
+    const double height = normal.dot(query.pose_b.position - query.pose_a.position) - a.offset;
     const double separation = height - b.radius;
-    if (separation > margin) return;
-    add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
-    out.back().geometry = BallOverFace{false, pose_b.position};
+    if (separation > query.margin) return;
+    add_point(normal, query.pose_b.position - (b.radius + 0.5 * separation) * normal, separation, query.out);
+    query.out.back().geometry = BallOverFace{false, query.pose_b.position};
 }
 
-void collide_balls(const Ball& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                   std::vector<Manifold>& out) {
-    const Vec3 d = pose_b.position - pose_a.position;
-    const double reach = a.radius + b.radius + margin;
+void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query) {
+    const Vec3 d = query.pose_b.position - query.pose_a.position;
+    const double reach = a.radius + b.radius + query.margin;
     if (d.squaredNorm() > reach * reach) return;
     const double distance = d.norm();
     // Coincident centers, or so near that the squares underflow: any direction is as good.
     const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
-    add_point(normal, pose_a.position + (a.radius + 0.5 * separation) * normal, separation, out);
-    out.back().geometry = CurvedGap{distance, Vec3::Zero(), pose_a.position, pose_b.position};
+    add_point(normal, query.pose_a.position + (a.radius + 0.5 * separation) * normal, separation, query.out);
+    query.out.back().geometry = CurvedGap{distance, Vec3::Zero(), query.pose_a.position, query.pose_b.position};
 }
 
-void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                             std::vector<Manifold>& out) {
-    const Vec3 center = pose_a.to_body(pose_b.position);
-    const double reach = b.radius + margin;
+void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const CollisionQuery& query) {
+    const Vec3 center = query.pose_a.to_body(query.pose_b.position);
+    const double reach = b.radius + query.margin;
     // The face with the greatest distance from the center: a lower bound of the gap, and the direction of least
     // penetration when the center is inside.
     double most = -std::numeric_limits<double>::infinity();
@@ -87,10 +84,10 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
         }
     }
     if (most <= 0.0) {
-        const Vec3 normal = pose_a.rotation * face->normal;
+        const Vec3 normal = query.pose_a.rotation * face->normal;
         const double separation = most - b.radius;
-        add_point(normal, pose_b.position - (b.radius + 0.5 * separation) * normal, separation, out);
-        out.back().geometry = BallOverFace{false, pose_b.position};
+        add_point(normal, query.pose_b.position - (b.radius + 0.5 * separation) * normal, separation, query.out);
+        query.out.back().geometry = BallOverFace{false, query.pose_b.position};
         return;
     }
     // Only faces with the center on their outer side can hold the nearest point.
@@ -111,27 +108,28 @@ void collide_polyhedron_ball(const Polyhedron& a, const Pose& pose_a, const Ball
     if (distance > reach) return;
     // Over a face the normal is the face's own; on its border too when rounding leaves no direction.
     const bool of_face = nearest.inside || distance <= 1e-12 * a.radius;
-    const Vec3 normal = pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
+    const Vec3 normal = query.pose_a.rotation * (of_face ? face->normal : Vec3((center - nearest.point) / distance));
     const double separation = distance - b.radius;
-    const Vec3 point = pose_a.to_world(nearest.point);
-    add_point(normal, point + 0.5 * separation * normal, separation, out);
+    const Vec3 point = query.pose_a.to_world(nearest.point);
+    add_point(normal, point + 0.5 * separation * normal, separation, query.out);
     if (of_face)
-        out.back().geometry = BallOverFace{false, pose_b.position};
+        query.out.back().geometry = BallOverFace{false, query.pose_b.position};
     else
-        out.back().geometry = CurvedGap{distance, pose_a.rotation * nearest.edge, point, pose_b.position};
+        query.out.back().geometry =
+            CurvedGap{distance, query.pose_a.rotation * nearest.edge, point, query.pose_b.position};
 }
 
-void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
-                                   double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const Vec3 normal = pose_a.rotation * a.normal;
-    const double height = normal.dot(pose_b.position - pose_a.position) - a.offset;
-    if (height > b.radius + margin) return;
-    const Vec3 local = pose_b.rotation.transpose() * normal;
+void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query) {
+    CollisionScratch& scratch = query.scratch;
+    const Vec3 normal = query.pose_a.rotation * a.normal;
+    const double height = normal.dot(query.pose_b.position - query.pose_a.position) - a.offset;
+    if (height > b.radius + query.margin) return;
+    const Vec3 local = query.pose_b.rotation.transpose() * normal;
     scratch.points.clear();
     const auto keep = [&](std::uint32_t i) {
         const double separation = height + local.dot(b.vertices[i]);
-        if (separation <= margin)
-            scratch.points.push_back({pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
+        if (separation <= query.margin)
+            scratch.points.push_back({query.pose_b.to_world(b.vertices[i]) - 0.5 * separation * normal, separation, i});
     };
     for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
     if (scratch.points.empty()) return;
@@ -148,10 +146,10 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Pose& pose_a, const
         // All corners lie over the plane: the corners of the face along the plane bound the contact area.
         scratch.incident.clear();
         for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices)
-            scratch.incident.push_back(pose_b.to_world(b.vertices[i]));
+            scratch.incident.push_back(query.pose_b.to_world(b.vertices[i]));
         spread_pressure(contact_area(scratch.incident, normal), m);
     }
-    out.push_back(m);
+    query.out.push_back(m);
 }
 
 }  // namespace tumble

@@ -127,11 +127,23 @@ bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t 
     return true;
 }
 
-// The incident box in the reference box's frame: center c, axes the columns of r. `n`: sign of the reference face's
-// outward normal.
-void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pose& pose, const Vec3& c, const Mat3& r,
-              int axis, double sign, bool on_b, bool must_touch, double margin, CollisionScratch& scratch,
-              std::vector<Manifold>& out) {
+// A face of the reference box against the incident box.
+struct BoxFacing {
+    const Polyhedron &reference, &incident;
+    Vec3 center;  // of the incident box, in the reference box's frame
+    Mat3 axes;    // those of the incident box as columns, in the same frame
+    int axis;     // of the reference face's outward normal, and its sign
+    double sign;
+    bool on_b;  // the reference box is B
+};
+
+// The sink's frame is that of the reference box.
+void add_face(const BoxFacing& facing, bool must_touch, const ManifoldSink& sink) {
+    const Polyhedron &reference = facing.reference, &incident = facing.incident;
+    const Mat3& r = facing.axes;
+    const int axis = facing.axis;
+    const double sign = facing.sign;
+    CollisionScratch& scratch = sink.scratch;
     const std::uint32_t face = std::uint32_t(2 * axis + (sign < 0.0));
     const double depth = axis_preference(std::min(reference.radius, incident.radius));
     const std::uint32_t opposite = face_at_support(incident.half_extent, -sign * r.row(axis).transpose(), depth);
@@ -142,7 +154,7 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
     Polygon *polygon = &polygons[0], *spare = &polygons[1];
     polygon->count = 4;
     for (std::size_t i = 0; i < 4; ++i)
-        polygon->corners[i] = {c + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i],
+        polygon->corners[i] = {facing.center + half_axes * box.signs[incident_face.corner[i]], incident_face.corner[i],
                                std::uint32_t(i)};
     const auto height = [&](const Vec3& p) { return sign * p[axis] - reference.half_extent[axis]; };
     Corner deepest = polygon->corners[0];
@@ -154,34 +166,34 @@ void add_face(const Polyhedron& reference, const Polyhedron& incident, const Pos
         if (clip(*polygon, side.axis, side.sign, reference.half_extent[side.axis], s, *spare))
             std::swap(polygon, spare);
     }
-    const std::uint64_t base = face_feature(on_b, face);
+    const std::uint64_t base = face_feature(facing.on_b, face);
     scratch.points.clear();
     const auto keep = [&](const Corner& corner) {
         const double separation = height(corner.p);
-        if (separation > margin) return;
+        if (separation > sink.margin) return;
         Vec3 p = corner.p;
         p[axis] -= 0.5 * sign * separation;
-        scratch.points.push_back({pose.to_world(p), separation, base | corner.feature});
+        scratch.points.push_back({sink.frame.to_world(p), separation, base | corner.feature});
     };
     for (int i = 0; i < polygon->count; ++i) keep(polygon->corners[std::size_t(i)]);
     if (scratch.points.empty() && must_touch) keep(deepest);  // rounding clipped a sliver away
     if (scratch.points.empty()) return;
-    Manifold& m = out.emplace_back();
-    m.normal = (on_b ? -sign : sign) * pose.rotation.col(axis);
-    m.corners = on_b ? Corners::of_a : Corners::of_b;
+    Manifold& m = sink.out.emplace_back();
+    m.normal = (facing.on_b ? -sign : sign) * sink.frame.rotation.col(axis);
+    m.corners = facing.on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
     spread_pressure(contact_area(scratch.points, m.normal), m);
 }
 
 }  // namespace
 
-void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b, double margin,
-                   CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const BoxAxes axes(a.half_extent, pose_a, b.half_extent, pose_b);
+void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query) {
+    CollisionScratch& scratch = query.scratch;
+    const BoxAxes axes(a.half_extent, query.pose_a, b.half_extent, query.pose_b);
     const Vec3 &t = axes.t, &t_in_b = axes.t_in_b;
     const Mat3& r = axes.r;
     const auto apart = [&](std::uint32_t axis, double separation) {
-        if (separation <= margin) return false;
+        if (separation <= query.margin) return false;
         scratch.axis = axis;
         scratch.gap = separation;
         return true;
@@ -203,7 +215,8 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
         const BoxAxes::Edges e = axes.edges(i);
         // Most pairs of edges are no better than the best: rejected by their squares, beyond rounding, without root and
         // division.
-        const double needed = std::min(best, margin), square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
+        const double needed = std::min(best, query.margin),
+                     square = needed * needed * (needed < 0.0 ? 1.000001 : 0.999999);
         const BoxAxes::Lanes more = e.separation * e.separation - square * e.square;
         for (int j = 0; j < 3; ++j) {
             if (needed < 0.0 ? e.separation[j] < 0.0 && more[j] > 0.0 : e.separation[j] < 0.0 || more[j] < 0.0)
@@ -235,7 +248,7 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     bool must_touch = axis.separation < 0.0 && !given_up;
     if (may_slide_past(axis.separation, scratch.way, smaller)) {
         Vec3 way = Vec3::Zero();  // computed only where both faces graze
-        if (axis.separation < preference) way = pose_a.rotation.transpose() * scratch.way;
+        if (axis.separation < preference) way = query.pose_a.rotation.transpose() * scratch.way;
         double most = -preference;  // lower separations are not grazing
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
@@ -250,17 +263,19 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
             }
     }
     if (!speak) {
-        const std::size_t first = out.size();
+        const std::size_t first = query.out.size();
         if (of_b) {
             // In B's frame A's center lies at -t_in_b, and A's axes are the rows of r.
-            add_face(b, a, pose_b, -t_in_b, r.transpose(), face, t_in_b[face] > 0.0 ? -1.0 : 1.0, true, must_touch,
-                     margin, scratch, out);
+            const double sign = t_in_b[face] > 0.0 ? -1.0 : 1.0;
+            add_face({b, a, -t_in_b, r.transpose(), face, sign, true}, must_touch,
+                     {query.pose_b, query.margin, scratch, query.out});
         } else {
-            add_face(a, b, pose_a, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false, must_touch, margin, scratch, out);
+            add_face({a, b, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false}, must_touch,
+                     {query.pose_a, query.margin, scratch, query.out});
         }
-        speak = given_up && misses_edges(std::span(out).subspan(first), by_edges.separation, smaller);
+        speak = given_up && misses_edges(std::span(query.out).subspan(first), by_edges.separation, smaller);
         if (!speak) return;
-        out.resize(first);
+        query.out.resize(first);
     }
     static const BoxEdges edges;
     const Vec3& n = by_edges.normal;
@@ -268,9 +283,10 @@ void collide_boxes(const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
     const std::uint32_t ea = edges.index[std::size_t(edge_i)][BoxEdges::sign_bits(n, edge_i)];
     const std::uint32_t eb = edges.index[std::size_t(edge_j)][BoxEdges::sign_bits(-n_in_b, edge_j)];
     const Pose b_in_a{t, r};
-    add_edge_manifold(a.vertices[a.edges[ea].tail], a.vertices[a.edges[ea].head],
-                      b_in_a.to_world(b.vertices[b.edges[eb].tail]), b_in_a.to_world(b.vertices[b.edges[eb].head]), n,
-                      by_edges.separation, ea, eb, pose_a, out);
+    const Polyhedron::Edge &edge_a = a.edges[ea], &edge_b = b.edges[eb];
+    add_edge_manifold({a.vertices[edge_a.tail], a.vertices[edge_a.head], ea},
+                      {b_in_a.to_world(b.vertices[edge_b.tail]), b_in_a.to_world(b.vertices[edge_b.head]), eb}, n,
+                      by_edges.separation, {query.pose_a, query.margin, scratch, query.out});
 }
 
 }  // namespace tumble

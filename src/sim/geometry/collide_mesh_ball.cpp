@@ -16,10 +16,10 @@ bool contains(const std::vector<T>& list, T value) {
 
 }  // namespace
 
-void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball& b, const Pose& pose_b, double margin,
-                          CollisionScratch& scratch, std::vector<Manifold>& out) {
-    const Vec3 center = pose_a.to_body(pose_b.position);
-    const double reach = b.radius + margin;
+void collide_surface_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query) {
+    CollisionScratch& scratch = query.scratch;
+    const Vec3 center = query.pose_a.to_body(query.pose_b.position);
+    const double reach = b.radius + query.margin;
     auto& hits = scratch.hits;
     hits.clear();
     a.tree.query(Bounds{center, center}.grown(reach), [&](std::uint32_t t) {
@@ -77,20 +77,20 @@ void collide_surface_ball(const CollisionMesh& a, const Pose& pose_a, const Ball
         const double separation = hit.distance - b.radius;
         Manifold m;
         m.part = hit.triangle;
-        m.normal = pose_a.rotation * normal;
+        m.normal = query.pose_a.rotation * normal;
         m.count = 1;
-        const Vec3 point = pose_a.to_world(hit.point);
+        const Vec3 point = query.pose_a.to_world(hit.point);
         m.points[0] = {point + 0.5 * separation * m.normal, separation, std::uint64_t(hit.feature)};
         if (hit.feature != 0) {
             const auto corner = [&](int k) { return a.corner(hit.triangle, k); };
             const int k = hit.feature - 1;
             const Vec3 edge =
                 hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
-            m.geometry = CurvedGap{hit.distance, pose_a.rotation * edge, point, pose_b.position};
+            m.geometry = CurvedGap{hit.distance, query.pose_a.rotation * edge, point, query.pose_b.position};
         } else {
-            m.geometry = BallOverFace{false, pose_b.position};
+            m.geometry = BallOverFace{false, query.pose_b.position};
         }
-        out.push_back(m);
+        query.out.push_back(m);
     }
 }
 

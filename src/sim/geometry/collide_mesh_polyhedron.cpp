@@ -10,6 +10,13 @@
 namespace tumble {
 namespace {
 
+// A triangle in the polyhedron's frame.
+struct FacingTriangle {
+    Vec3 corners[3];
+    Vec3 normal;          // on the body's side
+    bool behind = false;  // the body is on the other side than the triangle's own normal
+};
+
 struct TriangleAxis {
     enum class Kind { none, triangle, face, edges };
     Kind kind = Kind::none;
@@ -27,9 +34,10 @@ bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
            direction.dot(left + right) > 0.0;
 }
 
-// All in the polyhedron's frame: t are the triangle's corners, n its normal on the body's side.
-TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], const Vec3& n, double margin,
+TriangleAxis find_triangle_axis(const Polyhedron& shape, const FacingTriangle& triangle, double margin,
                                 EdgeSearch search, CollisionScratch& scratch) {
+    const auto& t = triangle.corners;
+    const Vec3& n = triangle.normal;
     std::vector<std::uint32_t>& edges = scratch.edges_b;
     const auto triangle_reach = [&](const Vec3& d) { return std::max({d.dot(t[0]), d.dot(t[1]), d.dot(t[2])}); };
     TriangleAxis axis;
@@ -79,13 +87,16 @@ TriangleAxis find_triangle_axis(const Polyhedron& shape, const Vec3 (&t)[3], con
     return axis;
 }
 
-void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& n, bool behind,
-                           const TriangleAxis& axis, const Pose& pose_b, double margin, CollisionScratch& scratch,
-                           std::vector<Manifold>& out) {
+// The sink's frame is that of the polyhedron.
+void add_triangle_manifold(const Polyhedron& b, const FacingTriangle& triangle, const TriangleAxis& axis,
+                           const ManifoldSink& sink) {
+    CollisionScratch& scratch = sink.scratch;
+    const auto& t = triangle.corners;
+    const Vec3& n = triangle.normal;
     if (axis.kind == TriangleAxis::Kind::edges) {
         const Polyhedron::Edge& e = b.edges[axis.feature];
-        add_edge_manifold(t[axis.edge], t[(axis.edge + 1) % 3], b.vertices[e.tail], b.vertices[e.head], axis.normal,
-                          axis.separation, std::uint64_t(axis.edge), axis.feature, pose_b, out);
+        add_edge_manifold({t[axis.edge], t[(axis.edge + 1) % 3], std::uint64_t(axis.edge)},
+                          {b.vertices[e.tail], b.vertices[e.head], axis.feature}, axis.normal, axis.separation, sink);
         return;
     }
     const bool on_body = axis.kind == TriangleAxis::Kind::face;
@@ -93,7 +104,7 @@ void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& 
     std::vector<Vec3>& of_triangle = on_body ? scratch.incident : scratch.reference;
     std::vector<Vec3>& of_body = on_body ? scratch.reference : scratch.incident;
     of_triangle.assign(t, t + 3);
-    if (behind) std::swap(of_triangle[1], of_triangle[2]);  // counter-clockwise about n
+    if (triangle.behind) std::swap(of_triangle[1], of_triangle[2]);  // counter-clockwise about n
     of_body.clear();
     for (const std::uint32_t v : b.faces[face].vertices) of_body.push_back(b.vertices[v]);
     if (on_body)
@@ -101,8 +112,7 @@ void add_triangle_manifold(const Polyhedron& b, const Vec3 (&t)[3], const Vec3& 
     else
         scratch.labels = b.faces[face].vertices;
     // The manifold's A is the triangle. Normal: that of the triangle, or opposite to that of the body's face.
-    add_face_manifold(on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body, pose_b, margin, false, scratch,
-                      out);
+    add_face_manifold({on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body}, false, sink);
 }
 
 // Whether a contact point of the triangle lies in the body: proof of an overlap.
@@ -115,15 +125,15 @@ bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose
 
 }  // namespace
 
-void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, const Polyhedron& b, const Pose& pose_b,
-                                double margin, CollisionScratch& scratch, std::vector<Manifold>& out) {
+void collide_surface_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query) {
+    CollisionScratch& scratch = query.scratch;
     // In the body's frame, because hulls are larger than triangles.
-    const Pose a_in_b = seen_from(pose_b, pose_a);
+    const Pose a_in_b = seen_from(query.pose_b, query.pose_a);
     Bounds region;
     {
         const Vec3 center = a_in_b.rotation.transpose() * (b.bounds.center() - a_in_b.position);
         const Vec3 half = a_in_b.rotation.transpose().cwiseAbs() * (0.5 * b.bounds.extent());
-        region = Bounds{center - half, center + half}.grown(margin);
+        region = Bounds{center - half, center + half}.grown(query.margin);
     }
     auto& candidates = scratch.vertices;
     candidates.clear();
@@ -134,26 +144,28 @@ void collide_surface_polyhedron(const CollisionMesh& a, const Pose& pose_a, cons
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         const std::uint32_t index = candidates[k];
         const CollisionMesh::Triangle& triangle = a.triangles[index];
-        const bool behind = scratch.sides.behind[k] != 0;
-        if (behind && a.closed) continue;
-        Vec3 t[3];
-        for (int i = 0; i < 3; ++i) t[i] = a_in_b.to_world(a.corner(index, i));
-        Vec3 n = a_in_b.rotation * triangle.normal;
-        if (behind) n = -n;
+        FacingTriangle facing;
+        facing.behind = scratch.sides.behind[k] != 0;
+        if (facing.behind && a.closed) continue;
+        for (int i = 0; i < 3; ++i) facing.corners[i] = a_in_b.to_world(a.corner(index, i));
+        facing.normal = a_in_b.rotation * triangle.normal;
+        if (facing.behind) facing.normal = -facing.normal;
         for (const EdgeSearch search : {EdgeSearch::nearby, EdgeSearch::all}) {
-            TriangleAxis axis = find_triangle_axis(b, t, n, margin, search, scratch);
+            TriangleAxis axis = find_triangle_axis(b, facing, query.margin, search, scratch);
             if (axis.kind == TriangleAxis::Kind::none) break;
             if (axis.kind != TriangleAxis::Kind::triangle &&
                 !a.owns_normal(triangle, a_in_b.rotation.transpose() * axis.normal)) {
                 axis.kind = TriangleAxis::Kind::triangle;
-                axis.normal = n;
+                axis.normal = facing.normal;
             }
-            const std::size_t first = out.size();
-            add_triangle_manifold(b, t, n, behind, axis, pose_b, margin, scratch, out);
-            if (out.size() == first) break;
-            out[first].part = index;
-            if (search == EdgeSearch::all || axis.separation >= 0.0 || proves_overlap(out[first], b, pose_b)) break;
-            out.resize(first);  // rare: see EdgeSearch
+            const std::size_t first = query.out.size();
+            add_triangle_manifold(b, facing, axis, {query.pose_b, query.margin, scratch, query.out});
+            if (query.out.size() == first) break;
+            query.out[first].part = index;
+            if (search == EdgeSearch::all || axis.separation >= 0.0 ||
+                proves_overlap(query.out[first], b, query.pose_b))
+                break;
+            query.out.resize(first);  // rare: see EdgeSearch
         }
     }
 }

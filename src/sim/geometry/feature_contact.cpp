@@ -6,17 +6,18 @@
 
 namespace tumble {
 
-void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
-                       double margin, bool must_touch, CollisionScratch& scratch, std::vector<Manifold>& out) {
+void add_face_manifold(const ReferenceFace& reference, bool must_touch, const ManifoldSink& sink) {
+    CollisionScratch& scratch = sink.scratch;
+    const Vec3& normal = reference.normal;
     label_polygon(scratch.incident, scratch.labels, scratch.polygon);
     clip_to_prism(scratch.reference, normal, scratch.polygon, scratch.spare);
     const Vec3& origin = scratch.reference[0];
-    const std::uint64_t base = face_feature(reference_on_b, reference_label);
+    const std::uint64_t base = face_feature(reference.on_b, reference.label);
     scratch.points.clear();
     const auto keep = [&](const Vec3& p, std::uint64_t feature) {
         const double separation = normal.dot(p - origin);
-        if (separation > margin) return;
-        scratch.points.push_back({frame.to_world(p - 0.5 * separation * normal), separation, base | feature});
+        if (separation > sink.margin) return;
+        scratch.points.push_back({sink.frame.to_world(p - 0.5 * separation * normal), separation, base | feature});
     };
     for (const ClipVertex& v : scratch.polygon) keep(v.position, v.feature);
     if (scratch.points.empty() && must_touch) {
@@ -28,29 +29,29 @@ void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool r
     }
     if (scratch.points.empty()) return;
     Manifold m;
-    m.normal = frame.rotation * (reference_on_b ? Vec3(-normal) : normal);
-    m.corners = reference_on_b ? Corners::of_a : Corners::of_b;
+    m.normal = sink.frame.rotation * (reference.on_b ? Vec3(-normal) : normal);
+    m.corners = reference.on_b ? Corners::of_a : Corners::of_b;
     keep_best_points(scratch.points, m, scratch.left_out);
     spread_pressure(contact_area(scratch.points, m.normal), m);
-    out.push_back(m);
+    sink.out.push_back(m);
 }
 
-void add_edge_manifold(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, const Vec3& normal,
-                       double separation, std::uint64_t edge_a, std::uint64_t edge_b, const Pose& frame,
-                       std::vector<Manifold>& out) {
+void add_edge_manifold(const EdgeSegment& a, const EdgeSegment& b, const Vec3& normal, double separation,
+                       const ManifoldSink& sink) {
+    const Pose& frame = sink.frame;
     // Nearest points of two segments (Ericson 2005, "Real-Time Collision Detection", 5.1.9). Precondition: not
     // parallel.
-    const Vec3 u = a1 - a0, v = b1 - b0, r = a0 - b0;
+    const Vec3 u = a.head - a.tail, v = b.head - b.tail, r = a.tail - b.tail;
     const double uu = u.dot(u), vv = v.dot(v), uv = u.dot(v), ur = u.dot(r), vr = v.dot(r);
     const double s = std::clamp((uv * vr - ur * vv) / (uu * vv - uv * uv), 0.0, 1.0);
     const double t = std::clamp((uv * s + vr) / vv, 0.0, 1.0);
     Manifold m;
     m.normal = frame.rotation * normal;
     m.count = 1;
-    m.points[0] = {frame.to_world(0.5 * (a0 + s * u + b0 + t * v)), separation,
-                   (std::uint64_t(1) << 62) | (edge_a << 24) | edge_b};
+    m.points[0] = {frame.to_world(0.5 * (a.tail + s * u + b.tail + t * v)), separation,
+                   (std::uint64_t(1) << 62) | (a.index << 24) | b.index};
     m.geometry = CrossingEdges{frame.rotation * u, frame.rotation * v};
-    out.push_back(m);
+    sink.out.push_back(m);
 }
 
 }  // namespace tumble

@@ -11,18 +11,32 @@ inline std::uint64_t face_feature(bool reference_on_b, std::uint32_t reference_l
     return (std::uint64_t(reference_on_b) << 63) | (std::uint64_t(reference_label) << 42);
 }
 
+/// The frame of shape A in the world, and the destination of its manifolds.
+struct ManifoldSink {
+    const Pose& frame;
+    double margin;  // m
+    CollisionScratch& scratch;
+    std::vector<Manifold>& out;
+};
+
+struct ReferenceFace {
+    Vec3 normal;          // outward
+    std::uint32_t label;  // distinguishes faces in the feature ids
+    bool on_b;            // turns the manifold's normal so that it points away from A
+};
+
 /// Clips scratch.incident (with scratch.labels for its vertices) to the prism of scratch.reference and keeps points
-/// with less than `margin` to the reference plane.
-/// - `normal`: outward normal of the reference face.
-/// - `reference_on_b`: turns the manifold's normal so that it points away from A.
-/// - `reference_label`: distinguishes faces in the feature ids.
-/// - `must_touch`: the shapes are known to overlap, so that the deepest vertex is kept if clipping leaves no point.
-void add_face_manifold(const Vec3& normal, std::uint32_t reference_label, bool reference_on_b, const Pose& frame,
-                       double margin, bool must_touch, CollisionScratch& scratch, std::vector<Manifold>& out);
+/// with less than the margin to the reference plane. `must_touch`: the shapes are known to overlap, so that the deepest
+/// vertex is kept if clipping leaves no point.
+void add_face_manifold(const ReferenceFace& reference, bool must_touch, const ManifoldSink& sink);
+
+struct EdgeSegment {
+    Vec3 tail, head;
+    std::uint64_t index;  // of the edge in its shape
+};
 
 /// One point, halfway between the nearest points of two segments; `normal` points away from A.
-void add_edge_manifold(const Vec3& a0, const Vec3& a1, const Vec3& b0, const Vec3& b1, const Vec3& normal,
-                       double separation, std::uint64_t edge_a, std::uint64_t edge_b, const Pose& frame,
-                       std::vector<Manifold>& out);
+void add_edge_manifold(const EdgeSegment& a, const EdgeSegment& b, const Vec3& normal, double separation,
+                       const ManifoldSink& sink);
 
 }  // namespace tumble

@@ -96,10 +96,11 @@ bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return cba * dba < 0.0 && adc * bdc < 0.0 && cba * bdc > 0.0;
 }
 
-void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin, EdgeSearch search,
-                  const FaceAxis& face_a, const FaceAxis& face_b, CollisionScratch& scratch, double& best,
-                  SeparatingAxis& axis) {
-    const double way = edge_reach(search, margin, axis.separation);
+void search_edges(const AxisQuery& query, const FaceAxis& face_a, const FaceAxis& face_b, CollisionScratch& scratch,
+                  double& best, SeparatingAxis& axis) {
+    const Polyhedron &a = query.a, &b = query.b;
+    const Pose& b_in_a = query.b_in_a;
+    const double way = edge_reach(query.edges, query.margin, axis.separation);
     edges_in(a, contact_region(a, face_a, b, face_b, b_in_a, way), scratch.edges_a);
     edges_in(b, contact_region(b, face_b, a, face_a, inverse(b_in_a), way), scratch.edges_b);
     for (const std::uint32_t ib : scratch.edges_b) {
@@ -121,14 +122,16 @@ void search_edges(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
             if (separation <= best) continue;
             best = separation;
             axis = {SeparatingAxis::Kind::edges, separation, ia, ib, n};
-            if (separation > margin) return;
+            if (separation > query.margin) return;
         }
     }
 }
 
 // The face of largest separation that shapes separated along `axis` slide past, if there is one; else `axis`.
-SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, const SeparatingAxis& axis,
-                           const Vec3& way, double smaller_radius, AxisChoice choice) {
+SeparatingAxis grazed_face(const AxisQuery& query, const SeparatingAxis& axis, double smaller_radius,
+                           AxisChoice choice) {
+    const Polyhedron &a = query.a, &b = query.b;
+    const Pose& b_in_a = query.b_in_a;
     SeparatingAxis grazed = axis;
     const auto look = [&](const Polyhedron& shape, const Polyhedron& other, const Pose& pose, bool of_b) {
         for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
@@ -144,7 +147,7 @@ SeparatingAxis grazed_face(const Polyhedron& a, const Polyhedron& b, const Pose&
                                      .feature_b = of_b ? f : 0,
                                      .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal,
                                      .grazed = true};
-            if (slides_past(axis, candidate, way, smaller_radius, choice) &&
+            if (slides_past(axis, candidate, query.way, smaller_radius, choice) &&
                 (!grazed.grazed || candidate.separation > grazed.separation))
                 grazed = candidate;
         }
@@ -203,9 +206,10 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
                        [&](const Polyhedron::Face& f) { return f.normal.dot(point) <= f.offset + slack; });
 }
 
-SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch,
-                                    SeparatingAxis* given_up) {
+SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch, SeparatingAxis* given_up) {
+    const Polyhedron &a = query.a, &b = query.b;
+    const Pose& b_in_a = query.b_in_a;
+    const double margin = query.margin;
     const auto apart = [&](double separation) {
         if (separation <= margin) return false;
         scratch.gap = separation;
@@ -226,15 +230,15 @@ SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, co
     }
     const SeparatingAxis face = axis;
     double best = axis.separation + preference;
-    search_edges(a, b, b_in_a, margin, search, face_a, face_b, scratch, best, axis);
+    search_edges(query, face_a, face_b, scratch, best, axis);
     if (apart(axis.separation)) return {};
     const double smaller = std::min(a.radius, b.radius);
     const SeparatingAxis edges = axis;
     const bool prefers_face =
         edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
     if (prefers_face) axis = face;
-    if (may_slide_past(axis.separation, way, smaller)) {
-        const SeparatingAxis grazed = grazed_face(a, b, b_in_a, axis, way, smaller, scratch.choice);
+    if (may_slide_past(axis.separation, query.way, smaller)) {
+        const SeparatingAxis grazed = grazed_face(query, axis, smaller, scratch.choice);
         if (grazed.grazed) return grazed;
     }
     if (prefers_face && given_up) *given_up = edges;

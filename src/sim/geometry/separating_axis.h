@@ -29,10 +29,16 @@ enum class EdgeSearch { nearby, all };
 /// axis so far bounds s from below, the margin from above.
 double edge_reach(EdgeSearch search, double margin, double best_separation);
 
-/// `b_in_a` is B's pose in A's frame; the displacement is in A's frame too. given_up: the edges that were rejected in
-/// favor of a face (edges_along_face); unchanged where there were none.
-SeparatingAxis find_separating_axis(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, double margin,
-                                    EdgeSearch search, const Vec3& way, CollisionScratch& scratch,
+struct AxisQuery {
+    const Polyhedron &a, &b;
+    const Pose& b_in_a;  // B's pose in A's frame
+    double margin;       // m
+    EdgeSearch edges;
+    Vec3 way;  // m, displacement of B relative to A in the coming step, in A's frame
+};
+
+/// given_up: the edges that were rejected in favor of a face (edges_along_face); unchanged where there were none.
+SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch,
                                     SeparatingAxis* given_up = nullptr);
 
 /// Separation (m) by which an edge pair must exceed a face to be chosen, and B's face A's, for shapes of this size.

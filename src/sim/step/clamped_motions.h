@@ -34,8 +34,8 @@ public:
     /// Limits by body. Precondition: find().
     const std::vector<CcdFraction>& limits(const StepContext& step, ContactDetection& detection,
                                            const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
-        return clamp_.limits(find_pairs, touch_depth(detection.manifolds(), step.set.bodies), step.set.bodies,
-                             step.set.motions, step.h, any_fast_, turns_freely);
+        return clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely}, find_pairs,
+                             touch_depth(detection.manifolds(), step.set.bodies));
     }
 
 private:

@@ -66,6 +66,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         patch.a = place_of(bodies, m.a);
         patch.b = place_of(bodies, m.b);
         patch.count = geometry.count;
+        const RowBodies row_bodies{patch, a, b, length_};
         patch.manifold = k;
         patch.coefficient = geometry.friction;
         patch.size = geometry.size;
@@ -74,7 +75,7 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
         for (int i = 0; i < patch.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
             Row& row = patch.normal[i];
-            set_row(row, geometry.normal, p.arm_a, p.arm_b, patch, a, b, length_);
+            set_row(row, geometry.normal, p.arm_a, p.arm_b, row_bodies);
             row.offset += round.dot(geometry.normal);
             row.estimate = p.impulse;
             row.target = std::min(0.0, -p.separation / h);
@@ -82,17 +83,16 @@ void DirectSolver::load_patches(const ContactProblem& problem, std::span<const s
             patch.overlap[i] = -p.separation;
             speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
         }
-        set_row(patch.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b,
-                length_);
-        set_row(patch.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b, patch, a, b,
-                length_);
+        const Vec3 &arm_a = geometry.friction_arm_a, &arm_b = geometry.friction_arm_b;
+        set_row(patch.friction[0], geometry.tangent_1, arm_a, arm_b, row_bodies);
+        set_row(patch.friction[1], geometry.tangent_2, arm_a, arm_b, row_bodies);
         Vec3 turn = Vec3::Zero();
         const Vec3 motion = problem.before[m.b].velocity - problem.before[m.a].velocity;
         if (patch.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
         if (patch.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
         patch.friction[0].offset += (round - 0.5 * h * turn).dot(geometry.tangent_1);
         patch.friction[1].offset += (round - 0.5 * h * turn).dot(geometry.tangent_2);
-        set_twist(patch.twist, geometry.normal, patch, a, b, length_);
+        set_twist(patch.twist, geometry.normal, row_bodies);
         patch.friction[0].estimate = m.friction[0];
         patch.friction[1].estimate = m.friction[1];
         patch.twist.estimate = m.twist;

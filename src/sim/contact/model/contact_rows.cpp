@@ -2,8 +2,8 @@
 
 namespace tumble::contact_rows {
 
-void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a,
-             const Body& b, double length) {
+void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const RowBodies& bodies) {
+    const auto& [patch, a, b, length] = bodies;
     if (patch.a != none)
         put(row.on_a, -direction, -arm_a.cross(direction) / length);
     else if (a.moves())
@@ -14,7 +14,8 @@ void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm
         row.offset += direction.dot(b.point_velocity(arm_b));
 }
 
-void set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b, double length) {
+void set_twist(Row& row, const Vec3& normal, const RowBodies& bodies) {
+    const auto& [patch, a, b, length] = bodies;
     if (patch.a != none)
         put(row.on_a, Vec3::Zero(), -normal / length);
     else if (a.moves())

@@ -41,11 +41,17 @@ inline void put(double* six, const Vec3& linear, const Vec3& angular) {
     }
 }
 
-/// A row of `patch`: direction . (velocity of B's point - that of A's point).
-void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const Patch& patch, const Body& a,
-             const Body& b, double length);
+/// Bodies of the rows of `patch`, and the length (m) that scales angular velocities.
+struct RowBodies {
+    const Patch& patch;
+    const Body &a, &b;
+    double length;
+};
+
+/// A row: direction . (velocity of B's point - that of A's point).
+void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const RowBodies& bodies);
 /// The torsional row: normal . (angular velocity of B - that of A).
-void set_twist(Row& row, const Vec3& normal, const Patch& patch, const Body& a, const Body& b, double length);
+void set_twist(Row& row, const Vec3& normal, const RowBodies& bodies);
 
 /// J u of one row.
 inline double dot(const Patch& patch, const Row& row, const std::vector<double>& u) {

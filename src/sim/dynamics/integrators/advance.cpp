@@ -40,20 +40,25 @@ double cube_root_above(double x) {
 }
 
 // Rate (1/s) of change of the motion: by drag, by the rotation, and of the angular velocity by the torque.
-double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, bool turns, double drag_rate,
-               const Vec3& wind, double span) {
+struct Drag {
+    double rate;  // 1/m, ForceField::drag_rate()
+    Vec3 wind;    // m/s
+};
+
+double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, bool turns, const Drag& drag,
+               double span) {
     const Vec3 velocity = mass.inverse_mass * s.momentum;
     const Mat3 rotation = s.orientation.toRotationMatrix();
     const Wrench wrench = law(velocity, rotation);
     double rate = 0.0;
-    if (drag_rate > 0.0) {
+    if (drag.rate > 0.0) {
         // Of dv/dt = a - k |u| u, k half the drag rate, it is k |u|; where the speed still builds up, sqrt(k a).
-        const double speed = (velocity - wind).norm(), acceleration = mass.inverse_mass * wrench.force.norm();
-        rate += drag_rate * speed + std::sqrt(drag_rate * acceleration);
+        const double speed = (velocity - drag.wind).norm(), acceleration = mass.inverse_mass * wrench.force.norm();
+        rate += drag.rate * speed + std::sqrt(drag.rate * acceleration);
         // The singularity is |u| / a away. Over h it contributes k a^2 h^3 to the velocity, which vanishes for small h.
         if (acceleration > 0.0) {
             const double nothing = tuning::extrapolation_no_drag * (velocity.norm() + acceleration * span);
-            const double finest = cube_root_above(drag_rate * acceleration * acceleration / nothing);
+            const double finest = cube_root_above(drag.rate * acceleration * acceleration / nothing);
             rate += tuning::extrapolation_rest_in_air * std::min(acceleration / speed, finest);
         }
     }
@@ -89,7 +94,7 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
 RigidState advance_exactly(const Body& body, const ForceField& forces, std::size_t index, double from, double to) {
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
-    const double drag_rate = forces.drag_rate(body);
+    const Drag drag{forces.drag_rate(body), forces.wind()};
     for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
         const double span = end - start;
         const bool turns = !forces.torque_free(index, 0.5 * (start + end));
@@ -112,7 +117,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
                                     "than {} steps: the forces on it are too large for its mass",
                                     safe_text(body.name), start, end, tuning::most_substeps));
                 }
-                const double rate = rate_of(state, moved, ForceLaw(law), turns, drag_rate, forces.wind(), span);
+                const double rate = rate_of(state, moved, ForceLaw(law), turns, drag, span);
                 // Divides the rest into equal steps at the present rate; the next step decides anew.
                 const double rest = span - done, count = std::ceil(rest * rate / tuning::extrapolation_phase);
                 extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
