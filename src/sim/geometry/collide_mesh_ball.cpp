@@ -1,7 +1,7 @@
 // Spheres against a triangle mesh. Internal edges must not catch a sliding sphere: a point on an edge or a corner
 // counts only if the mesh comes no nearer next to it.
 #include "sim/geometry/collide.h"
-#include "sim/geometry/nearest_on_triangle.h"
+#include "sim/geometry/mesh_shape.h"
 
 #include <algorithm>
 #include <cmath>
