@@ -64,7 +64,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.light = read_light(root);
     scene.wind = read_wind(root);
     MeshCache meshes(imports);
-    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed, meshes);
+    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation, meshes);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());

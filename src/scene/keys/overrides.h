@@ -10,7 +10,7 @@ namespace tumble {
 struct SceneOverrides {
     std::optional<double> duration, fps, step;
     std::optional<int> steps_per_frame, width, height, samples;
-    std::optional<std::string> integrator, impacts, impact_law;
+    std::optional<std::string> method, integrator, impacts, impact_law;
 };
 
 }  // namespace tumble
