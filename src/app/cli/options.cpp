@@ -108,7 +108,23 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
     command.add_option("scene", scene, "The scene file (TOML)")->check(some_name())->required()->type_name("SCENE");
 }
 
+void add_values(CLI::App& command, SceneOverrides& overrides) {
+    command
+        .add_option("--set", overrides.set,
+                    "Any key of the scene by its path, in place of the scene's, as in\nsimulation.sleep=false or "
+                    "body.crate.restitution=0.8; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+    command
+        .add_option_function<std::string>(
+            "--seed", [&overrides](const std::string& seed) { overrides.set.push_back("simulation.seed=" + seed); },
+            "The seed of grids and scatters, in place of the scene's")
+        ->type_name("N");
+}
+
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
+    add_values(command, overrides);
     command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")
         ->type_name("N");
     command
