@@ -1,4 +1,4 @@
-"""`plot`: files of each kind, several runs in one plot, what is said of wrong names."""
+"""`plot`: files of each kind, several runs in one plot, the messages for wrong names."""
 
 import program
 

@@ -1,4 +1,4 @@
-// Values of the command line by their paths (--set): every kind of place in a scene, and what is said of wrong ones.
+// Values of the command line by their paths (--set): every kind of place in a scene, and the messages for wrong ones.
 #include "core/error.h"
 #include "scene/load.h"
 

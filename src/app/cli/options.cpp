@@ -292,7 +292,7 @@ CLI::App* add_plot(CLI::App& app, CommandLine& line) {
         ->required()
         ->check(some_name())
         ->type_name("SCENE");
-    command->add_option("--of", c.quantities, "What to plot, separated by commas, as in energy,body.ball.y")
+    command->add_option("--of", c.quantities, "Quantities, separated by commas, as in energy,body.ball.y")
         ->required()
         ->check(some_name())
         ->type_name("LIST");
