@@ -8,6 +8,7 @@
 #include "scene/keys/view_settings.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
+#include "scene/toml/set_values.h"
 #include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
@@ -51,7 +52,8 @@ std::string read_text(const std::filesystem::path& file) {
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
                              const SceneOverrides& overrides, FileList* read, MeshImports imports) {
-    const toml::table document = parse_toml(text, file.string());
+    toml::table document = parse_toml(text, file.string());
+    set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
     root.expect_keys(
@@ -64,7 +66,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.light = read_light(root);
     scene.wind = read_wind(root);
     MeshCache meshes(imports);
-    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed, meshes);
+    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation, meshes);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());

@@ -5,6 +5,7 @@
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/kinematic_body.h"
+#include "sim/notes/notes_method.h"
 #include "sim/snapshot/measurement.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/event_driven_stage.h"
@@ -46,6 +47,7 @@ struct World::State {
     std::unique_ptr<MotionStage> motion;
     SleepMonitor sleep;
     StateCheck check;
+    std::unique_ptr<NotesMethod> notes;  // with method = "notes", in place of all stages
     ThreadPool pool;
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
@@ -61,6 +63,7 @@ struct World::State {
           pool(threads) {
         set.place_kinematic(clock, steps);
         motion = make_motion_stage(scene, settings, set, clock);
+        if (settings.method == SimulationMethod::notes) notes = std::make_unique<NotesMethod>(threads);
     }
 
     StepContext context() {
@@ -77,19 +80,26 @@ struct World::State {
 
     void advance(std::int64_t to);
     void step();
+    void run_stages(const StepContext& step);
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
     void fall_asleep();
 };
 
-void World::State::step() {
-    const StepContext step = context();
+void World::State::run_stages(const StepContext& step) {
     forces.wake(step);
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration and friction
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
+}
+
+void World::State::step() {
+    if (notes)
+        notes->step(context());
+    else
+        run_stages(context());
     ++steps;
     set.place_kinematic(clock, steps);
     stop_if_not_finite(context());
@@ -127,7 +137,7 @@ void World::State::solve_contacts(const StepContext& step) {
 }
 
 void World::State::fall_asleep() {
-    if (!settings.sleep) return;
+    if (!settings.sleep || notes) return;
     const StepContext next = context();
     const std::uint64_t changes = sleep.changes();
     sleep.observe(detection.islands(), detection.manifolds(), set.bodies, next.h, next.gravity_speed());

@@ -41,6 +41,21 @@ struct SimulateCommand {
 };
 void run_simulate(const SimulateCommand& command);
 
+struct PlotCommand {
+    std::vector<std::filesystem::path> scenes;
+    std::string quantities;         // names separated by commas (app/plots/quantities.h)
+    std::filesystem::path output;   // .svg, .png or .pdf
+    std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
+    SceneOverrides overrides;
+    std::optional<std::string> title;  // without this, the first scene's
+    bool log = false;                  // logarithmic vertical axes
+    bool difference = false;           // of each run to the first one
+    int width = 900, height = 540;     // pixels, or points of a PDF
+    int threads = 1;
+    bool quiet = false;
+};
+void run_plot(const PlotCommand& command);
+
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;

@@ -2,6 +2,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
+#include "app/plots/quantities.h"
 #include "app/threads/thread_budget.h"
 #include "app/timing/motion_blur.h"
 #include "app/timing/time_scaling.h"
@@ -25,7 +26,8 @@ namespace {
 constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
 
 /// "1280x720" to two numbers. Their range is checked with the scene.
-void read_size(const std::string& text, SceneOverrides& overrides) {
+template <class Number>
+void read_size(const std::string& text, Number& to_width, Number& to_height) {
     int width = 0, height = 0;
     const char* const last = text.data() + text.size();
     const auto [x, bad_width] = std::from_chars(text.data(), last, width);
@@ -37,8 +39,8 @@ void read_size(const std::string& text, SceneOverrides& overrides) {
     if (!good)
         throw InputError(
             fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", safe_text(text)));
-    overrides.width = width;
-    overrides.height = height;
+    to_width = width;
+    to_height = height;
 }
 
 /// "depth,normal" to a set.
@@ -60,11 +62,12 @@ AovSet read_aovs(const std::string& text) {
 struct CommandLine {
     RenderCommand render;
     SimulateCommand simulate;
+    PlotCommand plot;
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
     DoctorCommand doctor;
-    std::string render_size, info_size, aovs;
+    std::string render_size, plot_size, info_size, aovs;
 };
 
 // CLI::Range lets NaN through.
@@ -108,7 +111,23 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
     command.add_option("scene", scene, "The scene file (TOML)")->check(some_name())->required()->type_name("SCENE");
 }
 
+void add_values(CLI::App& command, SceneOverrides& overrides) {
+    command
+        .add_option("--set", overrides.set,
+                    "Any key of the scene by its path, in place of the scene's, as in\nsimulation.sleep=false or "
+                    "body.crate.restitution=0.8; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+    command
+        .add_option_function<std::string>(
+            "--seed", [&overrides](const std::string& seed) { overrides.set.push_back("simulation.seed=" + seed); },
+            "The seed of grids and scatters, in place of the scene's")
+        ->type_name("N");
+}
+
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
+    add_values(command, overrides);
     command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")
         ->type_name("N");
     command
@@ -246,6 +265,10 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->add_option("--integrator", c.overrides.integrator,
                      "symplectic-euler, explicit-euler, splitting, rk4 or exact")
         ->type_name("NAME");
+    command
+        ->add_option("--method", c.overrides.method,
+                     "full: the whole simulation; notes: the course notes to the letter, for teaching")
+        ->type_name("NAME");
     command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")
         ->type_name("MODE");
     command
@@ -259,6 +282,45 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         "Examples:\n"
         "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
         "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
+    return command;
+}
+
+CLI::App* add_plot(CLI::App& app, CommandLine& line) {
+    PlotCommand& c = line.plot;
+    CLI::App* command = app.add_subcommand("plot", "Simulate, and plot quantities over time");
+    command->add_option("scenes", c.scenes, "Scene files (TOML); several are drawn into one plot")
+        ->required()
+        ->check(some_name())
+        ->type_name("SCENE");
+    command->add_option("--of", c.quantities, "Quantities, separated by commas, as in energy,body.ball.y")
+        ->required()
+        ->check(some_name())
+        ->type_name("LIST");
+    command->add_option("-o,--output", c.output, "The plot to write: .svg .png or .pdf")
+        ->required()
+        ->check(some_name())
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "--vary", c.vary,
+            "A run for each value of a key, as in\nsimulation.integrator=explicit-euler,symplectic-euler; may be "
+            "repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUES");
+    command->add_flag("--difference", c.difference, "Plot the difference of each run to the first one");
+    command->add_flag("--log", c.log, "Logarithmic vertical axes; of differences the absolute value");
+    command->add_option("--title", c.title, "Title, in place of the first scene's")->type_name("TEXT");
+    command->add_option("--size", line.plot_size, "Size in pixels (points of a PDF)")
+        ->check(some_name())
+        ->option_text("WxH [900x540]");
+    add_frames_of_time(*command, c.overrides);
+    add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
+    command->footer(
+        quantity_help() +
+        "\nExamples:\n"
+        "  tumble plot scene.toml --of energy,contacts -o energy.svg\n"
+        "  tumble plot scene.toml --of body.ball.y --vary simulation.integrator=explicit-euler,exact -o y.png");
     return command;
 }
 
@@ -360,6 +422,7 @@ int run_command_line(int argc, char** argv) {
     });
     const CLI::App* render = add_render(app, line);
     const CLI::App* simulate = add_simulate(app, line);
+    const CLI::App* plot = add_plot(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
@@ -373,14 +436,18 @@ int run_command_line(int argc, char** argv) {
         say_text(wrong.str());
         return code == 0 ? 0 : 2;
     }
-    if (!line.render_size.empty()) read_size(line.render_size, line.render.overrides);
+    if (!line.render_size.empty())
+        read_size(line.render_size, line.render.overrides.width, line.render.overrides.height);
     if (render->get_option("--aov")->count() > 0) line.render.aovs = read_aovs(line.aovs);
-    if (!line.info_size.empty()) read_size(line.info_size, line.info.overrides);
+    if (!line.info_size.empty()) read_size(line.info_size, line.info.overrides.width, line.info.overrides.height);
+    if (!line.plot_size.empty()) read_size(line.plot_size, line.plot.width, line.plot.height);
 
     if (render->parsed())
         run_render(line.render);
     else if (simulate->parsed())
         run_simulate(line.simulate);
+    else if (plot->parsed())
+        run_plot(line.plot);
     else if (encode->parsed())
         run_encode(line.encode);
     else if (compare->parsed())

@@ -35,7 +35,8 @@ void read_mass(const TomlTable& table, BodyDescription& body) {
 }
 
 /// The body described by its table; the model of all copies of a grid or a scatter.
-BodyDescription read_model(const TomlTable& table, const Materials& materials, BodyType type, const Shape& shape) {
+BodyDescription read_model(const TomlTable& table, const Materials& materials, BodyType type, const Shape& shape,
+                           SimulationMethod method) {
     BodyDescription body;
     body.type = type;
     body.shape = shape;
@@ -45,7 +46,7 @@ BodyDescription read_model(const TomlTable& table, const Materials& materials, B
     table.read("visible", body.surface.visible);
     read_mass(table, body);
     read_motion(table, body);
-    if (const auto name = table.find("integrator")) body.integrator = name->choice(integrator_choices());
+    if (const auto name = table.find("integrator")) body.integrator = name->choice(integrator_choices(method));
     return body;
 }
 
@@ -74,7 +75,8 @@ private:
 }  // namespace
 
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes) {
+                                         const std::filesystem::path& folder, const SimulationSettings& settings,
+                                         MeshCache& meshes) {
     std::vector<BodyDescription> bodies;
     const auto list = root.find("body");
     if (!list) return bodies;
@@ -109,7 +111,7 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, body_types);
         const ShapeRequest shape = read_shape(table.require("shape"), type, folder, meshes);
-        const BodyDescription model = read_model(table, materials, type, shape.shape);
+        const BodyDescription model = read_model(table, materials, type, shape.shape, settings.method);
         const auto copies = read_copies(table, type, shape);
 
         const std::int64_t total = static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1);
@@ -119,7 +121,7 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
                                   total));
         }
         std::vector<BodyDescription> made{model};
-        if (copies) made = make_copies(*copies, model, shape, meshes, seed, number);
+        if (copies) made = make_copies(*copies, model, shape, meshes, settings.seed, number);
         names.give(table, copies.has_value(), bodies.size(), made);
         bodies.insert(bodies.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
         ++number;

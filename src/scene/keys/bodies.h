@@ -14,6 +14,7 @@ namespace tumble {
 
 /// Reads all body tables in file order. Relative mesh paths are relative to `folder`.
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, std::uint64_t seed, MeshCache& meshes);
+                                         const std::filesystem::path& folder, const SimulationSettings& settings,
+                                         MeshCache& meshes);
 
 }  // namespace tumble

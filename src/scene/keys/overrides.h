@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -10,7 +11,8 @@ namespace tumble {
 struct SceneOverrides {
     std::optional<double> duration, fps, step;
     std::optional<int> steps_per_frame, width, height, samples;
-    std::optional<std::string> integrator, impacts, impact_law;
+    std::vector<std::string> set;  // "PATH=VALUE", applied to the parsed file (toml/set_values.h)
+    std::optional<std::string> method, integrator, impacts, impact_law;
 };
 
 }  // namespace tumble

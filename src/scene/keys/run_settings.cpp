@@ -16,6 +16,10 @@ constexpr Choice<IntegratorKind> integrators[] = {
     {"splitting", IntegratorKind::splitting},
     {"rk4", IntegratorKind::runge_kutta_4},
 };
+constexpr Choice<SimulationMethod> methods[] = {
+    {"full", SimulationMethod::full},
+    {"notes", SimulationMethod::notes},
+};
 constexpr Choice<ImpactMode> impact_modes[] = {
     {"stepped", ImpactMode::stepped},
     {"exact", ImpactMode::exact},
@@ -58,9 +62,14 @@ void override_number(const std::optional<double>& given, const char* option, std
     target = {checked(*given, range, origin), origin};
 }
 
-void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time) {
-    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "integrator", "impacts", "impact_law",
-                       "contact_solver", "rotation", "sleep", "seed"});
+/// Sources of the settings that the method of the notes restricts.
+struct MethodSources {
+    SourcePosition integrator, impacts, push_out;
+};
+
+void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time, MethodSources& sources) {
+    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "method", "push_out", "integrator", "impacts",
+                       "impact_law", "contact_solver", "rotation", "sleep", "seed"});
     read_time(table, "duration", time.duration, limits::duration);
     read_time(table, "step", time.step, limits::step);
     if (const auto value = table.find("steps_per_frame")) {
@@ -68,12 +77,17 @@ void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeR
         if (time.step) value->fail("and step exclude each other: give one of them");
     }
     table.read("gravity", settings.gravity, limits::acceleration);
+    table.read<SimulationMethod>("method", settings.method, methods);
+    table.read("push_out", settings.push_out);
     table.read<IntegratorKind>("integrator", settings.integrator, integrators);
     table.read<ImpactMode>("impacts", settings.impacts, impact_modes);
     table.read<ImpactLaw>("impact_law", settings.impact_law, impact_laws);
     table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, contact_solvers);
     table.read<RotationForm>("rotation", settings.rotation, rotation_forms);
     table.read("sleep", settings.sleep);
+    if (const auto value = table.find("integrator")) sources.integrator = value->origin();
+    if (const auto value = table.find("impacts")) sources.impacts = value->origin();
+    if (const auto value = table.find("push_out")) sources.push_out = value->origin();
     if (const auto value = table.find("seed")) {
         settings.seed = static_cast<std::uint64_t>(value->integer(0, std::numeric_limits<std::int64_t>::max()));
     }
@@ -99,6 +113,24 @@ void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& ti
     }
 }
 
+bool is_euler(IntegratorKind kind) {
+    return kind == IntegratorKind::symplectic_euler || kind == IntegratorKind::explicit_euler;
+}
+
+void check_method(const SimulationSettings& settings, const SceneOverrides& overrides, MethodSources sources) {
+    if (settings.method != SimulationMethod::notes) {
+        if (settings.push_out)
+            sources.push_out.fail("has an effect with method = \"notes\" only: give both, or neither");
+        return;
+    }
+    if (overrides.integrator) sources.integrator = {"--integrator", {}};
+    if (overrides.impacts) sources.impacts = {"--impacts", {}};
+    if (!is_euler(settings.integrator))
+        sources.integrator.fail("must be \"symplectic-euler\" or \"explicit-euler\" with the method of the notes");
+    if (settings.impacts == ImpactMode::exact)
+        sources.impacts.fail("must be \"stepped\" with the method of the notes (given \"exact\")");
+}
+
 void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simulation, OutputSettings& output,
                      TimeRequest& time) {
     override_number(overrides.duration, "--duration", time.duration, limits::duration);
@@ -116,6 +148,7 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
     if (overrides.integrator) {
         simulation.integrator = chosen<IntegratorKind>(*overrides.integrator, integrators, {"--integrator", {}});
     }
+    if (overrides.method) simulation.method = chosen<SimulationMethod>(*overrides.method, methods, {"--method", {}});
     if (overrides.impacts) simulation.impacts = chosen<ImpactMode>(*overrides.impacts, impact_modes, {"--impacts", {}});
     if (overrides.impact_law) {
         simulation.impact_law = chosen<ImpactLaw>(*overrides.impact_law, impact_laws, {"--impact-law", {}});
@@ -171,14 +204,18 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
 
 }  // namespace
 
-std::span<const Choice<IntegratorKind>> integrator_choices() { return integrators; }
+std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method) {
+    return std::span(integrators).first(method == SimulationMethod::notes ? 2 : std::size(integrators));
+}
 
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output) {
     TimeRequest time;
-    if (const auto table = root.find_table("simulation")) read_simulation(*table, simulation, time);
+    MethodSources sources;
+    if (const auto table = root.find_table("simulation")) read_simulation(*table, simulation, time, sources);
     if (const auto table = root.find_table("output")) read_output(*table, output, time);
     apply_overrides(overrides, simulation, output, time);
+    check_method(simulation, overrides, sources);
 
     if (time.duration) simulation.duration = time.duration->value;
     if (time.fps) output.fps = time.fps->value;

@@ -15,7 +15,7 @@ namespace tumble {
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output);
 
-/// The integrators by their names in a file.
-std::span<const Choice<IntegratorKind>> integrator_choices();
+/// The integrators that a method has, by their names in a file.
+std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method);
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 
 #include "core/safe_text.h"
 #include "scene/toml/limits.h"
+#include "scene/toml/set_values.h"
 #include "scene/toml/toml_scan.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,14 @@ namespace {
 
 SourceLocation location_of(const toml::source_region& source, const std::string& file) {
     return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+/// Position of a value: in the file, or the option that set it.
+SourcePosition position_of(std::string_view key, const toml::source_region& source, const std::string& file) {
+    const auto option = set_option(source);
+    if (!option) return {std::string(key), location_of(source, file)};
+    const bool whole = option->ends_with(key);
+    return {whole ? *option : fmt::format("{}.{}", *option, key), {}};
 }
 
 /// The array for a message: as many items as fit into `room` bytes, and the total number.
@@ -114,6 +123,7 @@ std::vector<TomlValue> TomlValue::items() const {
 }
 
 TomlValue TomlValue::item_of(const toml::node& item) const {
+    if (origin_.is_option()) return {item, origin_};
     return {item, {origin_.name, location_of(item.source(), origin_.where.file)}};
 }
 
@@ -139,13 +149,15 @@ void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const
         if (first == nullptr || key.source().begin < first->source().begin) first = &key;
     }
     if (first == nullptr) return;
-    throw InputError(location_of(first->source(), origin_.where.file),
-                     fmt::format("unknown key \"{}\" in {}{}", safe_text(first->str()), safe_text(title_),
-                                 suggestion(first->str(), known)));
+    const std::string problem = fmt::format("unknown key \"{}\" in {}{}", safe_text(first->str()), safe_text(title_),
+                                            suggestion(first->str(), known));
+    const SourcePosition position = position_of(first->str(), first->source(), origin_.where.file);
+    if (position.is_option()) position.fail(problem);
+    throw InputError(position.where, problem);
 }
 
 SourcePosition TomlTable::origin_of(std::string_view key, const toml::node& node) const {
-    return {std::string(key), location_of(node.source(), origin_.where.file)};
+    return position_of(key, node.source(), origin_.where.file);
 }
 
 std::optional<TomlValue> TomlTable::find(std::string_view key) const {

@@ -5,6 +5,8 @@
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/event_driven/local_frame.h"
 
+#include <numeric>
+
 namespace tumble {
 
 BodySet::BodySet(const SceneDescription& scene) {
@@ -13,6 +15,10 @@ BodySet::BodySet(const SceneDescription& scene) {
         origin = local_origin(scene);
         bodies = build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin));
         scene_index = put_in_exact_order(bodies, gravity);
+    } else if (scene.simulation.method == SimulationMethod::notes) {
+        bodies = build_bodies(scene);
+        scene_index.resize(bodies.size());
+        std::iota(scene_index.begin(), scene_index.end(), 0u);
     } else {
         bodies = build_bodies(scene);
         scene_index = put_in_memory_order(bodies, gravity);

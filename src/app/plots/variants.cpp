@@ -1,0 +1,72 @@
+#include "app/plots/variants.h"
+
+#include "core/error.h"
+#include "core/safe_text.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+struct Varied {
+    std::string path;
+    std::vector<std::string> values;
+    std::string key() const { return path.substr(path.rfind('.') + 1); }
+};
+
+std::vector<std::string> split_values(std::string_view text) {
+    std::vector<std::string> values(1);
+    int depth = 0;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote != 0) {
+            if (c == quote) quote = 0;
+        } else if (c == '"' || c == '\'') {
+            quote = c;
+        } else if (c == '[' || c == '{') {
+            ++depth;
+        } else if (c == ']' || c == '}') {
+            --depth;
+        } else if (c == ',' && depth == 0) {
+            values.emplace_back();
+            continue;
+        }
+        values.back() += c;
+    }
+    return values;
+}
+
+Varied parse(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw InputError(
+            fmt::format("--vary {}: has no values; write PATH=VALUE,VALUE, as in simulation.integrator=rk4,exact",
+                        safe_text(text)));
+    return {text.substr(0, equals), split_values(std::string_view(text).substr(equals + 1))};
+}
+
+}  // namespace
+
+std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes, const SceneOverrides& overrides,
+                                   std::span<const std::string> vary) {
+    std::vector<Varied> varied;
+    for (const std::string& text : vary) varied.push_back(parse(text));
+    std::vector<Variant> variants;
+    for (const auto& scene : scenes)
+        variants.push_back({scene, overrides, scenes.size() > 1 ? scene.stem().string() : std::string()});
+    for (const Varied& one : varied) {
+        std::vector<Variant> more;
+        for (const Variant& base : variants)
+            for (const std::string& value : one.values) {
+                Variant variant = base;
+                variant.overrides.set.push_back(one.path + "=" + value);
+                if (!variant.label.empty()) variant.label += ", ";
+                variant.label += varied.size() > 1 ? fmt::format("{} {}", one.key(), value) : value;
+                more.push_back(std::move(variant));
+            }
+        variants = std::move(more);
+    }
+    return variants;
+}
+
+}  // namespace tumble

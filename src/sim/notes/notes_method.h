@@ -1,0 +1,29 @@
+// method = "notes": the course notes to the letter (docs/explanation/physics.md lists what the default method does
+// beyond them). In each fixed step, at the poses of t_n:
+// 1. Collisions: one impulse of eq. 20 for each touching point with v_rel < 0, one contact after the other, each at
+//    the velocities that the ones before it have left. No friction, no resting contact.
+// 2. One step of explicit or symplectic Euler (section 3.2), with the tangent step for R or q.
+// The notes leave open how R and q stay rotations after the tangent step; here they are made the nearest ones.
+#pragma once
+
+#include "sim/detection/broad_phase.h"
+#include "sim/detection/narrow_phase.h"
+
+namespace tumble {
+
+struct StepContext;
+
+class NotesMethod {
+public:
+    explicit NotesMethod(int threads) : narrow_phase_(threads, NarrowPhase::Mode::measure) {}
+
+    void step(const StepContext& step);
+
+private:
+    void collide(const StepContext& step);
+
+    BroadPhase broad_phase_{BroadPhase::Pairs::all};
+    NarrowPhase narrow_phase_;
+};
+
+}  // namespace tumble
