@@ -1,5 +1,5 @@
 // Islands in blocks: every body once, blocks small enough, and the blocks of an island independent of other islands.
-#include "sim/contact/soft/body_blocks.h"
+#include "sim/contact/soft/soft_layout.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>

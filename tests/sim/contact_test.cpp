@@ -1,6 +1,6 @@
 // Contacts made of manifolds, and impulse matching with the last step.
 #include "clusters.h"
-#include "sim/geometry/impulse_matching.h"
+#include "sim/geometry/persistent_manifold.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Boxes and hulls on triangle meshes: each lone triangle against the exact Minkowski difference, then internal edges,
 // ridges, valleys and sides.
 #include "random_shapes.h"
-#include "sim/ccd/closest_axis.h"
+#include "sim/ccd/separation.h"
 #include "sim/geometry/separating_axis.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 #include "sim/ccd/time_of_impact.h"
 
-#include "sim/ccd/closest_axis.h"
-#include "sim/ccd/separation_bound.h"
+#include "sim/ccd/separation.h"
 #include "sim/ccd/settings.h"
 #include "sim/geometry/compound.h"
 #include "sim/geometry/separating_axis.h"

@@ -1,9 +1,9 @@
 // Time of the first touch of two moving bodies. Balls against balls and planes by the roots of a quadratic; every other
-// pair by conservative advancement along separating axes (separation_bound.h), which never misses a first contact and
+// pair by conservative advancement along separating axes (separation.h), which never misses a first contact and
 // ends within 1e-13 s, or at the limit of rounding.
 #pragma once
 
-#include "sim/ccd/support_points.h"
+#include "sim/ccd/separation.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/collide.h"
 #include "sim/geometry/compound.h"

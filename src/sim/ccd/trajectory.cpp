@@ -8,6 +8,7 @@
 #include <cmath>
 
 namespace tumble {
+
 namespace {
 
 // Ratio of moments of inertia from which the ends of the polhode are computed; below, the simple bounds are within a

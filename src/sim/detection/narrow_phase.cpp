@@ -2,8 +2,8 @@
 
 #include "sim/detection/settings.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/geometry/impulse_matching.h"
 #include "sim/geometry/manifold_growth.h"
+#include "sim/geometry/persistent_manifold.h"
 #include "sim/geometry/settings.h"
 #include "sim/threads/settings.h"
 

@@ -16,7 +16,6 @@
 #include "sim/dynamics/forces.h"
 #include "sim/event_driven/event_queue.h"
 #include "sim/event_driven/event_time.h"
-#include "sim/event_driven/half_space_filter.h"
 #include "sim/event_driven/impact_cluster.h"
 #include "sim/event_driven/neighbor_boxes.h"
 #include "sim/event_driven/settings.h"
@@ -26,6 +25,18 @@
 #include <vector>
 
 namespace tumble {
+
+/// A fixed half-space in the world frame: a quick test of ballistic bodies above it.
+struct HalfSpaceFilter {
+    Vec3 normal = Vec3::UnitY();
+    double offset = 0.0;  // m: normal . p of its surface
+    bool valid = false;   // else this body is no half-space
+
+    /// Whether a ball of this radius (m) about the center of a body certainly stays above for `horizon` s from the
+    /// trajectory's time `from` on: it is above at the start and at the end, and does not fall and rise again in
+    /// between.
+    bool stays_below(const Trajectory& path, double radius, double from, double horizon) const;
+};
 
 class EventDrivenMotion {
 public:

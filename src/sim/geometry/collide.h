@@ -4,7 +4,6 @@
 #include "sim/geometry/collider.h"
 #include "sim/geometry/manifold.h"
 #include "sim/geometry/mesh_sidedness.h"
-#include "sim/geometry/polygon_clipping.h"
 
 #include <span>
 #include <utility>
@@ -15,6 +14,13 @@ namespace tumble {
 /// Choice between axes that separate about equally well. steady: the same axis from step to step, for lasting contacts.
 /// nearest: the better axis to the last digits, for the time of an impact.
 enum class AxisChoice { steady, nearest };
+
+/// Corner of a polygon that is clipped, with labels of its features (feature_contact.h).
+struct ClipVertex {
+    Vec3 position;
+    std::uint64_t feature = 0;  // the vertex's own label
+    std::uint32_t edge = 0;     // label of the polygon edge that starts here
+};
 
 /// Working space, kept from pair to pair so that the loop allocates nothing.
 struct CollisionScratch {

@@ -6,6 +6,10 @@
 
 namespace tumble {
 
+/// Labels of edges that lie on side i of the reference face, distinct from those of the incident polygon (its edge
+/// index).
+constexpr std::uint32_t side_label(std::uint32_t i) { return 0x80000u | i; }
+
 /// Prefix of the feature ids of a face manifold; Manifold::on_b() reads it.
 inline std::uint64_t face_feature(bool reference_on_b, std::uint32_t reference_label) {
     return (std::uint64_t(reference_on_b) << 63) | (std::uint64_t(reference_label) << 42);

@@ -1,7 +1,7 @@
 #include "sim/geometry/mesh_sidedness.h"
 
 #include "core/deterministic_math.h"
-#include "sim/geometry/nearest_on_triangle.h"
+#include "sim/geometry/mesh_shape.h"
 
 #include <algorithm>
 #include <functional>

@@ -56,4 +56,16 @@ double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, cons
 /// Refreshes normal, positions and separations of `m` for new poses.
 void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
 
+// Impulse matching: transfers the impulses of the last step to new manifolds, as warm start for the solver.
+
+/// Transfers the impulses of `old` to `m`, the manifold of the same two bodies found later:
+/// - each point gets the impulse of the old point with the same feature;
+/// - without such a point, that of the nearest old point not yet taken, if nearer than `reach` (m);
+/// - remaining impulses go to the nearest points while the normals agree: a load must not be lost where points change.
+/// Friction, its tangent and the torsional friction are transferred too.
+void carry_over(const Manifold& old, double reach, Manifold& m);
+
+/// Adds the normal impulses of a removed second manifold to the nearest points of the remaining one.
+void hand_over(const Manifold& old, Manifold& m);
+
 }  // namespace tumble

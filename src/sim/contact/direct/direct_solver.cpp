@@ -3,7 +3,6 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/predicted_gap.h"
 #include "sim/contact/model/settings.h"
-#include "sim/contact/model/spin_friction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,17 +16,6 @@ namespace {
 int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
     const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
     return found != bodies.end() && *found == body ? int(found - bodies.begin()) : -1;
-}
-
-Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) {
-    return Eigen::Map<Vec3>(numbers.data() + from);
-}
-Eigen::Map<const Vec3> three(const std::vector<double>& numbers, std::size_t from) {
-    return Eigen::Map<const Vec3>(numbers.data() + from);
-}
-
-void add_outer(BlockCholesky::Block& block, const double* left, const BlockCholesky::Row& right) {
-    for (int k = 0; k < 6; ++k) block.row[k] += left[k] * right;
 }
 
 }  // namespace
@@ -142,243 +130,6 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
     return sum;
 }
 
-// Sets friction limits from the normal impulses of the last round.
-void DirectSolver::set_limits(Patch& patch) {
-    double load = 0.0, levers = 0.0;
-    Vec3 aside = Vec3::Zero();
-    for (int i = 0; i < patch.count; ++i) {
-        const double impulse = patch.normal[i].estimate;
-        load += impulse;
-        levers += impulse * patch.lever[i];
-        aside += impulse * (patch.geometry.points[std::size_t(i)].arm_a - patch.geometry.friction_arm_a);
-    }
-    levers += (1.0 - patch.geometry.spread) * aside.norm();
-    patch.limit = patch.coefficient * load;
-    patch.twist_limit = patch.coefficient * levers;
-    patch.spins = patch.twist_limit > 0.0 && patch.twist_mass * patch.free_spin > patch.twist_limit &&
-                  levers * patch.free_spin > tuning::spin_share * load * patch.free_slip;
-    if (!patch.spins) return;
-    const double distance = levers / load, spin = distance * patch.free_spin;
-    const spin_friction::Limit shared = spin_friction::limit(patch.free_slip * patch.free_slip, spin * spin);
-    patch.limit *= shared.load;
-    patch.spin_lever = distance * shared.lever;
-}
-
-void DirectSolver::evaluate_speeds() {
-    for (Patch& patch : patches_)
-        each_row(patch, [&](Row& row) { row.speed = row.offset + dot(patch, row, velocity_); });
-}
-
-// Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
-void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const {
-    const double tie = -tuning::direct_tie * speed_scale_ / compliance_;
-    for (int i = 0; i < patch.count; ++i) {
-        Row& row = patch.normal[i];
-        const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
-        row.impulse = std::max(0.0, y);
-        if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;  // an untouched stack has only ties
-    }
-    // Both friction directions and, where they share the limit, the torsional friction over its lever: a ball
-    // (spin_friction.h).
-    Row* const rows[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
-    const double levers[3] = {1.0, 1.0, patch.spin_lever};
-    const int count = patch.spins ? 3 : 2;
-    double y[3] = {}, square = 0.0;
-    for (int i = 0; i < count; ++i) {
-        const Row& row = *rows[i];
-        y[i] = row.estimate / levers[i] - levers[i] * (row.speed + along * row.change) / friction_compliance_;
-        square += y[i] * y[i];
-    }
-    const double size = std::sqrt(square);
-    const bool slides = size > patch.limit;
-    const double scale = slides ? patch.limit / size : 1.0;
-    for (int i = 0; i < count; ++i) {
-        rows[i]->impulse = levers[i] * scale * y[i];
-        for (int k = 0; weights && k < count; ++k) {
-            const double along_it = slides ? y[i] * y[k] / square : 0.0;
-            weights->friction[i][k] = levers[i] * levers[k] * scale / friction_compliance_ * ((i == k) - along_it);
-        }
-    }
-    if (patch.count < 2 || patch.spins) return;
-    const double turning = patch.twist.estimate -
-                           (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
-    patch.twist.impulse = std::clamp(turning, -patch.twist_limit, patch.twist_limit);
-    if (weights)
-        weights->friction[2][2] =
-            std::abs(turning) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
-}
-
-// M (u - u*) - J^T f; returns its size as an energy: sum g^2 / m.
-double DirectSolver::gradient(std::vector<double>& g) {
-    for (std::size_t k = 0; k < velocity_.size(); ++k) scratch_[k] = velocity_[k] - free_[k];
-    mass_times(scratch_, g);
-    for (Patch& patch : patches_) {
-        evaluate(patch, 0.0, nullptr);
-        each_row(patch, [&](Row& row) {
-            if (row.impulse != 0.0) add(patch, row, -row.impulse, g);
-        });
-    }
-    double sum = 0.0;
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-        double square = 0.0;
-        for (std::size_t k = 0; k < 6; ++k) square += g[6 * i + k] * g[6 * i + k];
-        sum += square / masses_[i].mass;
-    }
-    return sum;
-}
-
-bool DirectSolver::factor(bool pushing) {
-    ++factorisations_;
-    matrix_.set_zero();
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-        BlockCholesky::Block& block = matrix_.diagonal(i);
-        for (int r = 0; r < 3; ++r) {
-            block.row[r][r] = masses_[i].mass;
-            for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = masses_[i].inertia(r, c);
-        }
-    }
-    std::size_t pair = 0;
-    for (Patch& patch : patches_) {
-        Weights w;
-        if (pushing) {
-            const double stiffness = total_mass_ / tuning::direct_push_compliance;
-            bool active = false;
-            for (int i = 0; i < patch.count; ++i) {
-                const bool on = patch.normal[i].impulse > 0.0 || patch.overlap[i] > tuning::direct_slop * patch.size;
-                active = active || on;
-                w.normal[i] = on ? stiffness : 0.0;
-            }
-            // Pushed apart, not sideways.
-            const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
-            w.friction[0][0] = w.friction[1][1] = aside;
-            w.friction[2][2] = patch.count > 1 ? aside * length_ * length_ : 0.0;
-        } else {
-            evaluate(patch, 0.0, &w);
-        }
-        const bool both = patch.a != none && patch.b != none;
-        BlockCholesky::Block* across = nullptr;
-        bool transposed = false;
-        if (both) {
-            while (!(pairs_[pair].i == std::uint32_t(patch.a) && pairs_[pair].j == std::uint32_t(patch.b))) ++pair;
-            across = &matrix_.coupling(pair);
-            transposed = matrix_.transposed(pair);
-        }
-        const auto add_row = [&](const Row& left, const Row& right, double weight) {
-            if (weight == 0.0) return;
-            const BlockCholesky::Row ra =
-                weight * BlockCholesky::Row{right.on_a[0], right.on_a[1], right.on_a[2], right.on_a[3],
-                                            right.on_a[4], right.on_a[5], 0.0,           0.0};
-            const BlockCholesky::Row rb =
-                weight * BlockCholesky::Row{right.on_b[0], right.on_b[1], right.on_b[2], right.on_b[3],
-                                            right.on_b[4], right.on_b[5], 0.0,           0.0};
-            if (patch.a != none) add_outer(matrix_.diagonal(std::size_t(patch.a)), left.on_a, ra);
-            if (patch.b != none) add_outer(matrix_.diagonal(std::size_t(patch.b)), left.on_b, rb);
-            if (!both) return;
-            if (transposed)
-                add_outer(*across, left.on_b, ra);
-            else
-                add_outer(*across, left.on_a, rb);
-        };
-        for (int i = 0; i < patch.count; ++i) add_row(patch.normal[i], patch.normal[i], w.normal[i]);
-        const Row* const friction[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
-        for (int i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
-    }
-    return matrix_.factor();
-}
-
-// Slope of the minimized function along the step.
-double DirectSolver::slope(double along, double mass_slope, double mass_curvature) {
-    double sum = mass_slope + along * mass_curvature;
-    for (Patch& patch : patches_) {
-        evaluate(patch, along, nullptr);
-        each_row(patch, [&](Row& row) { sum -= row.impulse * row.change; });
-    }
-    return sum;
-}
-
-// Finds where the slope is a tenth of its initial value: regula falsi with the Illinois rule, kept off the ends.
-double DirectSolver::line_search(double slope_0, double mass_slope, double mass_curvature) {
-    const double enough = 0.1 * std::abs(slope_0);
-    double high = 1.0, slope_high = slope(1.0, mass_slope, mass_curvature);
-    if (slope_high <= enough) return 1.0;
-    double low = 0.0, slope_low = slope_0, x = 1.0;
-    for (int k = 0; k < tuning::direct_line_search; ++k) {
-        x = std::clamp((low * slope_high - high * slope_low) / (slope_high - slope_low), low + 0.02 * (high - low),
-                       high - 0.02 * (high - low));
-        const double s = slope(x, mass_slope, mass_curvature);
-        if (std::abs(s) < enough) break;
-        if (s < 0.0) {
-            low = x;
-            slope_low = s;
-            slope_high *= 0.5;
-        } else {
-            high = x;
-            slope_high = s;
-            slope_low *= 0.5;
-        }
-    }
-    return x;
-}
-
-bool DirectSolver::minimise(int most_steps) {
-    const double energy = total_mass_ * speed_scale_ * speed_scale_;
-    const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
-    const double tolerance = total_mass_ * speed * speed;
-    for (int k = 0; k <= most_steps; ++k) {
-        evaluate_speeds();
-        if (gradient(gradient_) <= tolerance) return true;
-        if (k == most_steps || !factor(false)) return false;
-        for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
-        matrix_.solve(step_);
-        double slope_0 = 0.0, mass_slope = 0.0, mass_curvature = 0.0;
-        mass_times(step_, push_);
-        for (std::size_t i = 0; i < step_.size(); ++i) {
-            slope_0 += gradient_[i] * step_[i];
-            mass_slope += push_[i] * (velocity_[i] - free_[i]);
-            mass_curvature += push_[i] * step_[i];
-        }
-        for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.change = dot(patch, row, step_); });
-        const double along = line_search(slope_0, mass_slope, mass_curvature);
-        for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
-        for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.change = 0.0; });
-        if (-slope_0 < 1e-30 * energy) return true;  // the remainder is rounding
-    }
-    return false;
-}
-
-// The minimized function, for choosing the start.
-double DirectSolver::objective(const std::vector<double>& u) {
-    for (std::size_t k = 0; k < u.size(); ++k) scratch_[k] = u[k] - free_[k];
-    double sum = kinetic_energy(scratch_);
-    for (Patch& patch : patches_) {
-        for (int i = 0; i < patch.count; ++i) {
-            const Row& row = patch.normal[i];
-            const double y = row.estimate + (row.target - row.offset - dot(patch, row, u)) / compliance_;
-            if (y > 0.0) sum += 0.5 * compliance_ * y * y;
-        }
-        // Friction matters for the choice only where it is small compared with the normal terms.
-    }
-    return sum;
-}
-
-// Starts from the last step's impulses where they are better than none.
-void DirectSolver::start() {
-    std::fill(gradient_.begin(), gradient_.end(), 0.0);
-    for (Patch& patch : patches_) {
-        set_limits(patch);
-        each_row(patch, [&](Row& row) {
-            if (row.estimate != 0.0) add(patch, row, row.estimate, gradient_);
-        });
-    }
-    for (std::size_t i = 0; i < masses_.size(); ++i) {
-        const Vec3 linear = three(gradient_, 6 * i), angular = three(gradient_, 6 * i + 3);
-        three(velocity_, 6 * i) = three(free_, 6 * i) + linear / masses_[i].mass;
-        three(velocity_, 6 * i + 3) = three(free_, 6 * i + 3) + masses_[i].inverse_inertia * angular;
-    }
-    if (!(objective(velocity_) <= objective(free_))) velocity_ = free_;
-}
-
 // Contact must not add energy; friction must stay within its cone.
 bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
@@ -395,6 +146,108 @@ bool DirectSolver::admissible() const {
         const double friction = std::hypot(patch.friction[0].impulse, patch.friction[1].impulse);
         if (friction > tuning::direct_cone * patch.coefficient * load + 1e-6 * total_mass_ * speed_scale_) return false;
     }
+    return true;
+}
+
+void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
+    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
+    for (const Patch& patch : patches_) {
+        Manifold& m = problem.manifolds[patch.manifold];
+        Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+        const ContactConstraint& geometry = patch.geometry;
+        release(m);
+        m.friction[0] = patch.friction[0].impulse;
+        m.friction[1] = patch.friction[1].impulse;
+        m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
+        m.tangent = geometry.tangent_1;
+        const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
+        Vec3 force = friction,
+             moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;  // about A's center
+        for (int i = 0; i < patch.count; ++i) {
+            const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
+            m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;
+            const Vec3 j = patch.normal[i].impulse * geometry.normal;
+            force += j;
+            moment += p.arm_a.cross(j);
+        }
+        if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        if (patch.a != none) {
+            reached[std::size_t(patch.a)] = true;
+            a.momentum -= force;
+            a.angular_momentum -= moment;
+        }
+        if (patch.b != none) {
+            reached[std::size_t(patch.b)] = true;
+            b.momentum += force;
+            b.angular_momentum += moment + (a.position - b.position).cross(force);
+        }
+    }
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (!reached[k]) continue;
+        Body& body = problem.bodies[bodies[k]];
+        body.derive_velocities();
+        if (!pushed && way_.empty()) continue;
+        body.push_velocity = Vec3::Map(push_.data() + 6 * k);
+        body.push_angular_velocity = Vec3::Map(push_.data() + 6 * k + 3) / length_;
+        if (way_.empty()) continue;
+        const double rate = 1.0 / problem.patches.h;
+        body.push_velocity += rate * Vec3::Map(way_.data() + 6 * k) - body.velocity;
+        body.push_angular_velocity +=
+            rate / length_ * Vec3::Map(way_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
+    }
+}
+
+// Landings of a body that already stands on something, as of a rocking block on its other edge: solved in parts of the
+// step.
+//
+// A contact row closes a gap at constant speed from the start of the step, as if the corner had landed then and the
+// other corner no longer carried the body. At 60 steps per second a rocking block so loses a tenth of its energy in
+// each landing, beyond the loss of the landing itself. In n parts, each as long as the soft solver's substep, it is an
+// n-th of that.
+int DirectSolver::landing_parts(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const {
+    if (bodies.size() != 1) return 1;
+    bool lands = false, stands = false;
+    for (const Patch& patch : patches_)
+        for (int i = 0; i < patch.count; ++i) {
+            const Row& row = patch.normal[i];
+            const double closing = -(row.offset + dot(patch, row, free_)), even = -row.target;
+            lands = lands || (even > tuning::direct_landing * closing && closing > even);
+            stands = stands || -patch.overlap[i] < tuning::friction_near * patch.size;
+        }
+    return lands && stands ? int(std::lround(problem.patches.h / tuning::soft_substep)) : 1;
+}
+
+bool DirectSolver::solve_in_parts(const ContactProblem& problem, std::uint32_t index, int parts) {
+    const BodyVelocity& before = problem.before[index];
+    const Body& body = problem.bodies[index];
+    const double d = problem.patches.h / parts;
+    std::vector<double> faster(6), velocity(6), sums;
+    put(velocity.data(), before.velocity, length_ * (before.angular_velocity + body.gyration));
+    for (std::size_t k = 0; k < 6; ++k) faster[k] = (free_[k] - velocity[k]) / parts;
+    way_.assign(6, 0.0);
+    for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.estimate /= parts; });
+    for (int part = 0; part < parts; ++part) {
+        for (std::size_t k = 0; k < 6; ++k) free_[k] = velocity[k] + faster[k];
+        for (Patch& patch : patches_)
+            for (int i = 0; i < patch.count; ++i) {
+                Row& row = patch.normal[i];
+                const double gap = -patch.overlap[i] + dot(patch, row, way_) + part * d * row.offset;
+                row.target = std::min(0.0, -gap / d);
+            }
+        friction_compliance_ = tuning::direct_friction_soft * compliance_;
+        if (!solve_rounds() || !admissible()) return false;
+        velocity = velocity_;
+        for (std::size_t k = 0; k < 6; ++k) way_[k] += d * velocity[k];
+        std::size_t next = 0;
+        for (Patch& patch : patches_)
+            each_row(patch, [&](Row& row) {
+                if (part == 0) sums.push_back(0.0);
+                sums[next++] += row.impulse;
+            });
+    }
+    std::size_t next = 0;
+    for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.impulse = sums[next++]; });
+    std::fill(push_.begin(), push_.end(), 0.0);
     return true;
 }
 
@@ -421,38 +274,6 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     }
     const bool pushed = push_out(problem.patches.h);
     store(problem, bodies, pushed);
-    return true;
-}
-
-// From free_ and the rows' targets to velocity_ and their impulses.
-bool DirectSolver::solve_rounds() {
-    // Friction starts soft, where Newton's method does not stall on the edges of the discs; it becomes stiffer from
-    // round to round, each starting from the solution of the last, as far as that converges.
-    friction_compliance_ = tuning::direct_friction_soft * compliance_;
-    start();
-    bool found = false;
-    for (int round = 0; round < tuning::direct_rounds; ++round) {
-        if (found) kept_ = velocity_;
-        if (!minimise(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
-            if (!found) return false;
-            velocity_ = kept_;
-            for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.impulse = row.estimate; });
-            break;
-        }
-        found = true;
-        double change = 0.0, largest = 0.0;
-        for (Patch& patch : patches_) {
-            each_row(patch, [&](Row& row) {
-                change = std::max(change, std::abs(row.impulse - row.estimate));
-                largest = std::max(largest, std::abs(row.impulse));
-                row.estimate = row.impulse;
-            });
-            set_limits(patch);
-        }
-        if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
-        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
-                                        tuning::direct_friction_stiff * compliance_);
-    }
     return true;
 }
 

@@ -15,8 +15,7 @@
 #pragma once
 
 #include "sim/contact/direct/block_cholesky.h"
-#include "sim/contact/model/contact_rows.h"
-#include "sim/contact/soft/soft_solver.h"
+#include "sim/contact/direct/contact_rows.h"
 
 #include <cstdint>
 #include <span>

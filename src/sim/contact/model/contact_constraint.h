@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace tumble {
 
@@ -31,6 +32,17 @@ struct ConstraintSettings {
     double h;                    // s
     double bounce_threshold;     // m/s: with restitution, points that approach faster may overlap and collide,
     double least_rebound = 0.0;  // m/s: if their rebound is faster than this
+};
+
+/// Input and output of both contact solvers. Bodies have the velocities after the step's forces, kinematic ones the
+/// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
+/// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
+/// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
+struct ContactProblem {
+    std::vector<Body>& bodies;
+    std::vector<Manifold>& manifolds;
+    const std::vector<BodyVelocity>& before;  // by body
+    ConstraintSettings patches;
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the

@@ -2,7 +2,6 @@
 
 #include "core/deterministic_math.h"
 #include "sim/contact/model/settings.h"
-#include "sim/geometry/rotating_point_gap.h"
 #include "sim/geometry/settings.h"
 
 #include <algorithm>
@@ -10,6 +9,92 @@
 
 namespace tumble {
 namespace {
+
+// Motion of a body at one time.
+struct RigidMotion {
+    Vec3 center = Vec3::Zero(), velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m, m/s, rad/s; world
+
+    Vec3 at(const Vec3& point) const { return velocity + angular_velocity.cross(point - center); }
+};
+
+// Gap of a corner over a face while its body rotates, along a curve. A corner of a rolling body closes its gap ever
+// more slowly, and lands where the body has rolled to, not where it is at the start of the step.
+//
+// With n the face's normal towards the corner, r the corner's arm, w its body's angular velocity (along the unit vector
+// e), and v the velocity of the body's center relative to the face along n, all constant for the step, the gap is
+//   s(t) = s + v t + C (cos wt - 1) + D sin wt,    C = n.r - (n.e)(e.r),    D = n.(e x r).
+class RotatingPointGap {
+public:
+    // `gap` (m): of the corner over the face with this normal, which points towards the corner and does not rotate.
+    RotatingPointGap(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner,
+                     const RigidMotion& of_face);
+
+    // Whether the relative rotation of the bodies is fast enough to matter in a step of h seconds, while the face
+    // keeps its normal. A spin about the normal lowers no corner: with it, rounding would choose one of a flat body's
+    // corners.
+    static bool matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h);
+
+    double gap(double t) const;      // m
+    double closing(double t) const;  // m/s
+    double bend(double t) const;     // m/s^2: deceleration of the closing
+    // Time (s, at most h) at which the rotation alone would bring the corner nearest; its gap is that of this time.
+    double bottom(double h) const;
+    double gap_by_turn(double t) const { return gap(t) - v_ * t; }
+    double closing_by_turn(double t) const { return closing(t) + v_; }
+    // Position of the corner at time t, relative to the present center of its body.
+    Vec3 turned(double t) const;
+
+private:
+    double gap_, v_, w_, c_ = 0.0, d_ = 0.0;
+    Vec3 center_, along_, across_, beside_;  // m: the center, the arm's components along and across the axis, e x r
+};
+
+RotatingPointGap::RotatingPointGap(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner,
+                                   const RigidMotion& of_face)
+    : gap_(gap),
+      v_(normal.dot(of_corner.velocity - of_face.at(corner))),
+      w_(of_corner.angular_velocity.norm()),
+      center_(of_corner.center),
+      along_(corner - of_corner.center),
+      across_(Vec3::Zero()),
+      beside_(Vec3::Zero()) {
+    if (!(w_ > 0.0)) return;
+    const Vec3 axis = of_corner.angular_velocity / w_, arm = along_;
+    along_ = axis.dot(arm) * axis;
+    across_ = arm - along_;
+    beside_ = axis.cross(arm);
+    c_ = normal.dot(across_);
+    d_ = normal.dot(beside_);
+}
+
+bool RotatingPointGap::matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h) {
+    const double least = tuning::swing_turn * tuning::swing_turn / (h * h);
+    return of_corner.angular_velocity.cross(normal).squaredNorm() > least &&
+           of_face.angular_velocity.cross(normal).squaredNorm() < least;
+}
+
+double RotatingPointGap::gap(double t) const {
+    const auto [sine, cosine] = sincos(w_ * t);
+    return gap_ + v_ * t + c_ * (cosine - 1.0) + d_ * sine;
+}
+
+double RotatingPointGap::closing(double t) const {
+    const auto [sine, cosine] = sincos(w_ * t);
+    return w_ * (c_ * sine - d_ * cosine) - v_;
+}
+
+double RotatingPointGap::bend(double t) const {
+    const auto [sine, cosine] = sincos(w_ * t);
+    return -w_ * w_ * (c_ * cosine + d_ * sine);
+}
+
+// (C, D) = -R (cos x0, sin x0), and the rotation alone moves the corner along -R cos(wt - x0).
+double RotatingPointGap::bottom(double h) const { return std::clamp(atan2_stable(-d_, -c_) / w_, 0.0, h); }
+
+Vec3 RotatingPointGap::turned(double t) const {
+    const auto [sine, cosine] = sincos(w_ * t);
+    return center_ + along_ + cosine * across_ + sine * beside_;
+}
 
 // With d the distance vector of the places across the line, initially d0 n, and u the relative velocity of the places
 // across the line, |d0 n + u t| is least at t = -d0 n.u / u^2, or at the end of the step.
@@ -53,22 +138,22 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
     const RigidMotion on_a = motion_of(a, before_a), on_b = motion_of(b, before_b);
     const RigidMotion &corner = of_a ? on_a : on_b, &face = of_a ? on_b : on_a;
     const Vec3 normal = of_a ? Vec3(-m.normal) : m.normal;
-    if (!Swing::matters(normal, corner, face, h)) return as_it_is;
-    const Swing swing(p.position, p.separation, normal, corner, face);
-    const double closing = swing.closing(0.0);
-    if (!(closing * h > p.separation) || !(closing > 0.0) || !(swing.bend(0.0) > 0.0)) return as_it_is;
+    if (!RotatingPointGap::matters(normal, corner, face, h)) return as_it_is;
+    const RotatingPointGap gap(p.position, p.separation, normal, corner, face);
+    const double closing = gap.closing(0.0);
+    if (!(closing * h > p.separation) || !(closing > 0.0) || !(gap.bend(0.0) > 0.0)) return as_it_is;
     double deepest = 0.0;
     for (int i = 0; i < m.count; ++i) deepest = std::min(deepest, m.points[std::size_t(i)].separation);
-    const double bottom = swing.bottom(h), reach = swing.gap_by_turn(bottom);
+    const double bottom = gap.bottom(h), reach = gap.gap_by_turn(bottom);
     if (!(bottom > 0.0)) return as_it_is;
     // Height of the path half a step before its bottom: a body that rolls over more than one corner per step may pass
     // by that much below the deepest point. Deeper is an impact.
     const double passed =
-        std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * swing.bend(bottom));
+        std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * gap.bend(bottom));
     if (reach < deepest - passed) return as_it_is;
-    const double then = std::max(0.0, swing.closing_by_turn(bottom));
-    return {swing.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom),
-            closing - swing.closing(bottom)};
+    const double then = std::max(0.0, gap.closing_by_turn(bottom));
+    return {gap.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom),
+            closing - gap.closing(bottom)};
 }
 
 // With r = r_e + r_x along and across the unit vector e of w:

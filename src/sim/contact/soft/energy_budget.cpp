@@ -4,9 +4,11 @@
 #include "sim/contact/soft/soft_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace tumble {
+
 namespace {
 
 // The impulse P = F h of the forces along the displacement h (v + push): work P . (v + push); likewise for the
@@ -81,6 +83,82 @@ bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>&
         return before[i].angular_velocity.squaredNorm() > fast * fast ||
                moments.maxCoeff() > tuning::soft_energy_slender * moments.minCoeff();
     });
+}
+
+void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bodies) {
+    islands_.clear();
+    accounts_.clear();
+    account_of_.clear();
+    const BodyBlocks& blocks = layout.blocks();
+    for (const SoftLayout::Island& island : layout.islands()) {
+        const auto number = std::uint32_t(islands_.size());
+        const std::size_t first_account = accounts_.size();
+        if (island.end_block <= island.first_block + 1)
+            accounts_.push_back({island.first, island.end, number, {}, {}});
+        else
+            for (std::size_t b = island.first_block; b < island.end_block; ++b)
+                accounts_.push_back({blocks.first(b), blocks.first(b + 1), number, {}, {}});
+        islands_.push_back({.first_account = first_account,
+                            .end_account = accounts_.size(),
+                            .origin = bodies[blocks.order()[island.first]].position,
+                            .leans = island.leans != 0,
+                            .driven = island.driven != 0});
+        for (std::size_t k = first_account; k < accounts_.size(); ++k)
+            account_of_.resize(accounts_[k].end, std::uint32_t(k));
+    }
+    forces_.resize(blocks.order().size());
+    reached_.assign(blocks.order().size(), 0);
+}
+
+// Written only where it changes: all threads read its neighborhood.
+void IslandEnergies::lies_deep(std::size_t place) {
+    const std::atomic_ref deep(island(place).deep);
+    if (deep.load(std::memory_order_relaxed) == 0) deep.store(1, std::memory_order_relaxed);
+}
+
+void IslandEnergies::end(std::size_t place, const Body& body) {
+    Account& account = accounts_[account_of_[place]];
+    reached_[place] = 1;
+    account.energy.add(forces_[place], body);
+    if (!islands_[account.island].leans) account.motion.add(body, islands_[account.island].origin);
+}
+
+void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
+                          const std::vector<BodyVelocity>& before, double h) const {
+    const auto begins_before = [](const Account& a, std::size_t place) { return a.first < place; };
+    auto account = std::lower_bound(accounts_.begin(), accounts_.end(), first, begins_before);
+    for (; account != accounts_.end() && account->first < last; ++account) {
+        const Island& island = islands_[account->island];
+        if (island.driven) continue;
+        EnergyBudget sum;
+        for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
+        const double excess = sum.excess(island.deep || !island.leans);
+        if (excess == 0.0) continue;
+        if (!island.leans) {
+            hold_floating(*account, sum, blocks, bodies);
+            continue;
+        }
+        const std::size_t begin = accounts_[island.first_account].first, end = accounts_[island.end_account - 1].end;
+        const bool pays =
+            !island.deep && may_spin_up(std::span(blocks.order()).subspan(begin, end - begin), bodies, before, h);
+        const double way = pays ? sum.affordable_way() : 1.0;
+        for (std::size_t k = account->first; k < account->end; ++k)
+            if (reached_[k]) take_back(forces_[k], excess, way, bodies[blocks.order()[k]]);
+    }
+}
+
+// A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.
+void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
+                                   std::vector<Body>& bodies) const {
+    const Island& island = islands_[account.island];
+    RigidMode motion;
+    for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);
+    motion.finish();
+    const double common = motion.energy(), most = std::max({energy.start, energy.with_forces, common});
+    if (!(energy.now > most * (1.0 + tuning::soft_energy_rounding))) return;
+    const double scale = std::sqrt((most - common) / (energy.now - common));
+    for (std::size_t k = account.first; k < account.end; ++k)
+        if (reached_[k]) motion.scale_rest(scale, island.origin, bodies[blocks.order()[k]]);
 }
 
 }  // namespace tumble

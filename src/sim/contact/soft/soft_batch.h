@@ -5,7 +5,7 @@
 // per sweep, not once per color.
 #pragma once
 
-#include "sim/contact/soft/island_energies.h"
+#include "sim/contact/soft/energy_budget.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/soft/soft_layout.h"
 #include "sim/contact/soft/soft_solver.h"

@@ -7,9 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 
 namespace tumble {
+
+const soft::Kernel& soft::best_kernel() {
+    const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    const bool avx2 = __builtin_cpu_supports("avx2");
+    const char* asked = std::getenv("TUMBLE_LANES");
+    if (avx512 && !(asked && std::strcmp(asked, "16") != 0)) return avx512_kernel;
+    if (avx2 && !(asked && std::strcmp(asked, "4") == 0)) return avx2_kernel;
+    return sse2_kernel;
+}
+
 namespace {
 
 // Unit of mass (kg) for single precision: squares of impulses must neither overflow nor vanish. 1 for everyday objects;

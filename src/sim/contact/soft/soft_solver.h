@@ -31,17 +31,6 @@
 
 namespace tumble {
 
-/// Input and output of both contact solvers. Bodies have the velocities after the step's forces, kinematic ones the
-/// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
-/// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
-/// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
-struct ContactProblem {
-    std::vector<Body>& bodies;
-    std::vector<Manifold>& manifolds;
-    const std::vector<BodyVelocity>& before;  // by body
-    ConstraintSettings patches;
-};
-
 class SoftBatch;
 
 class SoftSolver {

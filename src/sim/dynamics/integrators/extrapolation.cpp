@@ -1,6 +1,6 @@
 #include "sim/dynamics/integrators/extrapolation.h"
 
-#include "sim/dynamics/integrators/state_vector.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 
 #include <array>
 

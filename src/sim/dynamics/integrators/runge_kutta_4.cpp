@@ -1,6 +1,6 @@
 #include "sim/dynamics/integrators/runge_kutta_4.h"
 
-#include "sim/dynamics/integrators/state_vector.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 
 namespace tumble {
 

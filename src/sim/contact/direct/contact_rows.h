@@ -33,6 +33,14 @@ struct Patch {
     ContactConstraint geometry;
 };
 
+/// Three of the numbers, from an index on.
+inline Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) {
+    return Eigen::Map<Vec3>(numbers.data() + from);
+}
+inline Eigen::Map<const Vec3> three(const std::vector<double>& numbers, std::size_t from) {
+    return Eigen::Map<const Vec3>(numbers.data() + from);
+}
+
 /// Writes the six numbers of a body.
 inline void put(double* six, const Vec3& linear, const Vec3& angular) {
     for (int k = 0; k < 3; ++k) {
@@ -49,9 +57,29 @@ struct RowBodies {
 };
 
 /// A row: direction . (velocity of B's point - that of A's point).
-void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const RowBodies& bodies);
+inline void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b, const RowBodies& bodies) {
+    const auto& [patch, a, b, length] = bodies;
+    if (patch.a != none)
+        put(row.on_a, -direction, -arm_a.cross(direction) / length);
+    else if (a.moves())
+        row.offset -= direction.dot(a.point_velocity(arm_a));
+    if (patch.b != none)
+        put(row.on_b, direction, arm_b.cross(direction) / length);
+    else if (b.moves())
+        row.offset += direction.dot(b.point_velocity(arm_b));
+}
 /// The torsional row: normal . (angular velocity of B - that of A).
-void set_twist(Row& row, const Vec3& normal, const RowBodies& bodies);
+inline void set_twist(Row& row, const Vec3& normal, const RowBodies& bodies) {
+    const auto& [patch, a, b, length] = bodies;
+    if (patch.a != none)
+        put(row.on_a, Vec3::Zero(), -normal / length);
+    else if (a.moves())
+        row.offset -= normal.dot(a.angular_velocity);
+    if (patch.b != none)
+        put(row.on_b, Vec3::Zero(), normal / length);
+    else if (b.moves())
+        row.offset += normal.dot(b.angular_velocity);
+}
 
 /// J u of one row.
 inline double dot(const Patch& patch, const Row& row, const std::vector<double>& u) {
