@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 template <class T>
-bool contains(const std::vector<T>& list, T value) {
+bool listed(const std::vector<T>& list, T value) {
     return std::find(list.begin(), list.end(), value) != list.end();
 }
 
@@ -58,11 +58,11 @@ void collide_surface_ball(const CollisionMesh& a, const Ball& b, const Collision
         const CollisionMesh::Triangle& t = a.triangles[hit.triangle];
         if (hit.feature >= 4) {
             const std::uint32_t v = t.vertices[std::size_t(hit.feature - 4)];
-            if (contains(vertices, v) || hit.distance > least(at_vertices, v) + tie) continue;
+            if (listed(vertices, v) || hit.distance > least(at_vertices, v) + tie) continue;
             vertices.push_back(v);
         } else if (hit.feature >= 1) {
             const auto i = std::size_t(hit.feature - 1);
-            if (contains(edges, t.edge[i]) || hit.distance > least(at_edges, t.edge[i]) + tie) continue;
+            if (listed(edges, t.edge[i]) || hit.distance > least(at_edges, t.edge[i]) + tie) continue;
             edges.push_back(t.edge[i]);
             vertices.insert(vertices.end(), {t.vertices[i], t.vertices[(i + 1) % 3]});
         } else {
