@@ -5,6 +5,7 @@
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/kinematic_body.h"
+#include "sim/log/contact_log.h"
 #include "sim/notes/notes_method.h"
 #include "sim/snapshot/measurement.h"
 #include "sim/step/contact_detection.h"
@@ -47,7 +48,10 @@ struct World::State {
     std::unique_ptr<MotionStage> motion;
     SleepMonitor sleep;
     StateCheck check;
-    std::unique_ptr<NotesMethod> notes;  // with method = "notes", in place of all stages
+    std::unique_ptr<ContactLog> log;      // if asked for
+    std::vector<ManifoldImpulse> totals;  // by manifold, of the last solve; for the log
+    ContactRecords records;               // of the last frame
+    std::unique_ptr<NotesMethod> notes;   // with method = "notes", in place of all stages
     ThreadPool pool;
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
@@ -75,7 +79,8 @@ struct World::State {
                 .pool = pool,
                 .clock = clock,
                 .index = steps,
-                .h = clock.seconds(1)};
+                .h = clock.seconds(1),
+                .log = log.get()};
     }
 
     void advance(std::int64_t to);
@@ -131,8 +136,16 @@ void World::State::apply_forces(const StepContext& step) {
 
 void World::State::solve_contacts(const StepContext& step) {
     const double threshold = ImpactStage::threshold(step), least_rebound = motion->least_rebound(step);
-    contact_solver.solve({set.bodies, detection.manifolds(), set.old_velocities, {step.h, threshold, least_rebound}},
-                         detection.islands(), pool);
+    const ContactProblem problem{set.bodies,
+                                 detection.manifolds(),
+                                 set.old_velocities,
+                                 {step.h, threshold, least_rebound},
+                                 log ? &totals : nullptr};
+    if (log) totals.assign(problem.manifolds.size(), {});
+    contact_solver.solve(problem, detection.islands(), pool);
+    if (log)
+        for (std::size_t k = 0; k < detection.islands().size(); ++k)
+            log->add_contacts(detection.islands().manifolds(k), problem, totals);
     impacts.limit_warm_start(step, detection);
 }
 
@@ -151,7 +164,20 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 
 void World::step() { state_->advance(state_->steps + 1); }
-void World::advance_frame() { state_->advance(state_->steps + state_->settings.steps_per_frame); }
+void World::advance_frame() {
+    State& s = *state_;
+    if (s.log) s.log->begin_frame(s.set.bodies);
+    s.advance(s.steps + s.settings.steps_per_frame);
+    if (s.log)
+        s.records = s.log->finish_frame(s.set.bodies, s.forces.field(), s.clock.seconds(s.settings.steps_per_frame));
+}
+
+void World::record_contacts() {
+    State& s = *state_;
+    s.log = std::make_unique<ContactLog>(s.set.scene_index, s.set.origin, s.settings.gravity);
+}
+
+const ContactRecords& World::contact_records() const { return state_->records; }
 
 Snapshot World::snapshot() const {
     const State& s = *state_;

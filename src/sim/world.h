@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/description/description.h"
+#include "sim/snapshot/contact_records.h"
 #include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
 
@@ -23,6 +24,11 @@ public:
     void step();
     /// The steps of one frame.
     void advance_frame();
+
+    /// Collects impacts, contacts and the momentum balance of each frame from now on; the motion is the same.
+    void record_contacts();
+    /// Of the last advance_frame(); empty unless record_contacts() was called before it.
+    const ContactRecords& contact_records() const;
 
     Snapshot snapshot() const;
     Measurement measure() const;

@@ -5,6 +5,7 @@
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/event_driven/contact_transition.h"
+#include "sim/log/contact_log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,13 +154,23 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
         const Impulse blow = pushed ? Impulse{} : forces.brief(k, body, from, to);
         advance_momenta(body, wrench.force, wrench.torque, rest);
         advance_momenta(body, blow);
+        if (log_) {
+            log_->add_external(k, {rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque});
+            log_->add_external(k, blow);
+        }
         body.derive();
         fliers_[k].pushed = true;
     }
     islands_.find(body_pairs(landing_manifolds_), bodies, touched);
-    contact_solver_.solve(
-        {bodies, landing_manifolds_, velocities_before_, {rest, std::numeric_limits<double>::infinity()}}, islands_,
-        alone_);
+    const ContactProblem problem{bodies,
+                                 landing_manifolds_,
+                                 velocities_before_,
+                                 {rest, std::numeric_limits<double>::infinity()},
+                                 log_ ? &totals_ : nullptr};
+    if (log_) totals_.assign(landing_manifolds_.size(), {});
+    contact_solver_.solve(problem, islands_, alone_);
+    if (log_)
+        for (std::size_t k = 0; k < islands_.size(); ++k) log_->add_contacts(islands_.manifolds(k), problem, totals_);
     for (const std::uint32_t k : touched) {
         bodies[k].push_velocity.setZero();
         bodies[k].push_angular_velocity.setZero();

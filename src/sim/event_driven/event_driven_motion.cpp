@@ -9,6 +9,7 @@
 #include "sim/event_driven/settings.h"
 #include "sim/geometry/settings.h"
 #include "sim/impact/settings.h"
+#include "sim/log/contact_log.h"
 
 #include <fmt/format.h>
 
@@ -316,6 +317,16 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now)))
         return false;
     const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
+    if (log_) {
+        Contact contact;
+        contact.a = i;
+        contact.b = j;
+        contact.normal = n;
+        contact.arm_a = ball->radius * n;
+        contact.arm_b = -(other_ball ? other_ball->radius : 0.0) * n;
+        const double after = v + impulse * (a.inverse_mass + b.inverse_mass);
+        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies, {clock_.seconds(now), true});
+    }
     start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
     changed_.push_back(i);
     if (other_ball) {
@@ -363,7 +374,9 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
     const bool changed = cluster_.resolve(
         i, j, bodies, neighbourhood_, bring_body,
-        {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true});
+        {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true},
+        log_ ? &trace_ : nullptr);
+    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, {clock_.seconds(now), true});
     if (!changed && meeting) {  // no more of these in this step
         fliers_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);

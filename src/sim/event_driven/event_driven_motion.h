@@ -26,6 +26,8 @@
 
 namespace tumble {
 
+class ContactLog;
+
 /// A fixed half-space in the world frame: a quick test of ballistic bodies above it.
 struct HalfSpaceFilter {
     Vec3 normal = Vec3::UnitY();
@@ -57,6 +59,8 @@ public:
     /// Processes all events up to the start of step `until`, or of the step after the first switch to contact if that
     /// is earlier; returns that step. Throws RunError when a frame has too many impacts to be physical.
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
+    /// Where impacts and the contacts of landings are recorded; null: nowhere. It must outlive the last run().
+    void record_in(ContactLog* log) { log_ = log; }
     /// Moves all moving bodies to their poses at the start of a step.
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 
@@ -141,6 +145,9 @@ private:
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
+    ContactLog* log_ = nullptr;
+    ImpactTrace trace_;                    // of the last impact, for the log
+    std::vector<ManifoldImpulse> totals_;  // of a landing, for the log
     CcdClamp motion_limit_;              // for bodies after a switch to contact or an impact, to the end of their step
     std::vector<BodyVelocity> motions_;  // by body, for motion_limit_; zero in between
     ContactIslands islands_;

@@ -120,7 +120,8 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
 }
 
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
-                            const NeighborBoxes& neighbourhood, const Bring& bring, const ImpactSettings& settings) {
+                            const NeighborBoxes& neighbourhood, const Bring& bring, const ImpactSettings& settings,
+                            ImpactTrace* trace) {
     struck_.clear();
     // If the manifold misses the contact that the search found, a wider margin finds it.
     for (widening_ = 1.0; widening_ <= 1e4 && struck_.empty(); widening_ *= 1e2) {
@@ -144,7 +145,8 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             std::iota(island.contacts.begin(), island.contacts.end(), 0u);
             before_.clear();
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
-            resolve_impacts(island, contacts_, bodies, settings);
+            if (trace) *trace = {};
+            resolve_impacts(island, contacts_, bodies, settings, trace);
             note_reach(bodies);
             for (const std::uint32_t k : island.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbourhood, bring);

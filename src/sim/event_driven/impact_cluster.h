@@ -20,9 +20,9 @@ public:
     using Bring = std::function<void(std::uint32_t)>;
 
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
-    /// whether anything changed.
+    /// whether anything changed. `trace`: gets the impulses on contacts(), or null.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
-                 const Bring& bring, const ImpactSettings& settings);
+                 const Bring& bring, const ImpactSettings& settings, ImpactTrace* trace = nullptr);
 
     /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }

@@ -57,10 +57,11 @@ struct Change {
 };
 
 void apply(ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
-           double factor) {
+           double factor, std::span<const double> restitution = {}) {
     if (!(factor > 0.0)) return;
-    for (std::size_t i = 0; i < set.size(); ++i)
-        if (lambda[i] > 0.0) cluster.push(set[i].row, factor * lambda[i]);
+    std::vector<ImpactSystem::Push> pushes;
+    for (std::size_t i = 0; i < set.size(); ++i) pushes.push_back({set[i].row, factor * lambda[i]});
+    cluster.push_all(pushes, restitution);
 }
 
 class Propagation {
@@ -128,7 +129,7 @@ private:
         // Between closing walls no stopping change exists, and the impulses cancel: no bounce.
         if (!(f > 0.0 && f < 2.0)) return false;
         for (std::size_t i = 0; i < active_.size(); ++i) lambda_[i] *= 1.0 + restitution_[i];
-        apply(cluster_, active_, lambda_, std::min(f, reflection()));
+        apply(cluster_, active_, lambda_, std::min(f, reflection()), restitution_);
         std::fill(changed_.begin(), changed_.end(), 0);
         for (const ActiveSet::Demand& d : active_) changed_[bodies_[d.row].first] = changed_[bodies_[d.row].second] = 1;
         changed_.back() = 0;
@@ -215,9 +216,11 @@ bool stop(ImpactSystem& cluster) {
 int resolve_together(ImpactSystem& cluster, double threshold) {
     if (!bounces(cluster, threshold)) return 0;
     std::vector<ActiveSet::Demand> stopping, bouncing;
+    std::vector<double> restitution;
     bool elastic = true;
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         const double e = restitution_now(cluster, i, threshold);
+        restitution.push_back(e);
         stopping.push_back(demand(cluster, i, 0.0));
         bouncing.push_back(demand(cluster, i, e > 0.0 ? -e * cluster.speed(i) : 0.0));
         elastic = elastic && (!cluster.approaching(i) || e == 1.0);
@@ -243,7 +246,7 @@ int resolve_together(ImpactSystem& cluster, double threshold) {
     }
     const double reflection = Change(cluster, bouncing, lambda).reflection();
     // With e = 1 throughout, the energy is kept to the last digits, not only bounded.
-    apply(cluster, bouncing, lambda, elastic ? reflection : std::min(1.0, reflection));
+    apply(cluster, bouncing, lambda, elastic ? reflection : std::min(1.0, reflection), restitution);
     return 1;
 }
 

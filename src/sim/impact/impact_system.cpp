@@ -50,8 +50,9 @@ Vec6 MassRoot::weighted(const Body& body) const {
     return y;
 }
 
-ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies)
-    : body_index_(island.bodies), contacts_(contacts), bodies_(bodies) {
+ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
+                           ImpactTrace* trace)
+    : body_index_(island.bodies), contacts_(contacts), bodies_(bodies), trace_(trace) {
     roots_.reserve(island.bodies.size());
     velocity_.resize(6 * Eigen::Index(island.bodies.size()));
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
@@ -106,6 +107,23 @@ double ImpactSystem::offset(const Contact& c, const Vec3& direction) const {
     if (!a.dynamic()) sum -= direction.dot(a.point_velocity(c.arm_a));
     if (!b.dynamic()) sum += direction.dot(b.point_velocity(c.arm_b));
     return sum;
+}
+
+void ImpactSystem::push_all(std::span<const Push> pushes, std::span<const double> restitution) {
+    const std::size_t first = trace_ ? trace_->entries.size() : 0;
+    if (trace_)
+        for (std::size_t k = 0; k < pushes.size(); ++k)
+            if (pushes[k].amount > 0.0)
+                trace_->entries.push_back({index_[pushes[k].row], trace_->passes, speed(pushes[k].row), 0.0,
+                                           restitution.empty() ? 0.0 : restitution[k],
+                                           pushes[k].amount / length_[pushes[k].row]});
+    for (const Push& one : pushes)
+        if (one.amount > 0.0) push(one.row, one.amount);
+    if (!trace_) return;
+    std::size_t entry = first;
+    for (const Push& one : pushes)
+        if (one.amount > 0.0) trace_->entries[entry++].speed_after = speed(one.row);
+    ++trace_->passes;
 }
 
 void ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const {

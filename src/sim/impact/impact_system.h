@@ -7,6 +7,7 @@
 #include "sim/impact/velocity_row.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -14,6 +15,19 @@ namespace tumble {
 /// Bodies that an impact can reach: connected dynamic bodies, and their contacts; both ascending.
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;
+};
+
+/// The impulses of an impact one by one, if asked for: one entry for each contact and pass of the law.
+struct ImpactTrace {
+    struct Entry {
+        std::uint32_t contact;             // index in the list of contacts
+        int pass;                          // of the law, from 0
+        double speed_before, speed_after;  // v_rel, m/s
+        double restitution;                // that the law used
+        double impulse;                    // N s along the normal
+    };
+    std::vector<Entry> entries;
+    int passes = 0;
 };
 
 /// The square root of a dynamic body's inverse mass matrix: M^-1/2, and C with C C^T = I^-1.
@@ -31,7 +45,9 @@ struct MassRoot {
 class ImpactSystem {
 public:
     /// Reads the island's touching contacts. Both lists are kept by reference; nothing is changed before store().
-    ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
+    /// `trace`: gets the impulses of the passes, or null.
+    ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
+                 ImpactTrace* trace = nullptr);
 
     std::size_t size() const { return rows_.size(); }
     std::size_t bodies() const { return roots_.size(); }
@@ -63,6 +79,14 @@ public:
     void push_along(const VelocityRow& row, double amount) { row.add_to(velocity_, amount); }
     double impulse(std::size_t i) const { return impulse_[i]; }  // N s, sum of all pushes
 
+    /// One pass of a law: adds the amounts, where positive, along the rows of their contacts. `restitution` by entry, for
+    /// the trace; empty: zero.
+    struct Push {
+        std::uint32_t row;
+        double amount;
+    };
+    void push_all(std::span<const Push> pushes, std::span<const double> restitution);
+
     /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel.
     void store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const;
 
@@ -78,6 +102,7 @@ private:
     std::vector<VelocityRow> rows_;
     std::vector<double> length_, offset_, impulse_;
     double rounding_ = 0.0, wall_velocity_ = 0.0;
+    ImpactTrace* trace_ = nullptr;
 };
 
 }  // namespace tumble

@@ -36,6 +36,26 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
     return passes + 1;
 }
 
+// Friction changes the normal impulses as well: the change belongs to the contact's last pass.
+void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        double rest = cluster.impulse(i);
+        ImpactTrace::Entry* last = nullptr;
+        for (ImpactTrace::Entry& entry : trace.entries) {
+            if (entry.contact != cluster.contact_index(i)) continue;
+            rest -= entry.impulse;
+            last = &entry;
+        }
+        if (!last && !(cluster.impulse(i) > 0.0)) continue;
+        if (!last) {
+            trace.entries.push_back({cluster.contact_index(i), trace.passes, 0.0, 0.0, 0.0, 0.0});
+            last = &trace.entries.back();
+        }
+        if (last->impulse + rest != last->impulse) last->speed_after = cluster.speed(i);
+        last->impulse += rest;
+    }
+}
+
 // Friction may rotate a body so that it approaches again: then the impact continues, with friction's disc enlarged
 // accordingly. The rounds are bounded, the later ones are without restitution; at the end nothing approaches.
 void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
@@ -51,9 +71,9 @@ void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactF
 }  // namespace
 
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                    const ImpactSettings& settings) {
+                    const ImpactSettings& settings, ImpactTrace* trace) {
     if (!may_collide(island, contacts, bodies, settings)) return 0;
-    ImpactSystem cluster(island, contacts, bodies);
+    ImpactSystem cluster(island, contacts, bodies, trace);
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {
@@ -67,6 +87,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
         friction.store(cluster, contacts);
     }
     cluster.store(contacts, bodies);
+    if (trace) complete_trace(cluster, *trace);
     return passes;
 }
 

@@ -10,8 +10,9 @@ namespace tumble {
 /// Resolves the impacts of one island's touching contacts at the bodies' velocities, which are changed in place (the
 /// momenta are not: add_impact()); sets the impact, impact_friction and bounce_velocity of each contact that takes
 /// part. Returns the number of passes; 0 without impacts.
+/// `trace`: gets every impulse; its entries of a contact add up to the contact's. Null: not asked for.
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                    const ImpactSettings& settings);
+                    const ImpactSettings& settings, ImpactTrace* trace = nullptr);
 
 /// Restores after the step's forces the v_rel of points that bounced in the step, by the least change of motion: a ball
 /// keeps its bounce speed through the step, from the floor or a ceiling, and with e = 1 retraces its path.

@@ -6,6 +6,7 @@ namespace tumble {
 
 std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t until) {
     std::vector<Body>& bodies = step.set.bodies;
+    events_.record_in(step.log);
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
     step.check.look_at(step.set.awake, bodies, step.pool);

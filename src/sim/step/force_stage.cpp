@@ -3,6 +3,7 @@
 #include "sim/ccd/ccd_clamp.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/log/contact_log.h"
 #include "sim/step/step_context.h"
 #include "sim/threads/settings.h"
 
@@ -33,6 +34,8 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
         const Wrench wrench = field_.throughout(i, body, now, next);
         effects_[i].before = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
+        if (step.log && !field_.only_gravity(i))
+            step.log->add_external(i, {h * (wrench.force - body.mass * step.settings.gravity), h * wrench.torque});
         effects_[i].after.momentum = body.momentum;
         effects_[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
@@ -50,6 +53,7 @@ void ForceStage::apply_brief(const StepContext& step) {
         if (!field_.changes(i, now, next)) continue;
         const Impulse brief = field_.brief(i, body, now, next);
         advance_momenta(body, brief);
+        if (step.log) step.log->add_external(i, brief);
         effects_[i].after.momentum += brief.linear;
         effects_[i].after.angular_momentum += brief.angular;
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, step.h);

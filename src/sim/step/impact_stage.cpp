@@ -5,6 +5,7 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
 #include "sim/impact/settings.h"
+#include "sim/log/contact_log.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/step_context.h"
 #include "sim/threads/settings.h"
@@ -60,8 +61,11 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
                                  .slow = tuning::impact_slow * threshold(step),
                                  .law = step.settings.impact_law,
                                  .friction = true};
-    step.pool.for_each(colliding_.size(), tuning::parallel_grain,
-                       [&](std::size_t i, std::size_t) { resolve_impacts(colliding_[i], contacts_, bodies, impacts); });
+    traces_.assign(step.log ? colliding_.size() : 0, {});
+    step.pool.for_each(colliding_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
+        resolve_impacts(colliding_[i], contacts_, bodies, impacts, step.log ? &traces_[i] : nullptr);
+    });
+    for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, {step.start(), false});
     std::size_t next = 0;
     for (const std::uint32_t k : struck_) {
         for (int i = 0; i < manifolds[k].count; ++i) {

@@ -12,6 +12,8 @@
 
 namespace tumble {
 
+class ContactLog;
+
 struct StepContext {
     const SimulationSettings& settings;
     BodySet& set;
@@ -22,6 +24,7 @@ struct StepContext {
     StepClock clock;
     std::int64_t index;  // number of the step, from 0
     double h;            // s, length of the step
+    ContactLog* log;     // null: not asked for
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

@@ -171,6 +171,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
             moment += p.arm_a.cross(j);
         }
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
+        if (problem.totals) (*problem.totals)[patch.manifold].add(force, moment, a, b);
         if (patch.a != none) {
             reached[std::size_t(patch.a)] = true;
             a.momentum -= force;

@@ -60,6 +60,7 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.a = m.a;
     c.b = m.b;
     c.part = m.part;
+    c.points = m.count;
     c.normal = m.normal;
     c.restitution = pair_restitution(a, b);
     c.friction = pair_friction(a, b);

@@ -34,6 +34,19 @@ struct ConstraintSettings {
     double least_rebound = 0.0;  // m/s: if their rebound is faster than this
 };
 
+/// The impulse that a solver has given to a manifold's bodies.
+struct ManifoldImpulse {
+    Vec3 on_b = Vec3::Zero();                           // N s; the opposite on A
+    Vec3 turn_a = Vec3::Zero(), turn_b = Vec3::Zero();  // N m s on each body, about its center of mass
+
+    /// `moment` (N m s) on B, about A's center.
+    void add(const Vec3& force, const Vec3& moment, const Body& a, const Body& b) {
+        on_b += force;
+        turn_a -= moment;
+        turn_b += moment + (a.position - b.position).cross(force);
+    }
+};
+
 /// Input and output of both contact solvers. Bodies have the velocities after the step's forces, kinematic ones the
 /// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
 /// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
@@ -43,6 +56,7 @@ struct ContactProblem {
     std::vector<Manifold>& manifolds;
     const std::vector<BodyVelocity>& before;  // by body
     ConstraintSettings patches;
+    std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the

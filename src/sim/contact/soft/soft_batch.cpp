@@ -336,6 +336,13 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;
         Body &a = problem.bodies[source.swapped ? m.b : m.a], &b = problem.bodies[source.swapped ? m.a : m.b];
+        if (problem.totals) {
+            ManifoldImpulse& sum = (*problem.totals)[layout_->manifold(lanes * g + l)];
+            if (source.swapped)
+                sum.add(-force, -(moment + (a.position - b.position).cross(force)), b, a);
+            else
+                sum.add(force, moment, a, b);
+        }
         if (lane_moved_[2 * g] >> l & 1) {
             reached_[slot_a] = 1;
             a.momentum -= force;
