@@ -89,6 +89,9 @@ struct World::State {
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
     void fall_asleep();
+    template <class Use>
+    void with_present_contacts(Use&& use) const;
+    void finish_records(double duration);
 };
 
 void World::State::run_stages(const StepContext& step) {
@@ -157,6 +160,22 @@ void World::State::fall_asleep() {
     if (sleep.changes() != changes) motion->bodies_fell_asleep(next);
 }
 
+// Contacts of the present poses, not of the last step, by detectors and a thread of its own: nothing is changed.
+template <class Use>
+void World::State::with_present_contacts(Use&& use) const {
+    ThreadPool alone(1);
+    BroadPhase broad_phase(BroadPhase::Pairs::all);
+    NarrowPhase narrow_phase(alone.size(), NarrowPhase::Mode::measure);
+    const double h = clock.seconds(1);
+    use(narrow_phase.find(broad_phase.update(set.bodies, h), set.bodies, h, alone));
+}
+
+void World::State::finish_records(double duration) {
+    with_present_contacts([&](const std::vector<Manifold>& found) {
+        records = log->finish_frame(set.bodies, forces.field(), found, duration);
+    });
+}
+
 World::World(const SceneDescription& scene, int threads) : World(scene, scene.timing(), threads) {}
 World::World(const SceneDescription& scene, const FrameTiming& timing, int threads)
     : state_(std::make_unique<State>(scene, timing, std::max(1, threads))) {}
@@ -168,13 +187,14 @@ void World::advance_frame() {
     State& s = *state_;
     if (s.log) s.log->begin_frame(s.set.bodies);
     s.advance(s.steps + s.settings.steps_per_frame);
-    if (s.log)
-        s.records = s.log->finish_frame(s.set.bodies, s.forces.field(), s.clock.seconds(s.settings.steps_per_frame));
+    if (s.log) s.finish_records(s.clock.seconds(s.settings.steps_per_frame));
 }
 
 void World::record_contacts() {
     State& s = *state_;
     s.log = std::make_unique<ContactLog>(s.set.scene_index, s.set.origin, s.settings.gravity);
+    s.log->begin_frame(s.set.bodies);
+    s.finish_records(0.0);
 }
 
 const ContactRecords& World::contact_records() const { return state_->records; }
@@ -202,13 +222,8 @@ Snapshot World::snapshot() const {
 
 Measurement World::measure() const {
     const State& s = *state_;
-    // Contacts of the present poses, not of the last step, by detectors and a thread of its own: nothing is changed.
     Measurement m = measure_motion(s.set.bodies, s.settings.gravity, s.set.origin);
-    ThreadPool alone(1);
-    BroadPhase broad_phase(BroadPhase::Pairs::all);
-    NarrowPhase narrow_phase(alone.size(), NarrowPhase::Mode::measure);
-    const double h = s.clock.seconds(1);
-    measure_contacts(narrow_phase.find(broad_phase.update(s.set.bodies, h), s.set.bodies, h, alone), s.set.bodies, m);
+    s.with_present_contacts([&](const std::vector<Manifold>& found) { measure_contacts(found, s.set.bodies, m); });
     return m;
 }
 

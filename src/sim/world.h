@@ -25,9 +25,9 @@ public:
     /// The steps of one frame.
     void advance_frame();
 
-    /// Collects impacts, contacts and the momentum balance of each frame from now on; the motion is the same.
+    /// Collects impacts, contacts and energy losses of each frame from now on. The motion is the same.
     void record_contacts();
-    /// Of the last advance_frame(); empty unless record_contacts() was called before it.
+    /// Of the last advance_frame(), or of the start. Precondition: record_contacts().
     const ContactRecords& contact_records() const;
 
     Snapshot snapshot() const;

@@ -267,7 +267,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->type_name("NAME");
     command
         ->add_option("--method", c.overrides.method,
-                     "full: the whole simulation; notes: the course notes to the letter, for teaching")
+                     "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
         ->type_name("NAME");
     command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")
         ->type_name("MODE");

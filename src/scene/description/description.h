@@ -17,8 +17,8 @@
 namespace tumble {
 
 enum class IntegratorKind { explicit_euler, symplectic_euler, splitting, runge_kutta_4, exact };
-/// full: the whole simulation. notes: the course notes to the letter, for teaching (sim/notes/notes_method.h).
-enum class SimulationMethod { full, notes };
+/// tumble: the whole simulation. notes: the course notes to the letter, for teaching (sim/notes/notes_method.h).
+enum class SimulationMethod { tumble, notes };
 /// stepped: impacts are resolved at the step that finds them. exact: each impact at its own time, with exact motion in
 /// between.
 enum class ImpactMode { stepped, exact };
@@ -34,7 +34,7 @@ struct SimulationSettings {
     double duration = 5.0;          // s
     int steps_per_frame = 16;       // the fixed step is h = 1 / (fps * steps_per_frame)
     Vec3 gravity{0.0, -9.81, 0.0};  // m/s^2
-    SimulationMethod method = SimulationMethod::full;
+    SimulationMethod method = SimulationMethod::tumble;
     bool push_out = false;  // with the method of the notes: overlapping bodies are moved apart in each step
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;

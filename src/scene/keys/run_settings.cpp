@@ -17,7 +17,7 @@ constexpr Choice<IntegratorKind> integrators[] = {
     {"rk4", IntegratorKind::runge_kutta_4},
 };
 constexpr Choice<SimulationMethod> methods[] = {
-    {"full", SimulationMethod::full},
+    {"tumble", SimulationMethod::tumble},
     {"notes", SimulationMethod::notes},
 };
 constexpr Choice<ImpactMode> impact_modes[] = {

@@ -154,11 +154,11 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
         const Impulse blow = pushed ? Impulse{} : forces.brief(k, body, from, to);
         advance_momenta(body, wrench.force, wrench.torque, rest);
         advance_momenta(body, blow);
-        if (log_) {
-            log_->add_external(k, {rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque});
-            log_->add_external(k, blow);
-        }
         body.derive();
+        if (log_) {
+            const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
+            log_->add_external(k, rest_of_step + blow, {body.velocity, body.angular_velocity});
+        }
         fliers_[k].pushed = true;
     }
     islands_.find(body_pairs(landing_manifolds_), bodies, touched);

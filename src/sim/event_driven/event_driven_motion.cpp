@@ -325,7 +325,8 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
         contact.arm_a = ball->radius * n;
         contact.arm_b = -(other_ball ? other_ball->radius : 0.0) * n;
         const double after = v + impulse * (a.inverse_mass + b.inverse_mass);
-        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies, {clock_.seconds(now), true});
+        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies,
+                        {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
     }
     start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
     changed_.push_back(i);
@@ -376,7 +377,9 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         i, j, bodies, neighbourhood_, bring_body,
         {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true},
         log_ ? &trace_ : nullptr);
-    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, {clock_.seconds(now), true});
+    if (log_ && changed)
+        log_->add_impact(trace_, cluster_.contacts(), bodies,
+                         {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
     if (!changed && meeting) {  // no more of these in this step
         fliers_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);

@@ -1,5 +1,9 @@
-// Collects the impacts, contacts and momentum balance of a frame (sim/snapshot/contact_records.h). The stages of a step
+// Collects the impacts, contacts and energy losses of a frame (sim/snapshot/contact_records.h). The stages of a step
 // write into it where it is asked for; nothing of it affects the motion.
+//
+// Over a frame the change of a body's momentum is the sum of its impact records, its contact records times the frame's
+// duration, and the forces from outside. Corrections of the method (bodies stopped by CCD, the energy budget of the soft
+// solver, bounces held through a step) have records of their own, without a body A.
 #pragma once
 
 #include "sim/contact/model/contact.h"
@@ -11,38 +15,35 @@
 #include <cstdint>
 #include <map>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace tumble {
 
 class ContactLog {
 public:
-    /// The bodies' indices in the scene, by body; the origin of their coordinates (m, world).
+    /// The bodies' indices in the scene, by body; the origin of their coordinates (m, world); gravity, m/s^2.
     ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& origin, const Vec3& gravity);
 
     void begin_frame(const std::vector<Body>& bodies);
 
-    struct ImpactTime {
-        double time;  // s
-        bool exact;
-    };
-    /// Adds one impact with the entries of its trace. The momenta are those before or after it; the poses are its own.
+    /// Adds one impact with the entries of its trace, at the bodies' poses of the impact.
     void add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                     const ImpactTime& when);
-    /// The same for one entry, of a contact without friction at a point (m, of the bodies' coordinates).
+    /// The same for one entry without friction, at a point (m) in the bodies' coordinates.
     void add_entry(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                    const std::vector<Body>& bodies, const ImpactTime& when);
 
-    /// Adds the impulses of a solve of resting contact over `h` (s). `totals` by manifold.
+    /// Adds the impulses of a solve of resting contact. `totals` by manifold of the problem.
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                       const std::vector<ManifoldImpulse>& totals);
 
-    /// Adds impulses of forces other than gravity.
-    void add_external(std::uint32_t body, const Impulse& impulse);
+    /// Adds the impulse of forces other than gravity; `mean`: the mean of the velocities before and after it.
+    void add_external(std::uint32_t body, const Impulse& impulse, const BodyVelocity& mean);
 
-    /// The records of the frame of `duration` (s).
-    ContactRecords finish_frame(const std::vector<Body>& bodies, const ForceField& forces, double duration);
+    /// The records of the frame that ends now and lasted `duration` s (0 for the first frame). `touching`: the manifolds
+    /// of the present poses.
+    ContactRecords finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
+                                const std::vector<Manifold>& touching, double duration);
 
 private:
     struct Key {
@@ -51,23 +52,33 @@ private:
         auto operator<=>(const Key&) const = default;
     };
     struct Sum {
-        ContactRecord last;  // place and state at the last step
-        double normal = 0.0;
-        Vec3 tangential = Vec3::Zero(), moment = Vec3::Zero();  // N s, N m s
-        double span = 0.0;                                      // s, with contact
+        ContactRecord last;                  // place and features at the last step
+        Vec3 impulse = Vec3::Zero();         // N s on B
+        double normal = 0.0, torsion = 0.0;  // N s, N m s
+        double span = 0.0;                   // s, with contact
+        double stick_speed = 0.0;            // m/s: slower counts as sticking
     };
-    /// Of a body: impulses of the frame, and its momenta at the start.
+    /// Of a body, in this frame.
     struct Account {
-        ImpulseSum start, external, impacts, contacts;
+        Vec3 momentum = Vec3::Zero(), external = Vec3::Zero(), contact = Vec3::Zero();  // N s: at the start; since then
+        double energy = 0.0;                                                            // J, at the start
+        double work = 0.0;                                                              // J, from outside
+        bool touched = false;                                                           // by an impact or a contact
     };
-    ContactRecord oriented(ContactRecord record) const;
-    bool sleeping(const Key& key, const std::vector<Body>& bodies) const;
+    double energy(const Body& body) const;
+    bool at_rest(const Key& key, const std::vector<Body>& bodies) const;
+    void add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies);
+    ContactRecord mean(const Key& key, Sum& sum, const std::vector<Body>& bodies, double duration);
+    void add_corrections(const std::vector<Body>& bodies, const ForceField& forces, double duration);
+    void add_losses(const std::vector<Body>& bodies);
+    void name_by_scene();
 
     std::vector<std::uint32_t> scene_index_;
     Vec3 origin_, gravity_;
     std::map<Key, Sum> sums_;
     std::map<Key, ContactRecord> asleep_;  // contacts that hold sleeping bodies, with their forces
     std::vector<Account> accounts_;        // by body
+    double friction_ = 0.0;                // J, lost in this frame
     ContactRecords records_;
 };
 

@@ -2,9 +2,11 @@
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/integrator.h"
+#include "sim/log/contact_log.h"
 #include "sim/step/step_context.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace tumble {
 namespace {
@@ -20,19 +22,6 @@ void add_impulse(Body& body, const Vec3& arm, const Vec3& impulse) {
     body.derive_velocities();                     // eqs. 2 and 4
 }
 
-// Eqs. 14 and 20, with n away from A and towards B, so that J = j n acts on B and -j n on A (contact.h says why).
-void resolve(const Vec3& point, const Vec3& n, Body& a, Body& b) {
-    const Vec3 r_a = point - a.position, r_b = point - b.position;
-    const double v_rel = n.dot(b.point_velocity(r_b) - a.point_velocity(r_a));
-    if (!(v_rel < 0.0)) return;
-    const double e = pair_restitution(a, b);
-    const double k = a.inverse_mass + b.inverse_mass +
-                     n.dot(angular_response(a, r_a, n).cross(r_a) + angular_response(b, r_b, n).cross(r_b));
-    const double j = -(1.0 + e) * v_rel / k;
-    add_impulse(a, r_a, -j * n);
-    add_impulse(b, r_b, j * n);
-}
-
 // Moves the bodies apart along the normal by their deepest overlap, the lighter one farther.
 void push_out(const Manifold& m, double depth, Body& a, Body& b) {
     const double share = depth / (a.inverse_mass + b.inverse_mass);
@@ -42,23 +31,59 @@ void push_out(const Manifold& m, double depth, Body& a, Body& b) {
 
 }  // namespace
 
-// In the order of the bodies in the scene, of A and then of B; the points of a pair by their feature number, which is
-// for a corner its index.
+// Eqs. 14 and 20, with n away from A and towards B, so that J = j n acts on B and -j n on A (contact.h says why).
+NotesMethod::Collision NotesMethod::resolve(const Vec3& point, const Vec3& n, Body& a, Body& b) {
+    const Vec3 r_a = point - a.position, r_b = point - b.position;
+    const double v_rel = n.dot(b.point_velocity(r_b) - a.point_velocity(r_a));
+    if (!(v_rel < 0.0)) return {};
+    const double e = pair_restitution(a, b);
+    const double k = a.inverse_mass + b.inverse_mass +
+                     n.dot(angular_response(a, r_a, n).cross(r_a) + angular_response(b, r_b, n).cross(r_b));
+    const double j = -(1.0 + e) * v_rel / k;
+    add_impulse(a, r_a, -j * n);
+    add_impulse(b, r_b, j * n);
+    return {v_rel, j};
+}
+
+// In ascending order of (A, B, feature number); A and B are the indices in the scene, the feature number of a corner is
+// the corner's index.
 void NotesMethod::collide(const StepContext& step) {
     std::vector<Body>& bodies = step.set.bodies;
-    for (Manifold& m : narrow_phase_.find(broad_phase_.update(bodies, step.h), bodies, step.h, step.pool)) {
-        Body &a = bodies[m.a], &b = bodies[m.b];
-        const auto points = std::span(m.points).first(std::size_t(m.count));
-        std::sort(points.begin(), points.end(),
-                  [](const ContactPoint& l, const ContactPoint& r) { return l.feature < r.feature; });
-        double depth = 0.0;
-        for (const ContactPoint& p : points) {
-            if (p.separation > 0.0) continue;
-            depth = std::max(depth, -p.separation);
-            resolve(p.position, m.normal, a, b);
-        }
-        if (step.settings.push_out && depth > 0.0) push_out(m, depth, a, b);
+    const std::vector<Manifold>& manifolds =
+        narrow_phase_.find(broad_phase_.update(bodies, step.h), bodies, step.h, step.pool);
+    points_.clear();
+    for (std::uint32_t m = 0; m < manifolds.size(); ++m)
+        for (int i = 0; i < manifolds[m].count; ++i)
+            if (manifolds[m].points[std::size_t(i)].separation <= 0.0) points_.push_back({m, i});
+    std::stable_sort(points_.begin(), points_.end(), [&](const Point& l, const Point& r) {
+        const auto key = [&](const Point& p) {
+            const Manifold& m = manifolds[p.manifold];
+            return std::tuple(m.a, m.b, m.points[std::size_t(p.index)].feature);
+        };
+        return key(l) < key(r);
+    });
+    for (const Point& point : points_) {
+        const Manifold& m = manifolds[point.manifold];
+        const Collision found =
+            resolve(m.points[std::size_t(point.index)].position, m.normal, bodies[m.a], bodies[m.b]);
+        if (step.log && found.impulse > 0.0) log_impulse(step, m, point, found);
     }
+    if (!step.settings.push_out) return;
+    for (const Manifold& m : manifolds) {
+        double depth = 0.0;
+        for (int i = 0; i < m.count; ++i) depth = std::max(depth, -m.points[std::size_t(i)].separation);
+        if (depth > 0.0) push_out(m, depth, bodies[m.a], bodies[m.b]);
+    }
+}
+
+void NotesMethod::log_impulse(const StepContext& step, const Manifold& m, const Point& point, const Collision& found) {
+    const std::vector<Body>& bodies = step.set.bodies;
+    contacts_.clear();
+    add_contacts(m, bodies, contacts_);
+    const Contact& c = contacts_[std::size_t(point.index)];
+    const double e = c.restitution;
+    step.log->add_entry({0, 0, found.before, -e * found.before, e, found.impulse}, c,
+                        m.points[std::size_t(point.index)].position, bodies, step.impact_time());
 }
 
 void NotesMethod::step(const StepContext& step) {

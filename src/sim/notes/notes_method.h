@@ -6,6 +6,7 @@
 // The notes leave open how R and q stay rotations after the tangent step; here they are made the nearest ones.
 #pragma once
 
+#include "sim/contact/model/contact.h"
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 
@@ -20,10 +21,21 @@ public:
     void step(const StepContext& step);
 
 private:
+    struct Point {
+        std::uint32_t manifold;
+        int index;  // of the manifold's point
+    };
+    struct Collision {
+        double before = 0.0, impulse = 0.0;  // v_rel (m/s) and j (N s); zero: no collision
+    };
     void collide(const StepContext& step);
+    static Collision resolve(const Vec3& point, const Vec3& n, Body& a, Body& b);
+    void log_impulse(const StepContext& step, const Manifold& m, const Point& point, const Collision& found);
 
     BroadPhase broad_phase_{BroadPhase::Pairs::all};
     NarrowPhase narrow_phase_;
+    std::vector<Point> points_;
+    std::vector<Contact> contacts_;  // of one manifold, for the log
 };
 
 }  // namespace tumble

@@ -8,6 +8,13 @@
 #include "sim/threads/settings.h"
 
 namespace tumble {
+namespace {
+
+BodyVelocity mean_velocity(const BodyVelocity& before, const Body& body) {
+    return {0.5 * (before.velocity + body.velocity), 0.5 * (before.angular_velocity + body.angular_velocity)};
+}
+
+}  // namespace
 
 ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
     : field_(scene, set.scene_index),
@@ -34,11 +41,12 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
         const Wrench wrench = field_.throughout(i, body, now, next);
         effects_[i].before = {body.momentum, body.angular_momentum};
         advance_momenta(body, wrench.force, wrench.torque, h);
-        if (step.log && !field_.only_gravity(i))
-            step.log->add_external(i, {h * (wrench.force - body.mass * step.settings.gravity), h * wrench.torque});
         effects_[i].after.momentum = body.momentum;
         effects_[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
+        if (step.log && !field_.only_gravity(i))
+            step.log->add_external(i, {h * (wrench.force - body.mass * step.settings.gravity), h * wrench.torque},
+                                   mean_velocity(set.old_velocities[i], body));
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
 }
@@ -52,8 +60,9 @@ void ForceStage::apply_brief(const StepContext& step) {
         ending_[i] = field_.ending(i, body, now, next);
         if (!field_.changes(i, now, next)) continue;
         const Impulse brief = field_.brief(i, body, now, next);
+        const BodyVelocity before{body.velocity, body.angular_velocity};
         advance_momenta(body, brief);
-        if (step.log) step.log->add_external(i, brief);
+        if (step.log) step.log->add_external(i, brief, mean_velocity(before, body));
         effects_[i].after.momentum += brief.linear;
         effects_[i].after.angular_momentum += brief.angular;
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, step.h);

@@ -65,7 +65,7 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
     step.pool.for_each(colliding_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
         resolve_impacts(colliding_[i], contacts_, bodies, impacts, step.log ? &traces_[i] : nullptr);
     });
-    for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, {step.start(), false});
+    for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, step.impact_time());
     std::size_t next = 0;
     for (const std::uint32_t k : struck_) {
         for (int i = 0; i < manifolds[k].count; ++i) {

@@ -3,6 +3,7 @@
 
 #include "sim/contact/model/sleep.h"
 #include "sim/event_driven/event_time.h"
+#include "sim/snapshot/contact_records.h"
 #include "sim/step/body_set.h"
 #include "sim/step/force_stage.h"
 #include "sim/step/state_check.h"
@@ -28,6 +29,8 @@ struct StepContext {
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s
+    /// Of an impact that this step resolves.
+    ImpactTime impact_time() const { return {end(), (index + 1) / settings.steps_per_frame, false}; }
     /// Change of speed by gravity in a step, m/s.
     double gravity_speed() const { return settings.gravity.norm() * h; }
 };
