@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 TUMBLE_BEGIN
@@ -17,15 +18,29 @@ void write_png(const std::string& file, const Image& image);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
 
-/// Whether two images are the same for the eye, by the default rules of `tumble compare`.
+/// The three rules of `tumble compare` for images that are the same for the eye.
+struct CompareOptions {
+    int tolerance = 3;           // levels of 255, 0 to 255: a smaller difference of a channel does not count
+    double fraction = 1e-4;      // of all pixels, 0 to 1: so many may differ by more
+    std::optional<int> cluster;  // pixels, 0 to 64, of any 8 x 8 that may differ by more; 4 + 64 fraction if not given
+    std::optional<double> window;  // levels, 0 to 255: mean difference of any 8 x 8; tolerance / 2 + 255 fraction
+};
+
 struct Comparison {
     bool alike = false;
     std::string reason;                 // the rules that do not hold, with figures; empty where alike
     std::int64_t differing_pixels = 0;  // any difference
-    int max_difference = 0;             // levels of 255
+    int max_difference = 0;             // levels of 255, largest over pixels and channels
+    int max_column = 0, max_row = 0;    // its pixel, from the top left; the first of equal ones, row by row
 };
-/// Throws Error (input) where the sizes differ.
-Comparison compare_images(const Image& a, const Image& b);
+/// Throws Error (input) where the sizes differ or an option is out of its range.
+Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// The same for PNG files of any size: a few rows of each are in memory. Writes an image of the differences (red beyond
+/// the tolerance, blue within it) where that file is named. Throws Error (input) also where an image is missing or
+/// broken.
+Comparison compare_png_files(const std::string& a, const std::string& b, const CompareOptions& options = {},
+                             const std::string& difference = {});
 
 enum class ClipQuality { draft, normal, best };
 

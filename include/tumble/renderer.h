@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 TUMBLE_BEGIN
 
@@ -29,6 +30,10 @@ public:
     /// Draws the poses at the scene's output size, from where the camera is at their time. The image belongs to the
     /// renderer and is valid until the next call: copy it to keep it. Only changes since the last call are drawn.
     const Image& render(const Snapshot& snapshot);
+
+    /// The mean, in linear light, of the images at these moments: motion blur (see FrameSequence). At least one; each
+    /// counts as rendered. The image belongs to the renderer and is valid until the next call.
+    const Image& render_blurred(const std::vector<Snapshot>& moments);
 
     /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so frame
     /// n has the bytes of `tumble render` when each frame before it was rendered or skipped, in order.

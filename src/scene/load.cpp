@@ -50,7 +50,8 @@ std::string read_text(const std::filesystem::path& file) {
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
-                             const SceneOverrides& overrides, FileList* read, MeshImports imports) {
+                             const SceneOverrides& overrides, FileList* read, MeshImports imports,
+                             MeshSupplier supplied) {
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
@@ -63,7 +64,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_run_settings(root, overrides, scene.simulation, scene.output);
     scene.light = read_light(root);
     scene.wind = read_wind(root);
-    MeshCache meshes(imports);
+    MeshCache meshes(imports, std::move(supplied));
     scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation.seed, meshes);
     if (read != nullptr) {
         read->push_back(file);

@@ -2,11 +2,11 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
-#include "output/image_compare.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
+#include "tumble/output.h"
 
 #include <filesystem>
 #include <optional>
@@ -53,7 +53,7 @@ void run_encode(const EncodeCommand& command);
 struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::filesystem::path> difference;
-    CompareOptions options;
+    v0::CompareOptions options;
 };
 /// Returns 0 if the pictures are alike, 1 if they differ, 2 if they cannot be compared.
 int run_compare(const CompareCommand& command);

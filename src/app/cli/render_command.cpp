@@ -5,10 +5,10 @@
 #include "app/pipeline/pipeline.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
-#include "app/timing/time_scaling.h"
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "sim/frames/clip_timing.h"
 
 #include <fmt/format.h>
 

@@ -43,13 +43,12 @@ void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void
 
 Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder,
                    VideoWriter* video, AovFolder* aovs, Shutter shutter)
-    : world_(world),
+    : sequence_(world, shutter),
       frames_(frames),
       drawer_(drawer),
       folder_(folder),
       video_(video),
       aovs_(aovs),
-      shutter_(shutter),
       poses_(poses_that_may_wait(world.snapshot().bodies.size(), shutter)),
       for_png_(waiting_frames),
       for_aovs_(waiting_frames),
@@ -106,7 +105,7 @@ void Pipeline::simulate() {
             return;
     }
     if (waiting) {
-        waiting->aovs->next = after_the_last();
+        waiting->aovs->next = timed(times_.simulation, [&] { return sequence_.next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
@@ -114,23 +113,9 @@ void Pipeline::simulate() {
 
 MotionBlurFrame Pipeline::expose(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
-    MotionBlurFrame exposure;
-    exposure.frame = frame;
-    // The last frame is simulated only while its shutter is open.
-    const int parts = frame + 1 < frames_.end ? shutter_.parts : shutter_.moments;
-    for (int part = 0; part < parts; ++part) {
-        if (frame > 0 || part > 0) world_.advance_frame();
-        if (part < shutter_.moments) exposure.moments.push_back(world_.snapshot());
-    }
+    MotionBlurFrame exposure{frame, sequence_.next(), std::nullopt};
     if (aovs_ != nullptr) exposure.aovs = AovPoses{exposure.moments.front(), std::nullopt};
     return exposure;
-}
-
-/// The poses of the frame after the last one.
-Snapshot Pipeline::after_the_last() {
-    const StageTimer timer(times_.simulation);
-    for (int part = shutter_.moments - 1; part < shutter_.parts; ++part) world_.advance_frame();
-    return world_.snapshot();
 }
 
 bool Pipeline::hand_on(const Frame& frame) {

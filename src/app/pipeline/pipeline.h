@@ -12,12 +12,12 @@
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "app/files/publish_queue.h"
+#include "app/pipeline/frame_range.h"
 #include "app/threads/stage_timer.h"
-#include "app/timing/frame_range.h"
 #include "app/workers/render_pool.h"
 #include "output/video_writer.h"
 #include "scene/description/description.h"
-#include "sim/world.h"
+#include "sim/frames/frame_sequence.h"
 
 #include <atomic>
 #include <cstdint>
@@ -53,20 +53,18 @@ public:
 private:
     void simulate();
     MotionBlurFrame expose(std::int64_t frame);
-    Snapshot after_the_last();
     void write_frames();
     void write_aovs();
     void write_video();
     bool hand_on(const Frame& frame);
     std::int64_t finished() const;
 
-    World& world_;
+    FrameSequence sequence_;
     FrameRange frames_;
     RenderPool& drawer_;
     const FrameFolder* folder_;
     VideoWriter* video_;
     AovFolder* aovs_;
-    Shutter shutter_;
     BoundedQueue<MotionBlurFrame> poses_;
     BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
     PublishQueue frame_files_, aov_files_;

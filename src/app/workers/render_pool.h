@@ -8,7 +8,7 @@
 
 #include "app/threads/bounded_queue.h"
 #include "app/threads/stage_timer.h"
-#include "app/timing/motion_blur.h"
+#include "app/workers/motion_blur_frame.h"
 #include "app/workers/render_process.h"
 #include "render/scene/pose_filter.h"
 #include "scene/description/description.h"

@@ -3,7 +3,7 @@
 // shared memory. It writes no files, so that it can be stopped at any time.
 #pragma once
 
-#include "app/timing/motion_blur.h"
+#include "app/workers/motion_blur_frame.h"
 #include "app/workers/shared_frames.h"
 #include "output/process.h"
 #include "render/renderer.h"

@@ -218,11 +218,15 @@ std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std
     return result;
 }
 
-const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scale) {
-    auto found = files_.find(file);
-    if (found == files_.end()) found = files_.emplace(file, load_mesh(file, &read_, imports_)).first;
+const LoadedMesh& MeshCache::load(const MeshSource& source, double scale) {
+    auto found = loaded_.find(source);
+    if (found == loaded_.end()) {
+        LoadedMesh made = source.file.empty() ? loaded(supplier_(source.index), "a mesh in memory")
+                                              : load_mesh(source.file, &read_, imports_);
+        found = loaded_.emplace(source, std::move(made)).first;
+    }
     if (scale == 1.0) return found->second;
-    const auto key = std::pair(file, scale);
+    const auto key = std::pair(source, scale);
     auto made = scaled_.find(key);
     if (made == scaled_.end()) made = scaled_.emplace(key, scaled(found->second, scale)).first;
     return made->second;

@@ -1,6 +1,6 @@
 // Slow motion and speed-up compared with a run at normal speed.
-#include "app/timing/time_scaling.h"
-#include "app/timing/motion_blur.h"
+#include "sim/frames/clip_timing.h"
+
 #include "core/error.h"
 #include "sim/world.h"
 

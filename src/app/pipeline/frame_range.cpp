@@ -1,4 +1,4 @@
-#include "app/timing/frame_range.h"
+#include "app/pipeline/frame_range.h"
 
 #include "core/error.h"
 #include "core/rounding.h"

@@ -1,4 +1,4 @@
-#include "app/timing/time_scaling.h"
+#include "sim/frames/clip_timing.h"
 
 #include "core/error.h"
 #include "core/rounding.h"
@@ -34,6 +34,11 @@ FrameTiming timing_at_speed(const SceneDescription& scene, double speed) {
         throw InputError(
             fmt::format("--speed: at {:g} a frame takes more than {} steps", speed, limits::steps_per_frame));
     return {fps, int(steps)};
+}
+
+Shutter Shutter::of(double degrees, int samples) {
+    if (degrees <= 0.0 || samples <= 1) return {};
+    return {std::max(samples, int(std::lround(360.0 / degrees * samples))), samples};
 }
 
 }  // namespace tumble
