@@ -34,7 +34,7 @@ struct FrameSequence::State {
         : frames(timing_of(scene, timing)),
           count(frames.frame_count(scene.simulation.duration)),
           shutter(Shutter::of(timing.shutter, timing.blur_samples)),
-          world(scene, divided(frames, shutter.parts), threads),
+          world(scene, divided(frames, shutter.intervals), threads),
           sequence(world, shutter) {}
 
     FrameTiming frames;
@@ -58,13 +58,13 @@ std::int64_t FrameSequence::frame_count() const { return state_->count; }
 
 std::vector<Snapshot> FrameSequence::next() {
     return guarded([&] {
-        std::vector<Snapshot> moments;
+        std::vector<Snapshot> samples;
         for (const tumble::Snapshot& moment : state_->sequence.next()) {
-            moments.push_back(to_public(moment));
-            moments.back().frame = state_->made;
+            samples.push_back(to_public(moment));
+            samples.back().frame = state_->made;
         }
         ++state_->made;
-        return moments;
+        return samples;
     });
 }
 

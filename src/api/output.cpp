@@ -4,7 +4,6 @@
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "output/image_compare.h"
-#include "output/png_compare.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
 #include "output/table_writer.h"

@@ -199,7 +199,7 @@ void PngEncoder::make_head() {
     const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
     png_destroy_write_struct(&png, &info);
     if (done) return;
-    const int width = std::exchange(width_, 0);  // the next picture is a first one
+    const int width = std::exchange(width_, 0);  // the next image is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);
 }
 

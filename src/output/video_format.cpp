@@ -68,8 +68,8 @@ FrameRate to_frame_rate(double fps) {
     return {upside_down.denominator, upside_down.numerator};
 }
 
-std::size_t frame_bytes(PixelForm form, int width, int height) {
-    if (form == PixelForm::yuv420) return yuv420_bytes(width + width % 2, height + height % 2);
+std::size_t frame_bytes(PixelFormat form, int width, int height) {
+    if (form == PixelFormat::yuv420) return yuv420_bytes(width + width % 2, height + height % 2);
     return 4 * std::size_t(width) * std::size_t(height);
 }
 
@@ -90,7 +90,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
         limit = fastest_matroska;
     } else if (ending == ".gif") {
         format.kind = VideoKind::gif;
-        format.pixels = PixelForm::rgba;
+        format.pixels = PixelFormat::rgba;
     } else
         throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
                                          "(the ending was '{}')",
@@ -113,7 +113,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
 Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
-    if (format.pixels == PixelForm::yuv420)
+    if (format.pixels == PixelFormat::yuv420)
         // Matches yuv420.h; without the tags players would show other colors.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});

@@ -72,7 +72,7 @@ __m128i repeated(const Weights& w) {
 }
 
 /// Sums of adjacent pixels: of (p0, p1) and (p2, p3), (p0 + p1, p2 + p3).
-__m128i add_neighbours(__m128i first, __m128i second) {
+__m128i add_neighbors(__m128i first, __m128i second) {
     return _mm_add_epi16(_mm_unpacklo_epi64(first, second), _mm_unpackhi_epi64(first, second));
 }
 
@@ -96,8 +96,8 @@ void convert_eight(const RowPair& rows, int x) {
         _mm_storel_epi64(reinterpret_cast<__m128i*>((top ? rows.y_top : rows.y_bottom) + x),
                          _mm_packus_epi16(words, words));
     }
-    const __m128i first = add_neighbours(column_sums[0], column_sums[1]);
-    const __m128i second = add_neighbours(column_sums[2], column_sums[3]);
+    const __m128i first = add_neighbors(column_sums[0], column_sums[1]);
+    const __m128i second = add_neighbors(column_sums[2], column_sums[3]);
     const auto store_four = [](std::uint8_t* to, __m128i values) {
         const __m128i words = _mm_packs_epi32(values, values);
         const int bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));

@@ -25,7 +25,7 @@ struct RenderCommand {
     double start = 0.0;          // s, scene time; earlier frames are not drawn
     double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;        // moments while the shutter is open
+    int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h
     int workers = 1;             // render processes
     bool quiet = false;
@@ -55,7 +55,7 @@ struct CompareCommand {
     std::optional<std::filesystem::path> difference;
     v0::CompareOptions options;
 };
-/// Returns 0 if the pictures are alike, 1 if they differ, 2 if they cannot be compared.
+/// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared.
 int run_compare(const CompareCommand& command);
 
 struct InfoCommand {

@@ -27,8 +27,8 @@ void print(const v0::Comparison& result) {
 }
 
 // Exit code 1 means "different", so every failure of the comparison itself must be 2.
-int cannot_tell(const std::string& words) {
-    say("{}\n", words);
+int cannot_compare(const std::string& message) {
+    say("{}\n", message);
     return 2;
 }
 
@@ -47,15 +47,15 @@ int run_compare(const CompareCommand& command) try {
     return result.alike ? 0 : 1;
 } catch (const v0::Error& error) {
     if (error.kind() == v0::ErrorKind::input) throw;
-    return cannot_tell(error.what());
+    return cannot_compare(error.what());
 } catch (const RunError& error) {
-    return cannot_tell(error.what());
+    return cannot_compare(error.what());
 } catch (const std::bad_alloc&) {
-    return cannot_tell("error: out of memory");
+    return cannot_compare("error: out of memory");
 } catch (const InputError&) {
     throw;
 } catch (const std::exception& error) {
-    return cannot_tell(fmt::format("error: {}", safe_lines(error.what())));
+    return cannot_compare(fmt::format("error: {}", safe_lines(error.what())));
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// The poses of a frame, which is the mean, in linear light, of images at several moments while the shutter is open.
+// The poses of a frame, which is the mean, in linear light, of images at several times while the shutter is open.
 #pragma once
 
 #include "render/aov/aov_renderer.h"
@@ -10,11 +10,11 @@
 
 namespace tumble {
 
-/// Content of one frame: its moments in order; a single one without motion blur. Moments that are not requested, or
+/// Content of one frame: its blur samples in order; a single one without motion blur. Samples that are not requested, or
 /// that equal those of the previous frame, are omitted.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
-    std::vector<Snapshot> moments;
+    std::vector<Snapshot> blur_samples;
     std::optional<AovPoses> aovs;  // the true poses at the frame's own time, when the shutter opens
 };
 

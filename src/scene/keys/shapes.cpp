@@ -1,7 +1,7 @@
 #include "scene/keys/shapes.h"
 
 #include "core/safe_text.h"
-#include "scene/keys/compound.h"
+#include "scene/keys/motion.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -50,14 +50,14 @@ void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::str
                         "on which side is out; repair it, or use it with type = \"fixed\"",
                         which, c.crowded_edges));
     }
-    const double extent = mesh.asset->surface.bounds().extent().norm();
+    const double extent = mesh.asset->mesh.bounds().extent().norm();
     // of the bounds' diagonal cubed; a closed surface without volume has less, a hair has more
     constexpr double rounding = 1e-12;
     if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
 }
 
 void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
-    const Bounds bounds = mesh.asset->surface.bounds();
+    const Bounds bounds = mesh.asset->mesh.bounds();
     const double extent = bounds.extent().maxCoeff();
     const double reach = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
     if (!limits::size.contains(extent) || !limits::coordinate.contains(reach)) {
@@ -130,6 +130,50 @@ ShapeRequest read_supplied_mesh(const TomlTable& table, BodyType type, const Tom
         throw InputError(memory.origin().where, fmt::format("the mesh {}", error.what()));
     }
     return request;
+}
+
+CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
+    table.set_title("a part");
+    table.expect_keys({"shape", "position", "rotation", "density", "color"});
+    const TomlValue shape = table.require("shape");
+    if (const auto kind = shape.table().find("type"); kind && kind->text() == "plane")
+        kind->fail("\"plane\" is endless and cannot be part of a body");
+    CompoundPart part;
+    part.shape = read_shape(shape, type, folder, meshes).shape;
+    table.read("position", part.position, limits::coordinate);
+    if (const auto rotation = table.find("rotation")) part.rotation = read_rotation(*rotation);
+    table.read("density", part.density, limits::density);
+    if (const auto color = table.find("color")) part.color = color->color();
+    return part;
+}
+
+/// A part of a part as a part of the whole.
+CompoundPart within(const CompoundPart& outer, const CompoundPart& inner) {
+    CompoundPart part = inner;
+    part.position = outer.position + outer.rotation * inner.position;
+    part.rotation = (outer.rotation * inner.rotation).normalized();
+    if (!inner.density) part.density = outer.density;
+    if (!inner.color) part.color = outer.color;
+    return part;
+}
+
+/// Nested compounds are flattened.
+CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder,
+                            MeshCache& meshes) {
+    table.expect_keys({"type", "parts"});
+    const TomlValue list = table.require("parts");
+    auto parts = std::make_shared<std::vector<CompoundPart>>();
+    for (TomlTable& item : list.tables(" { shape, position, rotation, density, color }")) {
+        CompoundPart part = read_part(item, type, folder, meshes);
+        if (const auto* inner = std::get_if<CompoundShape>(&part.shape))
+            for (const CompoundPart& p : *inner->parts) parts->push_back(within(part, p));
+        else
+            parts->push_back(std::move(part));
+        if (parts->size() > std::size_t(limits::parts))
+            list.origin().fail(fmt::format("holds too many parts: the limit of a body is {}", limits::parts));
+    }
+    if (parts->empty()) list.fail("must hold at least one part");
+    return {std::move(parts)};
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TriangleMesh compact(const std::vector<Vec3>& positions, const std::vector<std::
 
 /// Drawn vertices: one for every different (position, normal) among the corners of the surface.
 void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
-    const TriangleMesh& mesh = asset.surface;
+    const TriangleMesh& mesh = asset.mesh;
     const auto made = crease_normals(mesh);
     std::map<std::pair<std::uint32_t, std::array<float, 3>>, std::uint32_t> drawn;  // (vertex, normal) -> drawn vertex
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -87,7 +87,7 @@ void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
 
 LoadedMesh scaled(const LoadedMesh& mesh, double scale) {
     auto asset = std::make_shared<MeshAsset>(*mesh.asset);
-    for (Vec3& v : asset->surface.vertices) v *= scale;
+    for (Vec3& v : asset->mesh.vertices) v *= scale;
     for (MeshAsset::Vertex& v : asset->vertices)
         for (float& x : v.position) x = float(x * scale);
     Closedness closedness = mesh.closedness;
@@ -140,9 +140,9 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     };
     if (result.closedness.crowded_edges > 0) {
         // Normals are not changed: those with the wrong direction are detected when drawn vertices are made.
-        const std::vector<char> to_turn = triangles_to_turn(whole);
+        const std::vector<char> to_flip = triangles_to_flip(whole);
         for (std::size_t t = 0; t < corners.size(); ++t)
-            if (to_turn[t]) turn(t);
+            if (to_flip[t]) turn(t);
         result.closedness = closedness(whole);
     }
     if (result.closedness.closed() && result.closedness.signed_volume < 0.0) {
@@ -166,7 +166,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
 
     auto asset = std::make_shared<MeshAsset>();
     asset->file = file.string();
-    asset->surface = compact(whole.vertices, kept);
+    asset->mesh = compact(whole.vertices, kept);
     fill_drawing(kept_corners, *asset);
     result.asset = std::move(asset);
     return result;

@@ -1,4 +1,4 @@
-// Slow motion, speed-up and motion blur: which moments of the scene's motion the frames of a clip show.
+// Slow motion, speed-up and motion blur: the times that the frames of a clip show.
 #pragma once
 
 #include "scene/description/description.h"
@@ -17,14 +17,14 @@ FrameTiming timing_at_speed(const SceneDescription& scene, double speed);
 /// The timing with `parts` frames in place of each (for the samples of a shutter). The step follows the same rule.
 FrameTiming divided(const FrameTiming& timing, int parts);
 
-/// Each frame is simulated in this many equal parts; the first `moments` of them begin while the shutter is open.
+/// Each frame is simulated in equal intervals; the first of them begin with the samples while the shutter is open.
 struct Shutter {
-    int parts = 1, moments = 1;
+    int intervals = 1, blur_samples = 1;
 
-    /// A shutter of `degrees` (360: a whole frame) with `samples` samples; 0 degrees: a single moment. The number of
-    /// parts is an integer, so that time stays an integer number of steps: the opening is rounded to the nearest
-    /// possible one (a half and a whole frame are exact).
-    static Shutter of(double degrees, int samples);
+    /// A shutter of `degrees` (360: a whole frame) with that many samples; 0 degrees: a single one. The number of
+    /// intervals is whole, so that time stays a whole number of steps: the opening is rounded to the nearest possible
+    /// one (a half and a whole frame are exact).
+    static Shutter of(double degrees, int blur_samples);
 };
 
 }  // namespace tumble

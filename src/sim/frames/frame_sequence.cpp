@@ -3,19 +3,19 @@
 namespace tumble {
 
 Snapshot FrameSequence::next_start() {
-    for (; parts_to_start_ > 0; --parts_to_start_) world_.advance_frame();
-    parts_to_start_ = shutter_.parts;
+    for (; intervals_to_start_ > 0; --intervals_to_start_) world_.advance_frame();
+    intervals_to_start_ = shutter_.intervals;
     return world_.snapshot();
 }
 
 std::vector<Snapshot> FrameSequence::next() {
-    std::vector<Snapshot> moments{next_start()};
-    while (int(moments.size()) < shutter_.moments) {
+    std::vector<Snapshot> samples{next_start()};
+    while (int(samples.size()) < shutter_.blur_samples) {
         world_.advance_frame();
-        --parts_to_start_;
-        moments.push_back(world_.snapshot());
+        --intervals_to_start_;
+        samples.push_back(world_.snapshot());
     }
-    return moments;
+    return samples;
 }
 
 }  // namespace tumble

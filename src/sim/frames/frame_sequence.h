@@ -1,4 +1,4 @@
-// The simulation as a sequence of frames, each with its moments while the shutter is open.
+// The simulation as a sequence of frames, each with its samples while the shutter is open.
 #pragma once
 
 #include "sim/frames/clip_timing.h"
@@ -10,10 +10,10 @@ namespace tumble {
 
 class FrameSequence {
 public:
-    /// Precondition: the world is at time 0, and its frames are the parts of the shutter (see divided()).
+    /// Precondition: the world is at time 0, and its frames are the intervals of the shutter (see divided()).
     FrameSequence(World& world, Shutter shutter) : world_(world), shutter_(shutter) {}
 
-    /// The moments of the next frame in order; the first call: of frame 0. The frame is simulated only as far as its
+    /// The samples of the next frame in order; the first call: of frame 0. The frame is simulated only as far as its
     /// shutter is open.
     std::vector<Snapshot> next();
 
@@ -23,7 +23,7 @@ public:
 private:
     World& world_;
     Shutter shutter_;
-    int parts_to_start_ = 0;  // from the world's time to the start of the next frame
+    int intervals_to_start_ = 0;  // from the world's time to the start of the next frame
 };
 
 }  // namespace tumble
