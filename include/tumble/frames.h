@@ -17,13 +17,13 @@ struct ClipTiming {
     int blur_samples = 8;  // moments of a frame while the shutter is open, 2 to 64
 };
 
-/// Simulates the frames of a clip in order. Frame n shows the scene at the time n * speed / fps, and with a shutter also
-/// at later moments. The step is that of the scene where it divides the time between two moments; else it is the next
-/// shorter one that does. Not for several threads at once.
+/// Simulates the frames of a clip in order. Frame n shows the scene at the time n * speed / fps, and with a shutter
+/// also at later moments. The step is that of the scene where it divides the time between two moments; else it is the
+/// next shorter one that does. Not for several threads at once.
 class FrameSequence {
 public:
-    /// Makes a World of that many threads. Throws Error (input) with the field of the timing, or where the clip has more
-    /// than 10,000,000 frames.
+    /// Makes a World of that many threads. Throws Error (input) with the field of the timing, or where the clip has
+    /// more than 10,000,000 frames.
     explicit FrameSequence(const Scene& scene, const ClipTiming& timing = {}, int threads = 1);
     ~FrameSequence();
     FrameSequence(FrameSequence&&) noexcept;

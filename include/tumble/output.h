@@ -1,5 +1,5 @@
-// Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error (run)
-// with the path, unless a comment says otherwise.
+// Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error
+// (run) with the path, unless a comment says otherwise.
 #pragma once
 
 #include "image.h"
@@ -13,7 +13,8 @@
 
 TUMBLE_BEGIN
 
-/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`.
+/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`. Throws Error (input) where the pixels
+/// do not fit the size.
 void write_png(const std::string& file, const Image& image);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
@@ -49,8 +50,8 @@ struct ClipOptions {
     bool variable_rate = false;  // true: an image that stays is stored once and shown longer
 };
 
-/// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the format:
-/// .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
+/// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the
+/// format: .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
 class ClipWriter {
 public:
     /// Throws Error (input) for an unknown ending or a frame rate that the format cannot keep.
@@ -59,8 +60,11 @@ public:
     ClipWriter(ClipWriter&&) noexcept;
     ClipWriter& operator=(ClipWriter&&) noexcept;
 
-    /// The next frame; of the size of `output`.
+    /// The next frame. Throws Error (input) for an image of another size than that of `output`, Error (run) with
+    /// ffmpeg's message where it failed.
     void write(const Image& image);
+    /// Waits for ffmpeg and checks that the clip holds every frame. Throws Error (input) without a frame, Error (run)
+    /// where the clip is not whole.
     void finish();
 
 private:
@@ -71,11 +75,13 @@ private:
 /// The table of `tumble simulate --trajectory`: one row per frame and body that is not fixed.
 class TrajectoryTable {
 public:
+    /// Keeps the data of the scene alive.
     TrajectoryTable(const std::string& file, const Scene& scene);
     ~TrajectoryTable();
     TrajectoryTable(TrajectoryTable&&) noexcept;
     TrajectoryTable& operator=(TrajectoryTable&&) noexcept;
 
+    /// Throws Error (input) where the snapshot does not hold each body of the scene.
     void add(const Snapshot& snapshot);
     void finish();
 
@@ -92,7 +98,8 @@ public:
     EnergyTable(EnergyTable&&) noexcept;
     EnergyTable& operator=(EnergyTable&&) noexcept;
 
-    void add(std::int64_t frame, double time, const Energies& energies);  // s
+    /// The energies of a frame at that time in s.
+    void add(std::int64_t frame, double time, const Energies& energies);
     void finish();
 
 private:

@@ -1,6 +1,6 @@
-// A scene that is built in code: the tables of a scene file as plain structs. Fields have the names, defaults, units and
-// ranges of docs/reference/scene-format.md; a Scene made from a SceneSpec passes the same checks as a file.
-// SI units, world frame unless a comment says otherwise, y is up.
+// A scene that is built in code: the tables of a scene file as plain structs. Fields have the names, defaults, units
+// and ranges of docs/reference/scene-format.md; a Scene made from a SceneSpec passes the same checks as a file. SI
+// units, world frame unless a comment says otherwise, y is up.
 #pragma once
 
 #include "vector.h"

@@ -87,9 +87,9 @@ private:
 /// The same for images in memory. Throws InputError if the sizes differ.
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// The same for PNG files of any size: a few rows are in memory.
-/// Writes an image of the differences (see difference_row) where that file is named. Throws InputError where an image is
-/// missing or broken or the sizes differ, RunError where the difference cannot be written.
+/// The same for PNG files of any size: a few rows are in memory. Writes an image of the differences (see
+/// difference_row) where that file is named. Throws InputError where an image is missing or broken or the sizes differ,
+/// RunError where the difference cannot be written.
 Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
                              const CompareOptions& options, const std::filesystem::path& difference_file);
 

@@ -10,8 +10,8 @@
 
 namespace tumble {
 
-/// Content of one frame: its blur samples in order; a single one without motion blur. Samples that are not requested, or
-/// that equal those of the previous frame, are omitted.
+/// Content of one frame: its blur samples in order; a single one without motion blur. Samples that are not requested,
+/// or that equal those of the previous frame, are omitted.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
     std::vector<Snapshot> blur_samples;

@@ -44,8 +44,8 @@ class ReorderBuffer;
 
 class RenderPool {
 public:
-    /// Starts the processes. Precondition: the program has no other thread. `blur_samples`: largest number per frame. The
-    /// scene must outlive it. Throws RunError.
+    /// Starts the processes. Precondition: the program has no other thread. `blur_samples`: largest number per frame.
+    /// The scene must outlive it. Throws RunError.
     RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs, int workers,
                int max_blur_samples = 1);
     ~RenderPool();

@@ -43,8 +43,8 @@ public:
     RenderProcess(const RenderProcess&) = delete;
     RenderProcess& operator=(const RenderProcess&) = delete;
 
-    /// Draws one frame into the slot and waits for it: the image if it has blur samples, the AOVs if it has their poses.
-    /// Throws RunError naming the frame if drawing fails or the process has died.
+    /// Draws one frame into the slot and waits for it: the image if it has blur samples, the AOVs if it has their
+    /// poses. Throws RunError naming the frame if drawing fails or the process has died.
     DrawnFrame draw(const MotionBlurFrame& frame_poses, int slot);
 
     /// Ends the process at once, from any thread. A waiting draw() then fails.

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-/// Reads a text line by line and token by token. A backslash at the end continues a line in the next one, and # begins a
-/// comment.
+/// Reads a text line by line and token by token. A backslash at the end continues a line in the next one, and # begins
+/// a comment.
 class TextTokens {
 public:
     explicit TextTokens(std::string_view text) : text_(text) {}
