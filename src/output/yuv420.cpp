@@ -124,11 +124,11 @@ std::size_t yuv420_bytes(int width, int height) {
     return pixels + pixels / 2;
 }
 
-void convert_to_yuv420(const Image& image, const Rectangle& part, std::span<std::uint8_t> planes) {
+void convert_to_yuv420(const Image& image, const Rectangle& region, std::span<std::uint8_t> planes) {
     TUMBLE_CHECK_EQ(image.width % 2 + image.height % 2, 0);
     TUMBLE_CHECK_EQ(planes.size(), yuv420_bytes(image.width, image.height));
-    const int left = std::max(part.x, 0) & ~1, right = std::min(part.x + part.width + 1, image.width) & ~1;
-    const int top = std::max(part.y, 0) & ~1, bottom = std::min(part.y + part.height + 1, image.height) & ~1;
+    const int left = std::max(region.x, 0) & ~1, right = std::min(region.x + region.width + 1, image.width) & ~1;
+    const int top = std::max(region.y, 0) & ~1, bottom = std::min(region.y + region.height + 1, image.height) & ~1;
     const auto row = static_cast<std::size_t>(image.width);
     std::uint8_t* const cb = planes.data() + row * std::size_t(image.height);
     std::uint8_t* const cr = cb + row / 2 * std::size_t(image.height / 2);

@@ -39,7 +39,7 @@ struct ShapeText {
 };
 
 ShapeText shape_text(const Shape& shape) {
-    struct Tell {
+    struct ShapeVisitor {
         ShapeText operator()(const PlaneShape& s) const { return {"plane", fmt::format("offset {:.4g}", s.offset)}; }
         ShapeText operator()(const BoxShape& s) const {
             return {"box", fmt::format("{:.4g} x {:.4g} x {:.4g}", s.size.x(), s.size.y(), s.size.z())};
@@ -54,7 +54,7 @@ ShapeText shape_text(const Shape& shape) {
             return {"compound", fmt::format("{} parts", s.parts->size())};
         }
     };
-    return std::visit(Tell{}, shape);
+    return std::visit(ShapeVisitor{}, shape);
 }
 
 std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }

@@ -17,7 +17,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t page = 4096;            // bytes: parts with different writers are on separate pages
+constexpr std::size_t page = 4096;            // bytes: regions with different writers are on separate pages
 constexpr std::size_t numbers_of_sample = 4;  // time; x, y, z
 constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
 

@@ -41,10 +41,10 @@ public:
     void write_aov_poses(const AovPoses& poses);
     void read_aov_poses(AovPoses& poses) const;
 
-    std::span<std::byte> video(int slot) const { return part(slot, video_at_, video_size_); }
-    std::span<std::byte> png(int slot) const { return part(slot, png_at_, png_size_); }  // space for the largest file
+    std::span<std::byte> video(int slot) const { return region(slot, video_at_, video_size_); }
+    std::span<std::byte> png(int slot) const { return region(slot, png_at_, png_size_); }  // space for the largest file
     std::span<std::byte> aovs(int slot) const {
-        return part(slot, aovs_at_, aovs_size_);
+        return region(slot, aovs_at_, aovs_size_);
     }  // space for the largest file
 
     /// Stores the reason of a failure; a long one is cut.
@@ -52,7 +52,7 @@ public:
     std::string error_text() const;
 
 private:
-    std::span<std::byte> part(int slot, std::size_t at, std::size_t size) const {
+    std::span<std::byte> region(int slot, std::size_t at, std::size_t size) const {
         return {memory_ + slots_at_ + std::size_t(slot) * slot_size_ + at, size};
     }
 

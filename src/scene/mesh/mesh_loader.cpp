@@ -134,7 +134,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     TriangleMesh whole = compact(read.positions, triangles);
     LoadedMesh result{nullptr, closedness(whole)};
 
-    const auto turn = [&](std::size_t t) {
+    const auto flip = [&](std::size_t t) {
         std::swap(whole.triangles[t][1], whole.triangles[t][2]);
         std::swap(corners[t][1], corners[t][2]);
     };
@@ -142,12 +142,12 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         // Normals are not changed: those with the wrong direction are detected when drawn vertices are made.
         const std::vector<char> to_flip = triangles_to_flip(whole);
         for (std::size_t t = 0; t < corners.size(); ++t)
-            if (to_flip[t]) turn(t);
+            if (to_flip[t]) flip(t);
         result.closedness = closedness(whole);
     }
     if (result.closedness.closed() && result.closedness.signed_volume < 0.0) {
         for (std::size_t t = 0; t < corners.size(); ++t) {
-            turn(t);
+            flip(t);
             for (auto& corner : corners[t]) corner.normal = -corner.normal;
         }
         result.closedness.signed_volume = -result.closedness.signed_volume;

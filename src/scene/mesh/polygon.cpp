@@ -12,7 +12,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 /// Twice the signed area of a triangle, positive if it turns counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c) {
+double orientation(const Point& a, const Point& b, const Point& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -34,11 +34,11 @@ std::vector<Point> flattened(const std::vector<Vec3>& corners) {
 /// Convex with a true corner everywhere, so that every triangle of a fan has area.
 bool is_strictly_convex(const std::vector<Point>& p) {
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) <= 0.0) return false;
+        if (orientation(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) <= 0.0) return false;
     }
     // Left turns everywhere are not sufficient for a star that winds twice: a fan would fold over.
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-        if (turn(p[0], p[i], p[i + 1]) <= 0.0) return false;
+        if (orientation(p[0], p[i], p[i + 1]) <= 0.0) return false;
     }
     return true;
 }
@@ -80,8 +80,8 @@ public:
             for (std::size_t column = from; column <= to; ++column) {
                 for (const std::uint32_t i : cells_[row * side_ + column]) {
                     const Point& q = points_[i];
-                    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0 && i != corners[0] &&
-                        i != corners[1] && i != corners[2])
+                    if (orientation(a, b, q) >= 0.0 && orientation(b, c, q) >= 0.0 && orientation(c, a, q) >= 0.0 &&
+                        i != corners[0] && i != corners[1] && i != corners[2])
                         return i;
                 }
             }
@@ -183,7 +183,7 @@ private:
 
     bool is_ear(std::uint32_t corner) {
         const auto t = triangle(corner);
-        if (turn(points_[t[0]], points_[t[1]], points_[t[2]]) <= 0.0) return false;
+        if (orientation(points_[t[0]], points_[t[1]], points_[t[2]]) <= 0.0) return false;
         const auto inside = grid_.find_within(t);
         if (inside) waiting_[*inside].push_back(corner);
         return !inside;
