@@ -97,9 +97,10 @@ struct Cube {
     }
 };
 
+// The reader numbers the vertices by their first use, which is their order here.
 constexpr const char* cube_obj =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
-    "f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
+    "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 1 4 6\nf 1 6 5\nf 2 8 7\nf 2 7 3\nf 1 5 8\nf 1 8 2\nf 4 3 7\nf 4 7 6\n";
 
 TEST(Spec, AMeshFromMemoryMovesLikeTheOneOfAFile) {
     const TestFolder folder;
