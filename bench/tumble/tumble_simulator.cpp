@@ -10,11 +10,11 @@ Vector vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 std::shared_ptr<const MeshAsset> mesh_of(const Body& body) {
     auto asset = std::make_shared<MeshAsset>();
-    for (const Vector& corner : body.corners) asset->surface.vertices.push_back(vec(corner));
+    for (const Vector& corner : body.corners) asset->mesh.vertices.push_back(vec(corner));
     for (const auto& s : sides) {
         const auto corner = [&](int i) { return std::uint32_t(s[i]); };
-        asset->surface.triangles.push_back({corner(0), corner(1), corner(2)});
-        asset->surface.triangles.push_back({corner(0), corner(2), corner(3)});
+        asset->mesh.triangles.push_back({corner(0), corner(1), corner(2)});
+        asset->mesh.triangles.push_back({corner(0), corner(2), corner(3)});
     }
     return asset;
 }

@@ -24,15 +24,18 @@ struct AovFrame {
     std::vector<std::uint8_t> albedo;        // 3 per pixel: sRGB
 };
 
+/// Computes on the CPU at the scene's output size, from where the camera is at the snapshot's time.
 class AovRenderer {
 public:
+    /// Keeps the data of the scene alive. Throws std::bad_alloc only.
     AovRenderer(const Scene& scene, const AovSelection& selection);
     ~AovRenderer();
     AovRenderer(AovRenderer&&) noexcept;
     AovRenderer& operator=(AovRenderer&&) noexcept;
 
+    /// Throws Error (input) where the snapshot does not hold each body of the scene, or where motion is selected.
     AovFrame render(const Snapshot& snapshot);
-    /// With `motion` the snapshot of the next frame is needed.
+    /// With motion: `next` is the snapshot of the next frame. Throws Error (input) like the other one.
     AovFrame render(const Snapshot& snapshot, const Snapshot& next);
 
 private:

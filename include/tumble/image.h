@@ -14,7 +14,8 @@ struct Image {
     int width = 0, height = 0;         // pixels
     std::vector<std::uint8_t> pixels;  // width * height * 4
 
-    /// The four bytes of a pixel; column and row count from 0, the row from the top.
+    /// The four bytes of a pixel; column and row count from 0, the row from the top. Both must be
+    /// within the image.
     const std::uint8_t* at(int column, int row) const {
         return pixels.data() + 4 * (std::size_t(row) * std::size_t(width) + std::size_t(column));
     }

@@ -1,5 +1,5 @@
-// Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error (run)
-// with the path, unless a comment says otherwise.
+// Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error
+// (run) with the path, unless a comment says otherwise.
 #pragma once
 
 #include "image.h"
@@ -8,24 +8,40 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 TUMBLE_BEGIN
 
-/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`.
+/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`. Throws Error (input) where the pixels
+/// do not fit the size.
 void write_png(const std::string& file, const Image& image);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
 
-/// Whether two images are the same for the eye, by the default rules of `tumble compare`.
+/// The three rules of `tumble compare` for images that are the same for the eye.
+struct CompareOptions {
+    int tolerance = 3;           // levels of 255, 0 to 255: a smaller difference of a channel does not count
+    double fraction = 1e-4;      // of all pixels, 0 to 1: so many may differ by more
+    std::optional<int> cluster;  // pixels, 0 to 64, of any 8 x 8 that may differ by more; 4 + 64 fraction if not given
+    std::optional<double> window;  // levels, 0 to 255: mean difference of any 8 x 8; tolerance / 2 + 255 fraction
+};
+
 struct Comparison {
     bool alike = false;
     std::string reason;                 // the rules that do not hold, with figures; empty where alike
     std::int64_t differing_pixels = 0;  // any difference
-    int max_difference = 0;             // levels of 255
+    int max_difference = 0;             // levels of 255, largest over pixels and channels
+    int max_column = 0, max_row = 0;    // its pixel, from the top left; the first of equal ones, row by row
 };
-/// Throws Error (input) where the sizes differ.
-Comparison compare_images(const Image& a, const Image& b);
+/// Throws Error (input) where the sizes differ or an option is out of its range.
+Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
+
+/// The same for PNG files of any size: a few rows of each are in memory. Writes an image of the differences (red beyond
+/// the tolerance, blue within it) where that file is named. Throws Error (input) also where an image is missing or
+/// broken.
+Comparison compare_png_files(const std::string& a, const std::string& b, const CompareOptions& options = {},
+                             const std::string& difference = {});
 
 enum class ClipQuality { draft, normal, best };
 
@@ -34,8 +50,8 @@ struct ClipOptions {
     bool variable_rate = false;  // true: an image that stays is stored once and shown longer
 };
 
-/// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the format:
-/// .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
+/// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the
+/// format: .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
 class ClipWriter {
 public:
     /// Throws Error (input) for an unknown ending or a frame rate that the format cannot keep.
@@ -44,8 +60,11 @@ public:
     ClipWriter(ClipWriter&&) noexcept;
     ClipWriter& operator=(ClipWriter&&) noexcept;
 
-    /// The next frame; of the size of `output`.
+    /// The next frame. Throws Error (input) for an image of another size than that of `output`, Error (run) with
+    /// ffmpeg's message where it failed.
     void write(const Image& image);
+    /// Waits for ffmpeg and checks that the clip holds every frame. Throws Error (input) without a frame, Error (run)
+    /// where the clip is not whole.
     void finish();
 
 private:
@@ -56,11 +75,13 @@ private:
 /// The table of `tumble simulate --trajectory`: one row per frame and body that is not fixed.
 class TrajectoryTable {
 public:
+    /// Keeps the data of the scene alive.
     TrajectoryTable(const std::string& file, const Scene& scene);
     ~TrajectoryTable();
     TrajectoryTable(TrajectoryTable&&) noexcept;
     TrajectoryTable& operator=(TrajectoryTable&&) noexcept;
 
+    /// Throws Error (input) where the snapshot does not hold each body of the scene.
     void add(const Snapshot& snapshot);
     void finish();
 
@@ -77,7 +98,8 @@ public:
     EnergyTable(EnergyTable&&) noexcept;
     EnergyTable& operator=(EnergyTable&&) noexcept;
 
-    void add(std::int64_t frame, double time, const Energies& energies);  // s
+    /// The energies of a frame at that time in s.
+    void add(std::int64_t frame, double time, const Energies& energies);
     void finish();
 
 private:

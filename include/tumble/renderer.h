@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 TUMBLE_BEGIN
 
@@ -21,6 +22,8 @@ struct RenderOptions {
 /// may take turns in one thread. Each call leaves its own OpenGL context current.
 class Renderer {
 public:
+    /// Opens the driver and compiles the shaders. Keeps the data of the scene alive. Throws Error (run) where one of
+    /// both fails.
     explicit Renderer(const Scene& scene, const RenderOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;
@@ -28,10 +31,17 @@ public:
 
     /// Draws the poses at the scene's output size, from where the camera is at their time. The image belongs to the
     /// renderer and is valid until the next call: copy it to keep it. Only changes since the last call are drawn.
+    /// Throws Error (input) where the snapshot does not hold each body of the scene, Error (run) where the driver
+    /// fails.
     const Image& render(const Snapshot& snapshot);
 
-    /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so frame
-    /// n has the bytes of `tumble render` when each frame before it was rendered or skipped, in order.
+    /// The mean, in linear light, of the images at these moments: motion blur (see FrameSequence). At least one; each
+    /// counts as rendered. The image belongs to the renderer and is valid until the next call. Throws like render().
+    const Image& render_blurred(const std::vector<Snapshot>& moments);
+
+    /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so
+    /// frame n has the bytes of `tumble render` when each frame before it was rendered or skipped, in order. Throws
+    /// like render().
     void skip(const Snapshot& snapshot);
 
     /// The name and the version of the OpenGL driver.

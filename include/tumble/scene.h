@@ -13,7 +13,8 @@
 
 TUMBLE_BEGIN
 
-/// Values that replace those of a scene file, like the options of the command line. Each is checked like the file's own.
+/// Values that replace those of a scene file, like the options of the command line. Each is checked like the file's
+/// own.
 struct LoadOptions {
     std::optional<double> duration;  // s
     std::optional<double> fps;       // frames per second
@@ -43,10 +44,11 @@ public:
     /// Frame n shows the time n / fps; the last one is at or before the duration.
     std::int64_t frame_count() const;
 
-    /// Bodies in the order of the file, grids and scatters expanded.
+    /// Bodies in the order of the file, grids and scatters expanded. Throw Error (input) for an index of no body.
     std::size_t body_count() const;
     const std::string& body_name(std::size_t body) const;  // given, or the index
     BodyType body_type(std::size_t body) const;
+    /// The index of the body of that name; empty where there is none.
     std::optional<std::size_t> find_body(const std::string& name) const;
 
     /// The scene file and the mesh files that were read.
@@ -60,9 +62,9 @@ private:
     std::shared_ptr<const SceneData> data_;
 };
 
-/// Reads a scene file and its meshes. Throws Error (input) with file, line and column.
-/// Mesh files other than OBJ, STL, PLY and glTF can crash their importer. It runs in a child process, which is forked and
-/// ends before the function returns; without allow_import_process such a file is an error.
+/// Reads a scene file and its meshes. Throws Error (input) with file, line and column. Mesh files other than OBJ, STL,
+/// PLY and glTF can crash their importer. It runs in a child process, which is forked and ends before the function
+/// returns; without allow_import_process such a file is an error.
 Scene load_scene(const std::string& file, const LoadOptions& options = {});
 
 TUMBLE_END

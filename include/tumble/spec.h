@@ -1,12 +1,14 @@
-// A scene that is built in code: the tables of a scene file as plain structs. Fields have the names, defaults, units and
-// ranges of docs/reference/scene-format.md; a Scene made from a SceneSpec passes the same checks as a file.
-// SI units, world frame unless a comment says otherwise, y is up.
+// A scene that is built in code: the tables of a scene file as plain structs. Fields have the names, defaults, units
+// and ranges of docs/reference/scene-format.md; a Scene made from a SceneSpec passes the same checks as a file. SI
+// units, world frame unless a comment says otherwise, y is up.
 #pragma once
 
 #include "vector.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -92,6 +94,27 @@ struct Mesh {
     bool objects_are_parts = false;  // each object of the file is a part with a convex hull of its own
 };
 
+/// Indices of three vertices from 0, counterclockwise seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// A triangle mesh from memory, with the repairs and the normals of a mesh file. The arrays are copied once, and copies
+/// of the struct share them: bodies with one mesh take the memory of one. That of a dynamic body must be closed.
+struct TriangleMesh {
+    struct Arrays {
+        std::vector<Vec3> vertices;  // m at scale 1, body frame
+        std::vector<Triangle> triangles;
+    };
+
+    TriangleMesh() = default;  // no mesh: an error of the scene
+    TriangleMesh(Span<const Vec3> vertices, Span<const Triangle> triangles, double scaled_by = 1.0)
+        : arrays(std::make_shared<const Arrays>(
+              Arrays{{vertices.begin(), vertices.end()}, {triangles.begin(), triangles.end()}})),
+          scale(scaled_by) {}
+
+    std::shared_ptr<const Arrays> arrays;
+    double scale = 1.0;
+};
+
 struct CompoundPart;
 
 /// Several shapes that form one body.
@@ -99,7 +122,7 @@ struct Compound {
     std::vector<CompoundPart> parts;
 };
 
-using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound>;
+using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound, TriangleMesh>;
 
 struct CompoundPart {
     Shape shape;                    // not a plane
@@ -127,8 +150,31 @@ struct Keyframe {
     Rotation rotation;
 };
 
+/// Copies of a body in a regular grid, centered on its position in x and z and upward from it along y. The index of a
+/// copy runs along x first, then z, then y.
+struct Grid {
+    std::array<int, 3> count{1, 1, 1};  // along x, y, z
+    Vec3 spacing{1.0, 1.0, 1.0};        // m, between the origins of neighbors
+    Vec3 jitter;                        // m, largest random displacement of a copy, in both directions
+    double tilt = 0.0;                  // degrees, largest random rotation of a copy, about a random axis
+};
+
+/// Copies of a body at random places in a box around its position; their bounding spheres do not touch.
+struct Scatter {
+    int count = 1;
+    Vec3 size{1.0, 1.0, 1.0};     // m, of the box that contains the copies' origins
+    bool random_rotation = true;  // false: the body's rotation
+    double clearance = 0.0;       // m, between the bounding spheres
+};
+
+/// Random factors of the copies' sizes, both from 0.001 to 1000.
+struct ScaleRange {
+    double smallest = 1.0, largest = 1.0;
+};
+
+/// One body; or many, with a grid or a scatter. Dynamic and fixed bodies of finite size may have copies.
 struct Body {
-    std::string name;  // unique; the index as text where empty
+    std::string name;  // unique; the index as text where empty; of copies NAME.0, NAME.1 ...
     BodyType type = BodyType::dynamic;
     Shape shape;
     Material material;
@@ -141,6 +187,10 @@ struct Body {
     std::optional<Integrator> integrator;                 // in place of the simulation's
     std::vector<Keyframe> keyframes;                      // kinematic bodies
     Interpolation interpolation = Interpolation::smooth;  // between keyframes
+    std::optional<Grid> grid;                             // not together with a scatter
+    std::optional<Scatter> scatter;
+    std::optional<ScaleRange> scale;  // of the copies
+    std::vector<Color> colors;        // each copy takes one at random; empty: the material's
 };
 
 /// A force at a point of a dynamic body over a time span.
@@ -185,6 +235,7 @@ struct SceneSpec {
 };
 
 /// The text of a scene file that describes the same scene; relative mesh files start from the folder of that file.
+/// Throws Error (input) with the element of a TriangleMesh, which has no file, and for an enum without a name.
 std::string to_toml(const SceneSpec& spec);
 
 TUMBLE_END

@@ -3,6 +3,7 @@
 
 #include "aov.h"
 #include "error.h"
+#include "frames.h"
 #include "image.h"
 #include "output.h"
 #include "renderer.h"

@@ -18,7 +18,8 @@ struct BodyProperties {
 /// One simulation, at time 0 when made. Not for several threads at once; several worlds are independent of each other.
 class World {
 public:
-    /// The number of threads changes the time taken, never a byte of the result.
+    /// Builds the bodies: masses, inertia, convex hulls. The number of threads, 1 to 1024, changes the time taken,
+    /// never a byte of the result. Throws Error (input) for another number, and for a mesh that has no hull.
     explicit World(const Scene& scene, int threads = 1);
     ~World();
     World(World&&) noexcept;
@@ -29,9 +30,11 @@ public:
     void advance_step();
     void advance_frame();
 
+    /// The state of all bodies: at time 0 that of the scene.
     Snapshot snapshot() const;
     /// Finds the contacts of the present poses, which costs about as much as a step.
     Energies energies() const;
+    /// Of the body of that index in scene order. Throws Error (input) for an index of no body.
     BodyProperties properties(std::size_t body) const;
 
 private:

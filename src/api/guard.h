@@ -1,8 +1,11 @@
-// Errors of the layers below as the exception of the interface.
+// Errors of the layers below as the exception of the interface; checks of arguments.
 #pragma once
 
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "tumble/error.h"
+
+#include <fmt/format.h>
 
 #include <cfenv>
 #include <exception>
@@ -43,8 +46,14 @@ decltype(auto) guarded(const Work& work) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error(ErrorKind::run, {}, error.what());
+        throw Error(ErrorKind::run, {}, safe_lines(error.what()));
     }
+}
+
+inline void check_threads(int threads) {
+    constexpr int most = 1024;  // beyond any machine; an absurd number is an argument that is wrong
+    if (threads < 1 || threads > most)
+        throw InputError(fmt::format("threads must be from 1 to {} (given {})", most, threads));
 }
 
 }  // namespace tumble::v0

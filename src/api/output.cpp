@@ -23,6 +23,22 @@ tumble::ClipOptions to_internal(const ClipOptions& options) {
     return to;
 }
 
+tumble::CompareOptions to_internal(const CompareOptions& o) {
+    const auto check = [](const char* name, double value, double most) {
+        if (value >= 0.0 && value <= most) return;
+        throw InputError(fmt::format("{} must be from 0 to {:g} (given {:g})", name, most, value));
+    };
+    check("tolerance", o.tolerance, 255.0);
+    check("fraction", o.fraction, 1.0);
+    if (o.cluster) check("cluster", *o.cluster, 64.0);
+    if (o.window) check("window", *o.window, 255.0);
+    return {o.tolerance, o.fraction, o.cluster, o.window};
+}
+
+Comparison to_public(const tumble::Comparison& c) {
+    return {c.alike, c.reason, std::int64_t(c.differing_pixels), c.max_difference, c.max_x, c.max_y};
+}
+
 void check_settings(const OutputSettings& output) {
     if (output.width < 1 || output.height < 1)
         throw InputError(
@@ -42,11 +58,15 @@ Image read_png(const std::string& file) {
     return guarded([&] { return take(tumble::read_png(file)); });
 }
 
-Comparison compare_images(const Image& a, const Image& b) {
+Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options) {
     return guarded([&] {
-        const tumble::Comparison found = tumble::compare_images(v0::to_internal(a), v0::to_internal(b));
-        return Comparison{found.alike, found.reason, std::int64_t(found.differing_pixels), found.max_difference};
+        return to_public(tumble::compare_images(v0::to_internal(a), v0::to_internal(b), to_internal(options)));
     });
+}
+
+Comparison compare_png_files(const std::string& a, const std::string& b, const CompareOptions& options,
+                             const std::string& difference) {
+    return guarded([&] { return to_public(tumble::compare_png_files(a, b, to_internal(options), difference)); });
 }
 
 // -- ClipWriter

@@ -5,6 +5,7 @@
 #include "api/convert.h"
 #include "api/guard.h"
 #include "api/scene_data.h"
+#include "core/image_mean.h"
 #include "render/scene/pose_filter.h"
 
 namespace tumble::v0 {
@@ -27,6 +28,7 @@ struct Renderer::State {
     PoseFilter filter;
     tumble::Renderer renderer;
     Image image;  // as last drawn; empty after an error, so that the next one is drawn whole
+    Image blurred;
 };
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options) {
@@ -44,6 +46,19 @@ const Image& Renderer::render(const Snapshot& snapshot) {
         state_->renderer.render(drawn, image);
         state_->image = take(std::move(image));
         return state_->image;
+    });
+}
+
+const Image& Renderer::render_blurred(const std::vector<Snapshot>& moments) {
+    return guarded([&]() -> const Image& {
+        if (moments.empty()) throw InputError("a frame needs at least one moment");
+        if (moments.size() == 1) return render(moments.front());
+        ImageMean mean;
+        for (const Snapshot& moment : moments) mean.add(v0::to_internal(render(moment)));
+        tumble::Image blurred;
+        mean.take(blurred);
+        state_->blurred = take(std::move(blurred));
+        return state_->blurred;
     });
 }
 

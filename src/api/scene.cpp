@@ -1,5 +1,6 @@
 #include "tumble/scene.h"
 
+#include "api/convert.h"
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "api/spec_text.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 namespace tumble::v0 {
@@ -58,11 +60,34 @@ Error option_error(const LoadOptions& options, const std::string& message) {
     return Error(ErrorKind::input, {{}, 0, 0, field}, message.substr(end + 2));
 }
 
+MeshFile mesh_of(const TriangleMesh::Arrays* arrays) {
+    if (arrays == nullptr) throw MeshError("has no arrays");
+    MeshFile mesh;
+    mesh.check_more_positions(arrays->vertices.size());
+    mesh.positions.reserve(arrays->vertices.size());
+    for (const Vec3& vertex : arrays->vertices) mesh.add_position(to_internal(vertex));
+    if (arrays->triangles.empty()) throw MeshError("has no triangles");
+    for (std::size_t i = 0; i < arrays->triangles.size(); ++i) {
+        std::array<MeshFile::Corner, 3> corners;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const std::uint32_t vertex = arrays->triangles[i][corner];
+            if (vertex >= arrays->vertices.size())
+                throw MeshError(fmt::format("has a wrong triangle, {}: a vertex must be below {} (given {})", i,
+                                            arrays->vertices.size(), vertex));
+            corners[corner].position = vertex;
+        }
+        mesh.add_triangle(corners);
+    }
+    return mesh;
+}
+
 std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     FileList files;
     const fs::path file = fs::path(spec.folder) / "scene";  // the folder counts; no such file is opened
     try {
-        SceneDescription description = parse_scene(spec_text(spec), file, {}, &files, imports_of(spec));
+        const SpecText made = spec_text(spec);
+        const auto mesh = [&](std::size_t index) { return mesh_of(made.meshes.at(index).get()); };
+        SceneDescription description = parse_scene(made.text, file, {}, &files, imports_of(spec), mesh);
         files.erase(files.begin());
         return make_data(std::move(description), std::move(files));
     } catch (const InputError& error) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string_view>
+#include <unordered_map>
 
 namespace tumble::v0 {
 namespace {
@@ -75,11 +76,12 @@ public:
         for (std::size_t i = 0; i < spec.cords.size(); ++i) write(spec.cords[i], i);
     }
 
-    std::string text, element;
+    SpecText made;
+    std::string element;
 
 private:
     void line(std::string_view content, std::string_view prefix, std::string_view field) {
-        (text += content) += '\n';
+        (made.text += content) += '\n';
         if (++lines_ != wanted_) return;
         element = prefix;
         if (!prefix.empty() && !field.empty()) element += '.';
@@ -185,6 +187,13 @@ private:
         if (b.angular_velocity != Vec3{}) set("angular_velocity", b.angular_velocity);
         if (b.integrator) name("integrator", v0::name_of(*b.integrator));
         if (b.interpolation != Interpolation::smooth) name("interpolation", name_of(b.interpolation));
+        if (b.scale)
+            value("scale", "scale", fmt::format("[{}, {}]", text_of(b.scale->smallest), text_of(b.scale->largest)));
+        if (!b.colors.empty()) {
+            std::string colors;
+            for (const Color& color : b.colors) colors += (colors.empty() ? "" : ", ") + text_of(color);
+            value("colors", "colors", "[" + colors + "]");
+        }
         for (std::size_t k = 0; k < b.keyframes.size(); ++k) {
             header("[[body.keyframes]]", fmt::format("{}.keyframes[{}]", prefix, k));
             set("time", b.keyframes[k].time);
@@ -192,6 +201,24 @@ private:
             set("rotation", b.keyframes[k].rotation);
         }
         write(b.shape, "body.shape", prefix + ".shape");
+        if (b.grid) write(*b.grid, prefix + ".grid");
+        if (b.scatter) write(*b.scatter, prefix + ".scatter");
+    }
+
+    void write(const Grid& grid, const std::string& prefix) {
+        header("[body.grid]", prefix);
+        value("count", "count", fmt::format("[{}, {}, {}]", grid.count[0], grid.count[1], grid.count[2]));
+        set("spacing", grid.spacing);
+        set("jitter", grid.jitter);
+        set("tilt", grid.tilt);
+    }
+
+    void write(const Scatter& scatter, const std::string& prefix) {
+        header("[body.scatter]", prefix);
+        value("count", "count", std::to_string(scatter.count));
+        set("size", scatter.size);
+        value("rotation", "random_rotation", scatter.random_rotation ? "\"random\"" : "\"none\"");
+        set("clearance", scatter.clearance);
     }
 
     void write_pose(const Vec3& position, const Rotation& rotation) {
@@ -224,6 +251,12 @@ private:
         set("file", mesh.file);
         set("scale", mesh.scale);
         if (mesh.objects_are_parts) value("parts", "objects_are_parts", "\"objects\"");
+    }
+    void write_shape(const TriangleMesh& mesh, const std::string&, const std::string& prefix) {
+        shape_type("mesh");
+        value("memory", "arrays", std::to_string(index_of(mesh.arrays)));
+        set("scale", mesh.scale);
+        if (made.first_mesh.empty()) made.first_mesh = prefix;
     }
     void write_shape(const Compound& compound, const std::string& table, const std::string& prefix) {
         shape_type("compound");
@@ -258,8 +291,15 @@ private:
         set("color", c.color);
     }
 
+    std::size_t index_of(const std::shared_ptr<const TriangleMesh::Arrays>& arrays) {
+        const auto [entry, is_new] = index_of_mesh_.try_emplace(arrays.get(), made.meshes.size());
+        if (is_new) made.meshes.push_back(arrays);
+        return entry->second;
+    }
+
     int wanted_, lines_ = 0;
     std::string prefix_;
+    std::unordered_map<const TriangleMesh::Arrays*, std::size_t> index_of_mesh_;  // only looked up
 };
 
 }  // namespace
@@ -271,10 +311,10 @@ std::string name_of(Integrator integrator) {
 std::string name_of(ImpactMode mode) { return choice(mode, "ImpactMode", std::array{"stepped", "exact"}); }
 std::string name_of(ImpactLaw law) { return choice(law, "ImpactLaw", std::array{"propagating", "simultaneous"}); }
 
-std::string spec_text(const SceneSpec& spec) {
+SpecText spec_text(const SceneSpec& spec) {
     SpecWriter writer(0);
     writer.write(spec);
-    return std::move(writer.text);
+    return std::move(writer.made);
 }
 
 std::string element_of_line(const SceneSpec& spec, int line) {

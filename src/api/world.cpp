@@ -9,11 +9,6 @@
 #include <fmt/format.h>
 
 namespace tumble::v0 {
-namespace {
-
-constexpr int most_threads = 1024;  // beyond any machine; an absurd number is an argument that is wrong
-
-}  // namespace
 
 struct World::State {
     State(const SceneDescription& scene, int threads) : world(scene, threads), bodies(scene.bodies.size()) {}
@@ -24,8 +19,7 @@ struct World::State {
 
 World::World(const Scene& scene, int threads) {
     guarded([&] {
-        if (threads < 1 || threads > most_threads)
-            throw InputError(fmt::format("threads must be from 1 to {} (given {})", most_threads, threads));
+        check_threads(threads);
         state_ = std::make_unique<State>(scene.data().description, threads);
     });
 }

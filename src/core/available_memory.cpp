@@ -25,10 +25,10 @@ std::map<std::string, std::uint64_t> table_of(const fs::path& path) {
     std::map<std::string, std::uint64_t> table;
     std::ifstream text(path);
     for (std::string line; std::getline(text, line);) {
-        std::istringstream words(line);
+        std::istringstream fields(line);
         std::string name;
         std::uint64_t number = 0;
-        if (words >> name >> number) table[name] = number;
+        if (fields >> name >> number) table[name] = number;
     }
     return table;
 }

@@ -48,15 +48,15 @@ double atan_series(double x) {
 }
 
 // atan(k/4), and its rounding error.
-struct TwoParts {
+struct SplitDouble {
     double high, low;
 };
-constexpr TwoParts quarters_angle[] = {{0.0, 0.0},
-                                       {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                       {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                       {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                       {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
-constexpr TwoParts right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+constexpr SplitDouble quarters_angle[] = {{0.0, 0.0},
+                                          {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                          {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                          {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                          {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
+constexpr SplitDouble right_angle{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 }  // namespace
 
@@ -84,13 +84,13 @@ double arc_tangent(double x) {
         // atan(t) = atan(c) + atan((t - c)/(1 + c t)) with c the nearest quarter.
         const int k = static_cast<int>(4.0 * t + 0.5);
         const double c = 0.25 * k;
-        const TwoParts& at = quarters_angle[k];
+        const SplitDouble& at = quarters_angle[k];
         angle = at.high + (at.low + atan_series((t - c) / (1.0 + c * t)));
     } else if (t <= 0x1p+60) {
         // The same for 1/t: the angle is the complement.
         const int k = static_cast<int>(4.0 / t + 0.5);
         const double c = 0.25 * k;
-        const TwoParts& at = quarters_angle[k];
+        const SplitDouble& at = quarters_angle[k];
         angle = (right_angle.high - at.high) + ((right_angle.low - at.low) - atan_series((1.0 - c * t) / (t + c)));
     } else {
         angle = t > 0.0 ? right_angle.high : t;  // or NaN

@@ -9,11 +9,11 @@ namespace {
 
 // Messages contain user text that the thrower may not have made safe.
 std::string located(const SourceLocation& where, const std::string& message) {
-    const std::string words = safe_text(message, message_text_bytes);
-    if (where.file.empty()) return "error: " + words;
+    const std::string text = safe_text(message, message_text_bytes);
+    if (where.file.empty()) return "error: " + text;
     const std::string file = safe_path(where.file);
-    if (where.line == 0) return fmt::format("{}: error: {}", file, words);
-    return fmt::format("{}:{}:{}: error: {}", file, where.line, where.column, words);
+    if (where.line == 0) return fmt::format("{}: error: {}", file, text);
+    return fmt::format("{}:{}:{}: error: {}", file, where.line, where.column, text);
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 namespace tumble {
 namespace {
 
-struct Neighbour {
+struct Neighbor {
     std::uint32_t triangle = MeshComponents::none;
     bool alike = false;  // true if both use the edge in opposite directions, as consistently wound triangles do
 };
 
 /// Neighbors over each edge of each triangle.
-std::vector<std::array<Neighbour, 3>> neighbours_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+std::vector<std::array<Neighbor, 3>> neighbors_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
     struct Use {
         std::uint32_t low, high, triangle;
         int edge;
@@ -28,7 +28,7 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(const std::vector<std::array
     std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
         return std::tie(a.low, a.high, a.triangle, a.edge) < std::tie(b.low, b.high, b.triangle, b.edge);
     });
-    std::vector<std::array<Neighbour, 3>> result(triangles.size());
+    std::vector<std::array<Neighbor, 3>> result(triangles.size());
     for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
         while (end < uses.size() && uses[end].low == uses[first].low && uses[end].high == uses[first].high) ++end;
         if (end - first != 2) continue;
@@ -42,10 +42,10 @@ std::vector<std::array<Neighbour, 3>> neighbours_of(const std::vector<std::array
 }  // namespace
 
 MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    const auto neighbours = neighbours_of(triangles);
+    const auto neighbors = neighbors_of(triangles);
     MeshComponents result;
     result.sheet.assign(triangles.size(), MeshComponents::none);
-    result.turned.assign(triangles.size(), 0);
+    result.flipped.assign(triangles.size(), 0);
     result.rim.assign(triangles.size(), 0);
     std::vector<char> found(triangles.size(), 0);
     std::vector<std::uint32_t> members;
@@ -56,18 +56,18 @@ MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& tria
         bool two_sided = true;
         for (std::size_t k = 0; k < members.size(); ++k) {
             const std::uint32_t t = members[k];
-            for (const Neighbour& n : neighbours[t]) {
+            for (const Neighbor& n : neighbors[t]) {
                 if (n.triangle == MeshComponents::none) {
                     result.rim[t] = 1;
                     continue;
                 }
-                const char turned = char(result.turned[t] ^ char(!n.alike));
+                const char flipped = char(result.flipped[t] ^ char(!n.alike));
                 if (found[n.triangle]) {
-                    two_sided = two_sided && result.turned[n.triangle] == turned;
+                    two_sided = two_sided && result.flipped[n.triangle] == flipped;
                     continue;
                 }
                 found[n.triangle] = 1;
-                result.turned[n.triangle] = turned;
+                result.flipped[n.triangle] = flipped;
                 members.push_back(n.triangle);
             }
         }
@@ -75,7 +75,7 @@ MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& tria
             if (two_sided)
                 result.sheet[t] = first;
             else
-                result.turned[t] = 0;
+                result.flipped[t] = 0;
         }
     }
     return result;

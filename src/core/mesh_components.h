@@ -12,8 +12,8 @@ struct MeshComponents {
     static constexpr std::uint32_t none = ~std::uint32_t(0);
     // index of the first triangle of each triangle's component; none: the component is one-sided (Moebius)
     std::vector<std::uint32_t> sheet;
-    std::vector<char> turned;  // true if wound opposite to the first triangle
-    std::vector<char> rim;     // true if an edge of its component is a border
+    std::vector<char> flipped;  // true if wound opposite to the first triangle
+    std::vector<char> rim;      // true if an edge of its component is a border
 };
 
 MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles);

@@ -2,6 +2,6 @@
 
 namespace tumble {
 
-Quat turn_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
+Quat rotation_between(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
 
 }  // namespace tumble

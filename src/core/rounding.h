@@ -7,7 +7,7 @@
 namespace tumble {
 
 /// The integer within a few roundings of x, else x. Precondition: x >= 0.
-inline double whole_where_meant(double x) {
+inline double rounded_if_nearly_whole(double x) {
     constexpr double rounding = 1e-12;  // relative; about 4500 units in the last place
     const double nearest = std::nearbyint(x);
     return std::fabs(x - nearest) <= rounding * std::max(1.0, x) ? nearest : x;

@@ -71,7 +71,7 @@ std::string escaped(char32_t code) {
     return code > 0xffff ? fmt::format("\\U{:08x}", number) : fmt::format("\\u{:04x}", number);
 }
 
-std::string made_safe(std::string_view text, std::size_t longest, bool lines) {
+std::string escaped(std::string_view text, std::size_t longest, bool lines) {
     std::string safe;
     std::size_t room_for_end = 0;  // bytes of `safe` that fit together with the note about the cut
     const std::string end = fmt::format("... ({} bytes)", text.size());
@@ -95,9 +95,9 @@ std::string made_safe(std::string_view text, std::size_t longest, bool lines) {
 
 }  // namespace
 
-std::string safe_text(std::string_view text, std::size_t longest) { return made_safe(text, longest, false); }
+std::string safe_text(std::string_view text, std::size_t longest) { return escaped(text, longest, false); }
 
-std::string safe_lines(std::string_view text, std::size_t longest) { return made_safe(text, longest, true); }
+std::string safe_lines(std::string_view text, std::size_t longest) { return escaped(text, longest, true); }
 
 std::string safe_path(const std::filesystem::path& path) { return safe_text(path.native(), path_text_bytes); }
 

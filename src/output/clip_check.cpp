@@ -128,13 +128,13 @@ public:
         if (file_.number(0, 4) != ebml) throw Fault{"it is of another kind"};
         std::int64_t blocks = 0;
         std::string kind;
-        while (place_ < file_.size()) {
+        while (position_ < file_.size()) {
             const std::uint64_t element = variable_number(true), size = variable_number(false);
             if (element == block_group || element == simple_block) ++blocks;
             if (element == ebml || element == segment || element == cluster) continue;  // its content comes next
-            if (size > file_.size() - place_) throw Fault{"the file ends too early"};
-            if (element == doc_type) kind = file_.text(place_, std::min<std::uint64_t>(size, 16));
-            place_ += size;
+            if (size > file_.size() - position_) throw Fault{"the file ends too early"};
+            if (element == doc_type) kind = file_.text(position_, std::min<std::uint64_t>(size, 16));
+            position_ += size;
         }
         if (kind.substr(0, kind.find('\0')) != kind_) throw Fault{"it is of another kind"};
         return blocks;
@@ -144,19 +144,19 @@ private:
     /// The number of leading zeros gives the number of further bytes. The first one bit is part of an id, and only a
     /// marker in a length.
     std::uint64_t variable_number(bool with_mark) {
-        const std::uint8_t first = file_.at(place_);
+        const std::uint8_t first = file_.at(position_);
         int bytes = 1;
         while (bytes <= 8 && (first & (0x80 >> (bytes - 1))) == 0) ++bytes;
         if (bytes > 8) throw Fault{"it is of another kind"};
-        std::uint64_t value = file_.number(place_, bytes);
+        std::uint64_t value = file_.number(position_, bytes);
         if (!with_mark) value &= ~(std::uint64_t(1) << (7 * bytes));
-        place_ += static_cast<std::uint64_t>(bytes);
+        position_ += static_cast<std::uint64_t>(bytes);
         return value;
     }
 
     FileBytes& file_;
     std::string_view kind_;
-    std::uint64_t place_ = 0;
+    std::uint64_t position_ = 0;
 };
 
 /// GIF (version 89a). Counts the images.
@@ -167,38 +167,38 @@ public:
     std::int64_t frames() {
         constexpr int extension = 0x21, image = 0x2c, trailer = 0x3b;
         if (file_.text(0, 6) != "GIF89a") throw Fault{"it is of another kind"};
-        place_ = 6 + 4;  // after the size of the screen
+        position_ = 6 + 4;  // after the size of the screen
         skip_colors(2);
         for (std::int64_t images = 0;;) {
-            switch (file_.at(place_++)) {
+            switch (file_.at(position_++)) {
                 case trailer:
                     return images;
                 case extension:
-                    ++place_;
+                    ++position_;
                     break;
                 case image:
                     ++images;
-                    place_ += 8;
+                    position_ += 8;
                     skip_colors(0);
-                    ++place_;
+                    ++position_;
                     break;
                 default:
                     throw Fault{"it is broken"};
             }
-            while (const std::uint8_t block = file_.at(place_++)) place_ += block;
+            while (const std::uint8_t block = file_.at(position_++)) position_ += block;
         }
     }
 
 private:
     /// Skips `more` bytes after the flags of a color table, and the table, if there is one.
     void skip_colors(std::uint64_t more) {
-        const std::uint8_t flags = file_.at(place_);
-        place_ += 1 + more;
-        if ((flags & 0x80) != 0) place_ += std::uint64_t(3) << ((flags & 7) + 1);
+        const std::uint8_t flags = file_.at(position_);
+        position_ += 1 + more;
+        if ((flags & 0x80) != 0) position_ += std::uint64_t(3) << ((flags & 7) + 1);
     }
 
     FileBytes& file_;
-    std::uint64_t place_ = 0;
+    std::uint64_t position_ = 0;
 };
 
 std::int64_t frames_of(FileBytes& file, const std::string& container) {

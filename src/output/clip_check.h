@@ -1,4 +1,4 @@
-// Checks that a clip written by the ffmpeg program is complete, by its structure: pictures are not decoded.
+// Checks that a clip written by the ffmpeg program is complete, by its structure: images are not decoded.
 #pragma once
 
 #include "output/video_format.h"

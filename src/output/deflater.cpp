@@ -39,35 +39,35 @@ Deflater::Deflater() : stream_(std::make_unique<Stream>()) {}
 
 Deflater::~Deflater() = default;
 
-/// Makes a Huffman code from samples of the parts.
-void Deflater::make_code(std::initializer_list<std::span<const std::byte>> parts) {
+/// Makes a Huffman code from samples of the segments.
+void Deflater::make_code(std::initializer_list<std::span<const std::byte>> segments) {
     stream_->histogram = {};
-    for (const std::span<const std::byte> part : parts)
-        for (std::size_t at = 0; at < part.size(); at += sample_distance) {
-            const auto sample = part.subspan(at, std::min(sample_bytes, part.size() - at));
+    for (const std::span<const std::byte> segment : segments)
+        for (std::size_t at = 0; at < segment.size(); at += sample_distance) {
+            const auto sample = segment.subspan(at, std::min(sample_bytes, segment.size() - at));
             isal_update_histogram(input(sample), static_cast<int>(sample.size()), &stream_->histogram);
         }
     const int result = isal_create_hufftables(&stream_->code, &stream_->histogram);
     TUMBLE_CHECK_EQ(result, 0);
 }
 
-std::size_t Deflater::compress(std::initializer_list<std::span<const std::byte>> parts, End end,
+std::size_t Deflater::compress(std::initializer_list<std::span<const std::byte>> segments, End end,
                                std::span<std::byte> room) {
     isal_zstream& stream = stream_->stream;
     isal_deflate_init(&stream);
     stream.level = compression_level;
-    make_code(parts);
+    make_code(segments);
     isal_deflate_set_hufftables(&stream, &stream_->code, IGZIP_HUFFTABLE_CUSTOM);
     stream.gzip_flag = IGZIP_DEFLATE;
     stream.next_out = reinterpret_cast<std::uint8_t*>(room.data());
     stream.avail_out = static_cast<std::uint32_t>(room.size());
-    std::size_t left = parts.size();
-    for (const std::span<const std::byte> part : parts) {
+    std::size_t left = segments.size();
+    for (const std::span<const std::byte> segment : segments) {
         const bool last = --left == 0;
         stream.flush = last && end == End::whole_byte ? FULL_FLUSH : NO_FLUSH;
         stream.end_of_stream = last && end == End::last ? 1 : 0;
-        stream.next_in = input(part);
-        stream.avail_in = static_cast<std::uint32_t>(part.size());
+        stream.next_in = input(segment);
+        stream.avail_in = static_cast<std::uint32_t>(segment.size());
         const int result = isal_deflate(&stream);
         TUMBLE_CHECK_EQ(result, COMP_OK);
         TUMBLE_CHECK_EQ(stream.avail_in, 0u);

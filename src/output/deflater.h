@@ -17,9 +17,10 @@ public:
     Deflater();
     ~Deflater();
 
-    /// Compresses the concatenated parts into `room`, whose size must be at least bound() of their total. Returns the
+    /// Compresses the concatenated segments into `room`, whose size must be at least bound() of their total. Returns the
     /// number of bytes.
-    std::size_t compress(std::initializer_list<std::span<const std::byte>> parts, End end, std::span<std::byte> room);
+    std::size_t compress(std::initializer_list<std::span<const std::byte>> segments, End end,
+                         std::span<std::byte> room);
 
     /// A code has at most 15 bits per byte (RFC 1951, 3.2.7), and bytes that are rare in the sample may get such codes;
     /// headers are added.
@@ -27,7 +28,7 @@ public:
 
 private:
     struct Stream;
-    void make_code(std::initializer_list<std::span<const std::byte>> parts);
+    void make_code(std::initializer_list<std::span<const std::byte>> segments);
 
     std::unique_ptr<Stream> stream_;
 };

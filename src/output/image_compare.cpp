@@ -2,6 +2,8 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "output/png_reader.h"
+#include "output/png_writer.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +44,7 @@ std::array<CompareRule, 3> rules(const Comparison& c, std::size_t pixels, const 
     // them.
     const double cluster = options.cluster ? *options.cluster : cluster_limit + window * window * options.fraction;
     const double mean = options.window ? *options.window : 0.5 * options.tolerance + 255.0 * options.fraction;
-    // Rounded up, so that one pixel of a small picture may be noise.
+    // Rounded up, so that one pixel of a small image may be noise.
     const double count = std::ceil(options.fraction * double(pixels));
     return {{{"pixels", double(c.failing_pixels), count, c.max_x, c.max_y},
              {"cluster", double(c.worst_cluster), std::floor(cluster), c.worst_cluster_x, c.worst_cluster_y},
@@ -79,7 +81,7 @@ ImageComparer::ImageComparer(int width, int height, const CompareOptions& option
     : width_(width),
       height_(height),
       options_(options),
-      lefts_(window_starts(width)),
+      columns_(window_starts(width)),
       differences_(std::size_t(width) * window),
       sums_(std::size_t(width)),
       failing_(std::size_t(width)) {}
@@ -106,11 +108,11 @@ void ImageComparer::add_row(std::span<const std::uint8_t> a, std::span<const std
     ++row_;
     const int top = std::max(0, row_ - window);
     const bool full = row_ >= window || row_ == height_;
-    if (full && is_window_start(top, height_) && last_difference_ >= top) look_through_windows(top, row_);
+    if (full && is_window_start(top, height_) && last_difference_ >= top) check_windows(top, row_);
 }
 
 /// Evaluates the windows between two rows: sums of differences, and failing pixels.
-void ImageComparer::look_through_windows(int top, int bottom) {
+void ImageComparer::check_windows(int top, int bottom) {
     std::fill(sums_.begin(), sums_.end(), 0);
     std::fill(failing_.begin(), failing_.end(), 0);
     for (int y = top; y < bottom; ++y) {
@@ -120,14 +122,14 @@ void ImageComparer::look_through_windows(int top, int bottom) {
             failing_[x] += row[x] > options_.tolerance ? 1 : 0;
         }
     }
-    for (const int left : lefts_) {
+    for (const int left : columns_) {
         const int right = std::min(left + window, width_);
         int sum = 0, failing = 0;
         for (int x = left; x < right; ++x) {
             sum += sums_[std::size_t(x)];
             failing += failing_[std::size_t(x)];
         }
-        // A picture smaller than a window is one window, with the same weight for each pixel.
+        // A image smaller than a window is one window, with the same weight for each pixel.
         const double mean = double(sum) / (window * window);
         if (failing > found_.worst_cluster) {
             found_.worst_cluster = failing;
@@ -167,11 +169,11 @@ void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_
                     std::span<std::uint8_t> to) {
     for (std::size_t i = 0; i < to.size(); i += 4) {
         const int d = pixel_difference(&a[i], &b[i]);
-        const int grey = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
-        const int shown = d == 0 ? grey : std::min(255, 96 + 8 * d);  // the smallest difference is visible
-        to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : grey);
-        to[i + 1] = static_cast<std::uint8_t>(grey);
-        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : grey);
+        const int gray = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
+        const int shown = d == 0 ? gray : std::min(255, 96 + 8 * d);  // the smallest difference is visible
+        to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : gray);
+        to[i + 1] = static_cast<std::uint8_t>(gray);
+        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : gray);
         to[i + 3] = 255;
     }
 }
@@ -183,6 +185,29 @@ Image difference_image(const Image& a, const Image& b, const CompareOptions& opt
     for (int y = 0; y < a.height; ++y)
         difference_row({a.at(0, y), bytes}, {b.at(0, y), bytes}, options.tolerance, {image.at(0, y), bytes});
     return image;
+}
+
+Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareOptions& options, const std::filesystem::path& difference_file) {
+    PngRows rows_a(a), rows_b(b);
+    const ImageSize size = rows_a.size();
+    check_sizes(size.width, size.height, rows_b.size().width, rows_b.size().height);
+    ImageComparer comparer(size.width, size.height, options);
+    std::optional<PngRowWriter> difference;
+    std::vector<std::uint8_t> row;
+    if (!difference_file.empty()) {
+        difference.emplace(difference_file, size.width, size.height);
+        row.resize(4 * std::size_t(size.width));
+    }
+    for (int y = 0; y < size.height; ++y) {
+        const auto row_a = rows_a.next(), row_b = rows_b.next();
+        comparer.add_row(row_a, row_b);
+        if (!difference) continue;
+        difference_row(row_a, row_b, options.tolerance, row);
+        difference->add_row(row);
+    }
+    if (difference) difference->finish();
+    return comparer.result();
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// Compares two pictures as a viewer would. Renderings of one scene differ slightly between processors (a few pixels on
+// Compares two images as a viewer would. Renderings of one scene differ slightly between processors (a few pixels on
 // edges, by a few dozen levels), which must pass. A small object moved by one pixel, a lost shadow or a shifted color
 // must fail. All of three rules must hold:
 //
@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,7 +59,7 @@ struct Comparison {
     int worst_cluster_x = 0, worst_cluster_y = 0;  // its top left pixel
 };
 
-/// Compares two pictures of one size from top to bottom, with the differences of the last eight rows in memory.
+/// Compares two images of one size from top to bottom, with the differences of the last eight rows in memory.
 class ImageComparer {
 public:
     ImageComparer(int width, int height, const CompareOptions& options);
@@ -70,28 +71,34 @@ public:
     Comparison result() const;
 
 private:
-    void look_through_windows(int top, int bottom);
+    void check_windows(int top, int bottom);
     std::span<const std::uint8_t> differences(int row) const;
 
     int width_, height_;
     CompareOptions options_;
     int row_ = 0;                            // index of the next row
-    std::vector<int> lefts_;                 // starts of windows
+    std::vector<int> columns_;               // starts of windows
     std::vector<std::uint8_t> differences_;  // levels, of the last eight rows, as a ring
     std::vector<int> sums_, failing_;  // over the columns of a row of windows: levels, pixels beyond the tolerance
     int last_difference_ = -1;         // row
     Comparison found_;
 };
 
-/// The same for pictures in memory. Throws InputError if the sizes differ.
+/// The same for images in memory. Throws InputError if the sizes differ.
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// A row of the first picture dimmed to gray, with differences in red (beyond the tolerance) and blue (within it,
+/// The same for PNG files of any size: a few rows are in memory. Writes an image of the differences (see
+/// difference_row) where that file is named. Throws InputError where an image is missing or broken or the sizes differ,
+/// RunError where the difference cannot be written.
+Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareOptions& options, const std::filesystem::path& difference_file);
+
+/// A row of the first image dimmed to gray, with differences in red (beyond the tolerance) and blue (within it,
 /// magnified).
 void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance,
                     std::span<std::uint8_t> to);
 
-/// The same for pictures in memory.
+/// The same for images in memory.
 Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});
 
 /// Throws InputError if the sizes differ.

@@ -75,7 +75,7 @@ std::int64_t nanoseconds(std::int64_t n, const FrameRate& rate) {
 
 }  // namespace
 
-Bytes matroska_head(PixelForm form, int width, int height, const FrameRate& rate) {
+Bytes matroska_head(PixelFormat form, int width, int height, const FrameRate& rate) {
     Bytes type, about, picture, track, entries, head;
     append(type, doc_type, "matroska");
     append_number(type, doc_type_version, 4);
@@ -87,7 +87,7 @@ Bytes matroska_head(PixelForm form, int width, int height, const FrameRate& rate
 
     append_number(picture, pixel_width, static_cast<std::uint64_t>(width));
     append_number(picture, pixel_height, static_cast<std::uint64_t>(height));
-    append(picture, uncompressed_four_cc, form == PixelForm::yuv420 ? "I420" : "RGBA");
+    append(picture, uncompressed_four_cc, form == PixelFormat::yuv420 ? "I420" : "RGBA");
 
     append_number(track, track_number, 1);
     append_number(track, track_uid, 1);

@@ -1,5 +1,5 @@
-// Raw pictures with time stamps, as a Matroska stream (RFC 9559) for ffmpeg's standard input. Unlike rawvideo and
-// yuv4mpeg it has time stamps, so that an unchanged picture is sent once and shown longer.
+// Raw images with time stamps, as a Matroska stream (RFC 9559) for ffmpeg's standard input. Unlike rawvideo and
+// yuv4mpeg it has time stamps, so that an unchanged image is sent once and shown longer.
 #pragma once
 
 #include "output/video_format.h"
@@ -11,7 +11,7 @@
 namespace tumble {
 
 /// The stream up to the first frame. `width` and `height`: pixels of the frames.
-std::vector<std::byte> matroska_head(PixelForm form, int width, int height, const FrameRate& rate);
+std::vector<std::byte> matroska_head(PixelFormat form, int width, int height, const FrameRate& rate);
 
 /// Header of the frame that is shown from n / rate on, before its pixels, which take `bytes`.
 std::vector<std::byte> matroska_frame_head(std::int64_t n, const FrameRate& rate, std::size_t bytes);

@@ -24,16 +24,16 @@ constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, the first date o
 std::string npy_head(const std::string& kind, const ArrayShape& shape) {
     std::string dimensions;
     for (const std::size_t length : shape) dimensions += fmt::format("{}, ", length);
-    std::string words = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", kind, dimensions);
+    std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", kind, dimensions);
     const std::size_t before = 10;  // magic, version and length
-    while ((before + words.size() + 1) % npy_alignment != 0) words += ' ';
-    words += '\n';
+    while ((before + header.size() + 1) % npy_alignment != 0) header += ' ';
+    header += '\n';
     std::string head = "\x93NUMPY";
     head += '\x01';
     head += '\0';
-    head += char(words.size() & 0xff);
-    head += char(words.size() >> 8);
-    return head + words;
+    head += char(header.size() & 0xff);
+    head += char(header.size() >> 8);
+    return head + header;
 }
 
 /// A sequence of little-endian numbers.

@@ -36,13 +36,13 @@ void keep_error(png_structp png, png_const_charp message) {
 void ignore_warning(png_structp, png_const_charp) {}
 
 // libpng has many messages for a lack of memory.
-void* take_memory(png_structp png, png_alloc_size_t size) {
+void* allocate(png_structp png, png_alloc_size_t size) {
     void* const memory = std::malloc(size);
     if (memory == nullptr) static_cast<Failure*>(png_get_mem_ptr(png))->out_of_memory = true;
     return memory;
 }
 
-void give_back_memory(png_structp, void* memory) { std::free(memory); }
+void release(png_structp, void* memory) { std::free(memory); }
 
 OpenFile opened(const fs::path& path) {
     const SourceLocation at{path.string(), 0, 0};
@@ -65,8 +65,8 @@ struct PngRows::File {
     int width = 0, height = 0, passes = 1;
 
     File(OpenFile opened_file, const std::string& its_name) : file(std::move(opened_file)), name(its_name) {
-        png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, keep_error, ignore_warning, &failure,
-                                       take_memory, give_back_memory);
+        png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &failure, keep_error, ignore_warning, &failure, allocate,
+                                       release);
         info = png != nullptr ? png_create_info_struct(png) : nullptr;
         if (info == nullptr) failure.out_of_memory = true;
     }
@@ -96,7 +96,7 @@ struct PngRows::File {
     }
 
     /// Like libpng's simplified reader: 16-bit files are sRGB like the 8-bit ones, unless they contain another gamma.
-    bool choose_form() {
+    bool choose_pixel_format() {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_set_expand(png);
         png_set_gray_to_rgb(png);
@@ -119,16 +119,16 @@ PngRows::PngRows(const fs::path& path) : PngRows(opened(path), path.string()) {}
 
 PngRows::PngRows(OpenFile file, const std::string& name) : file_(std::make_unique<File>(std::move(file), name)) {
     if (!file_->read_head()) file_->fail();
-    if (std::int64_t(file_->width) * file_->height > max_picture_pixels)
+    if (std::int64_t(file_->width) * file_->height > max_image_pixels)
         throw InputError(file_->at(), fmt::format("the picture is too large ({} x {}; at most {} pixels)", file_->width,
-                                                  file_->height, max_picture_pixels));
-    if (!file_->choose_form()) file_->fail();
+                                                  file_->height, max_image_pixels));
+    if (!file_->choose_pixel_format()) file_->fail();
     TUMBLE_CHECK_EQ(png_get_rowbytes(file_->png, file_->info), 4 * std::size_t(file_->width));
 }
 
 PngRows::~PngRows() = default;
 
-PictureSize PngRows::size() const { return {file_->width, file_->height}; }
+ImageSize PngRows::size() const { return {file_->width, file_->height}; }
 
 bool PngRows::interlaced() const { return file_->passes > 1; }
 
@@ -169,6 +169,6 @@ Image PngRows::all() {
 
 Image read_png(const fs::path& path) { return PngRows(path).all(); }
 
-PictureSize read_png_size(const fs::path& path) { return PngRows(path).size(); }
+ImageSize read_png_size(const fs::path& path) { return PngRows(path).size(); }
 
 }  // namespace tumble

@@ -13,21 +13,21 @@
 
 namespace tumble {
 
-struct PictureSize {
+struct ImageSize {
     int width = 0, height = 0;  // pixels
-    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+    friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
-/// Largest number of pixels of a picture: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
-inline constexpr std::int64_t max_picture_pixels = std::int64_t(1) << 28;
+/// Largest number of pixels of a image: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
+inline constexpr std::int64_t max_image_pixels = std::int64_t(1) << 28;
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A picture from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file
-/// has none). Memory: two rows, or the whole picture for an interlaced file.
+/// A image from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file
+/// has none). Memory: two rows, or the whole image for an interlaced file.
 class PngRows {
 public:
     /// Reads the header. Throws InputError naming the file if it is missing, not a PNG file, broken or too large.
@@ -38,11 +38,11 @@ public:
     PngRows(const PngRows&) = delete;
     PngRows& operator=(const PngRows&) = delete;
 
-    PictureSize size() const;
+    ImageSize size() const;
     bool interlaced() const;
 
     /// The next row, four bytes per pixel, valid until the next call. Precondition: rows are left. Throws InputError if
-    /// the file is broken or cut short, RunError if there is no memory for an interlaced picture.
+    /// the file is broken or cut short, RunError if there is no memory for an interlaced image.
     std::span<const std::uint8_t> next();
 
     /// All rows; an alternative to next().
@@ -62,6 +62,6 @@ private:
 Image read_png(const std::filesystem::path& path);
 
 /// The size, from the header.
-PictureSize read_png_size(const std::filesystem::path& path);
+ImageSize read_png_size(const std::filesystem::path& path);
 
 }  // namespace tumble

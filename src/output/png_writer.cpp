@@ -95,14 +95,14 @@ void append_number(std::vector<std::byte>& to, std::uint32_t number) {
 
 /// Appends a chunk with its checksum, ten times as fast as libpng.
 void append_chunk(std::vector<std::byte>& to, std::string_view name,
-                  std::span<const std::span<const std::uint8_t>> parts) {
+                  std::span<const std::span<const std::uint8_t>> segments) {
     std::size_t size = 0;
-    for (const auto& part : parts) size += part.size();
+    for (const auto& segment : segments) size += segment.size();
     append_number(to, static_cast<std::uint32_t>(size));
     const std::size_t first = to.size();
     for (const char c : name) to.push_back(std::byte(c));
-    for (const auto& part : parts) {
-        const auto bytes = std::as_bytes(part);
+    for (const auto& segment : segments) {
+        const auto bytes = std::as_bytes(segment);
         to.insert(to.end(), bytes.begin(), bytes.end());
     }
     append_number(to, crc32_gzip_refl(0, reinterpret_cast<const std::uint8_t*>(to.data() + first), to.size() - first));
@@ -170,7 +170,7 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
     bands_.resize(std::size_t(band_count(height_)));
 
     std::uint32_t checksum = 1;
-    std::vector<std::span<const std::uint8_t>> parts{zlib_head};
+    std::vector<std::span<const std::uint8_t>> segments{zlib_head};
     for (std::size_t i = 0; i < bands_.size(); ++i) {
         const int first = int(i) * rows_of_band, rows = std::min(rows_of_band, height_ - first);
         const auto touches = [&](const Rectangle& r) { return r.y < first + rows && r.y + r.height > first; };
@@ -178,15 +178,15 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
         const std::size_t bytes = row_bytes(width_) * std::size_t(rows);
         checksum =
             static_cast<std::uint32_t>(adler32_combine(checksum, bands_[i].checksum, static_cast<z_off_t>(bytes)));
-        parts.emplace_back(bands_[i].compressed);
+        segments.emplace_back(bands_[i].compressed);
     }
     const std::array<std::uint8_t, 4> end = big_end_first(checksum);
-    parts.emplace_back(last_block);
-    parts.emplace_back(end);
+    segments.emplace_back(last_block);
+    segments.emplace_back(end);
 
     if (all) make_head();
     file_.assign(head_.begin(), head_.end());
-    append_chunk(file_, "IDAT", parts);
+    append_chunk(file_, "IDAT", segments);
     append_chunk(file_, "IEND", {});
     return file_;
 }
@@ -199,7 +199,7 @@ void PngEncoder::make_head() {
     const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
     png_destroy_write_struct(&png, &info);
     if (done) return;
-    const int width = std::exchange(width_, 0);  // the next picture is a first one
+    const int width = std::exchange(width_, 0);  // the next image is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);
 }
 
@@ -235,20 +235,20 @@ void PngRowWriter::write_band() {
     const std::size_t bytes = row_bytes(band_.width) * std::size_t(rows);
     checksum_ =
         static_cast<std::uint32_t>(adler32_combine(checksum_, compressed_.checksum, static_cast<z_off_t>(bytes)));
-    std::vector<std::span<const std::uint8_t>> parts;
-    if (first) parts.emplace_back(zlib_head);
-    parts.emplace_back(compressed_.compressed);
+    std::vector<std::span<const std::uint8_t>> segments;
+    if (first) segments.emplace_back(zlib_head);
+    segments.emplace_back(compressed_.compressed);
     chunk_.clear();
-    append_chunk(chunk_, "IDAT", parts);
+    append_chunk(chunk_, "IDAT", segments);
     file_.write(chunk_);
 }
 
 void PngRowWriter::finish() {
     TUMBLE_CHECK_EQ(rows_, height_);
     const std::array<std::uint8_t, 4> end = big_end_first(checksum_);
-    const std::span<const std::uint8_t> parts[] = {last_block, end};
+    const std::span<const std::uint8_t> segments[] = {last_block, end};
     chunk_.clear();
-    append_chunk(chunk_, "IDAT", parts);
+    append_chunk(chunk_, "IDAT", segments);
     append_chunk(chunk_, "IEND", {});
     file_.write(chunk_);
     file_.commit();

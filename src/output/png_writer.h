@@ -19,8 +19,8 @@ namespace tumble {
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
-    /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous picture; a
-    /// first picture, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the picture
+    /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous image; a
+    /// first image, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the image
     /// is empty or memory runs out.
     std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
     std::span<const std::byte> encode(const Image& image);
@@ -35,7 +35,7 @@ private:
     void make_head();
 
     Deflater deflater_;
-    int width_ = 0, height_ = 0;  // of the previous picture
+    int width_ = 0, height_ = 0;  // of the previous image
     std::vector<Band> bands_;
     std::vector<std::uint8_t> rows_;  // of one band, filtered
     std::vector<std::byte> head_, file_;
@@ -44,7 +44,7 @@ private:
 /// Upper bound of the size of a PNG file, bytes.
 std::size_t png_bytes_bound(int width, int height);
 
-/// Writes a PNG file of a picture that arrives row by row, with only one band in memory.
+/// Writes a PNG file of a image that arrives row by row, with only one band in memory.
 class PngRowWriter {
 public:
     /// Throws RunError naming the path.

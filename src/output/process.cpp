@@ -34,12 +34,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // A program that stopped reading before its input ended has failed: time limit for its error message and its end.
-constexpr std::chrono::seconds last_words_time{1};
-constexpr std::size_t kept_words = 4096;      // bytes of a program's last output to standard error
-constexpr std::size_t pipe_bytes = 1 << 20;   // the largest pipe that a user may request: fewer waits per frame
-constexpr std::size_t kept_output = 1 << 16;  // bytes of a program's standard output
+constexpr std::chrono::seconds last_message_time{1};
+constexpr std::size_t kept_error_bytes = 4096;  // bytes of a program's last output to standard error
+constexpr std::size_t pipe_bytes = 1 << 20;     // the largest pipe that a user may request: fewer waits per frame
+constexpr std::size_t kept_output = 1 << 16;    // bytes of a program's standard output
 // ms between checks for the end of a program whose pipes are silent, because other processes may hold those open.
-constexpr int look_every = 20;
+constexpr int poll_period = 20;
 
 /// Both ends of a pipe, closed by the destructor unless taken.
 struct Pipe {
@@ -88,10 +88,10 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments, 
     posix_spawnattr_setpgroup(&how, 0);
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
 
-    std::vector<std::string> words{program.string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<std::string> command{program.string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
+    for (std::string& argument : command) argv.push_back(argument.data());
     argv.push_back(nullptr);
 
     pid_t id = -1;
@@ -129,10 +129,10 @@ private:
 
 /// Reads the available data of a pipe, without waiting. False: no writer is left, and all data was read.
 bool read_waiting(int pipe, std::string& text) {
-    pollfd place{pipe, POLLIN, 0};
-    if (::poll(&place, 1, 0) <= 0) return true;
+    pollfd polled{pipe, POLLIN, 0};
+    if (::poll(&polled, 1, 0) <= 0) return true;
     int waiting = 0;
-    if (::ioctl(pipe, FIONREAD, &waiting) != 0 || waiting == 0) return (place.revents & POLLIN) != 0;
+    if (::ioctl(pipe, FIONREAD, &waiting) != 0 || waiting == 0) return (polled.revents & POLLIN) != 0;
     std::array<char, 4096> part;
     while (waiting > 0) {
         const ssize_t n = ::read(pipe, part.data(), std::min(part.size(), static_cast<std::size_t>(waiting)));
@@ -166,7 +166,7 @@ bool ends_within(pid_t id, std::chrono::milliseconds limit) {
     using std::chrono::microseconds;
     const auto end = std::chrono::steady_clock::now() + limit;
     for (microseconds nap(100); !has_ended(id);
-         nap = std::min<microseconds>(2 * nap, std::chrono::milliseconds(look_every))) {
+         nap = std::min<microseconds>(2 * nap, std::chrono::milliseconds(poll_period))) {
         if (std::chrono::steady_clock::now() >= end) return false;
         std::this_thread::sleep_for(nap);
     }
@@ -204,12 +204,12 @@ std::string ProcessEnd::describe() const {
 }
 
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments, std::optional<int> output) {
-    Pipe input, words;
+    Pipe input, errors;
     ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));  // refused beyond the user's limit; the pipe then stays small
     ::fcntl(input.write, F_SETFL, O_NONBLOCK);  // this end only, so that waiting for the program also notices its end
-    id_ = start(program, arguments, input.read, output.value_or(-1), words.write);
+    id_ = start(program, arguments, input.read, output.value_or(-1), errors.write);
     input_ = input.take_write();
-    words_pipe_ = words.take_read();
+    error_pipe_ = errors.take_read();
 }
 
 Process::~Process() {
@@ -218,19 +218,19 @@ Process::~Process() {
     finish();
 }
 
-void Process::read_words() {
-    if (words_pipe_ < 0) return;
-    if (!read_waiting(words_pipe_, words_)) ::close(std::exchange(words_pipe_, -1));
-    if (words_.size() > 2 * kept_words) words_.erase(0, words_.size() - kept_words);
+void Process::read_error_text() {
+    if (error_pipe_ < 0) return;
+    if (!read_waiting(error_pipe_, error_text_)) ::close(std::exchange(error_pipe_, -1));
+    if (error_text_.size() > 2 * kept_error_bytes) error_text_.erase(0, error_text_.size() - kept_error_bytes);
 }
 
 bool Process::wait_for_room() {
     for (;;) {
         // A full pipe of messages would block the program.
-        std::array<pollfd, 2> places{{{input_, POLLOUT, 0}, {words_pipe_, POLLIN, 0}}};
-        if (::poll(places.data(), places.size(), look_every) < 0) continue;  // a signal: the result is invalid
-        if (places[1].revents != 0) read_words();
-        if (places[0].revents != 0) return true;
+        std::array<pollfd, 2> polled{{{input_, POLLOUT, 0}, {error_pipe_, POLLIN, 0}}};
+        if (::poll(polled.data(), polled.size(), poll_period) < 0) continue;  // a signal: the result is invalid
+        if (polled[1].revents != 0) read_error_text();
+        if (polled[0].revents != 0) return true;
         if (has_ended(id_)) return false;  // a process that it started holds its input open
     }
 }
@@ -271,21 +271,21 @@ bool Process::lend(std::shared_ptr<const std::byte> memory, std::size_t size) {
 
 ProcessEnd Process::finish() {
     ::close(std::exchange(input_, -1));
-    const auto patience = std::chrono::steady_clock::now() + last_words_time;
+    const auto deadline = std::chrono::steady_clock::now() + last_message_time;
     // Do not wait for its standard error to close, because a process that it started may hold that open.
-    while ((words_pipe_ >= 0 || reads_no_more_) && !has_ended(id_)) {
-        pollfd place{words_pipe_, POLLIN, 0};  // without a pipe the poll only waits
-        ::poll(&place, 1, look_every);
-        read_words();
-        if (reads_no_more_ && std::chrono::steady_clock::now() > patience) kill();
+    while ((error_pipe_ >= 0 || reads_no_more_) && !has_ended(id_)) {
+        pollfd polled{error_pipe_, POLLIN, 0};  // without a pipe the poll only waits
+        ::poll(&polled, 1, poll_period);
+        read_error_text();
+        if (reads_no_more_ && std::chrono::steady_clock::now() > deadline) kill();
     }
     is_ended(id_, 0);
-    read_words();  // its last message is still in the pipe
-    if (words_pipe_ >= 0) ::close(std::exchange(words_pipe_, -1));
+    read_error_text();  // its last message is still in the pipe
+    if (error_pipe_ >= 0) ::close(std::exchange(error_pipe_, -1));
     const std::lock_guard lock(id_mutex_);
     ProcessEnd end = wait_for_process(std::exchange(id_, -1));
-    while (!words_.empty() && (words_.back() == '\n' || words_.back() == '\r')) words_.pop_back();
-    end.words = std::move(words_);
+    while (!error_text_.empty() && (error_text_.back() == '\n' || error_text_.back() == '\r')) error_text_.pop_back();
+    end.error_text = std::move(error_text_);
     return end;
 }
 
@@ -298,8 +298,8 @@ ProgramOutput listen_to(pid_t id, int pipe, const std::function<bool()>& stop) {
     ProgramOutput output;
     bool open = true;
     while (!has_ended(id)) {
-        pollfd place{open ? pipe : -1, POLLIN, 0};
-        ::poll(&place, 1, look_every);
+        pollfd polled{open ? pipe : -1, POLLIN, 0};
+        ::poll(&polled, 1, poll_period);
         open = open && read_waiting(pipe, output.text);
         output.text.resize(std::min(output.text.size(), kept_output));
         if (!stop()) continue;

@@ -26,7 +26,7 @@ struct ProcessEnd {
     int signal = 0;
     double cpu_seconds = 0.0;      // user and system
     std::int64_t peak_memory = 0;  // bytes
-    std::string words;             // last part of its standard error, without trailing newlines
+    std::string error_text;        // last part of its standard error, without trailing newlines
     bool ok() const { return exit_code == 0; }
     std::string describe() const;  // "exit code 1", "ended by signal 9 (Killed)"
 };
@@ -67,7 +67,7 @@ public:
     void kill();
 
 private:
-    void read_words();
+    void read_error_text();
     bool wait_for_room();  // in its input; false: it has ended
 
     pid_t id_ = -1;
@@ -76,8 +76,8 @@ private:
     int input_ = -1;
     std::shared_ptr<const std::byte> lent_;  // may be in the pipe
     bool reads_no_more_ = false;             // it stopped before its input ended
-    int words_pipe_ = -1;                    // -1: closed, after all data was read
-    std::string words_;
+    int error_pipe_ = -1;                    // -1: closed, after all data was read
+    std::string error_text_;
 };
 
 /// Output and end of a child.

@@ -33,7 +33,7 @@ void stop_if_interrupted() {
     if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
 }
 
-constexpr int interrupt_look_every = 20;  // ms between checks for an interrupt while waiting for a reader
+constexpr int interrupt_poll_period = 20;  // ms between checks for an interrupt while waiting for a reader
 
 /// Waits for a reader, like open(). The descriptor does not block.
 int open_pipe(const fs::path& path) {
@@ -41,7 +41,7 @@ int open_pipe(const fs::path& path) {
         const int file = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         if (file >= 0 || (errno != ENXIO && errno != EINTR)) return file;
         stop_if_interrupted();
-        std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_look_every));
+        std::this_thread::sleep_for(std::chrono::milliseconds(interrupt_poll_period));
     }
 }
 
@@ -57,7 +57,7 @@ int copy_of_descriptor(int descriptor) {
 
 void wait_until_read(int pipe) {
     pollfd place{pipe, POLLOUT, 0};
-    if (::poll(&place, 1, interrupt_look_every) <= 0) stop_if_interrupted();
+    if (::poll(&place, 1, interrupt_poll_period) <= 0) stop_if_interrupted();
 }
 
 }  // namespace

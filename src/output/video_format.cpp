@@ -18,11 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr std::int64_t largest_part = 1'000'000;  // ffmpeg reads rates with parts up to 1,001,000
-constexpr double slowest = 0.001;                 // frames/s: players do not support longer frames, GIF at most 655 s
-constexpr double fastest = 1e6;                   // frames/s: the scene format's own limit
-constexpr double fastest_matroska = 1000.0;       // its time stamps are whole milliseconds
-constexpr double fastest_gif = 50.0;              // its delays are whole 1/100 s, and players treat 1 as 10
+constexpr std::int64_t max_term = 1'000'000;  // ffmpeg reads rates with terms up to 1,001,000
+constexpr double slowest = 0.001;             // frames/s: players do not support longer frames, GIF at most 655 s
+constexpr double fastest = 1e6;               // frames/s: the scene format's own limit
+constexpr double fastest_matroska = 1000.0;   // its time stamps are whole milliseconds
+constexpr double fastest_gif = 50.0;          // its delays are whole 1/100 s, and players treat 1 as 10
 
 void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -34,7 +34,7 @@ std::string file_argument(const fs::path& path) {
 /// Without -xerror, ffmpeg 5.1 ends with exit code 0 if the disk was full at the end of the clip.
 Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
 
-/// The continued fraction of x, cut off before a part grows beyond `limit`.
+/// The continued fraction of x, cut off before a term grows beyond `limit`.
 FrameRate best_fraction(double x, std::int64_t limit) {
     std::int64_t n0 = 0, d0 = 1, n1 = 1, d1 = 0;
     double rest = x;
@@ -63,13 +63,13 @@ std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, den
 
 FrameRate to_frame_rate(double fps) {
     // Below 1 the first term would be 0; the reciprocal has the same digits.
-    if (fps >= 1.0) return best_fraction(fps, largest_part);
-    const FrameRate upside_down = best_fraction(1.0 / fps, largest_part);
+    if (fps >= 1.0) return best_fraction(fps, max_term);
+    const FrameRate upside_down = best_fraction(1.0 / fps, max_term);
     return {upside_down.denominator, upside_down.numerator};
 }
 
-std::size_t frame_bytes(PixelForm form, int width, int height) {
-    if (form == PixelForm::yuv420) return yuv420_bytes(width + width % 2, height + height % 2);
+std::size_t frame_bytes(PixelFormat form, int width, int height) {
+    if (form == PixelFormat::yuv420) return yuv420_bytes(width + width % 2, height + height % 2);
     return 4 * std::size_t(width) * std::size_t(height);
 }
 
@@ -90,7 +90,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
         limit = fastest_matroska;
     } else if (ending == ".gif") {
         format.kind = VideoKind::gif;
-        format.pixels = PixelForm::rgba;
+        format.pixels = PixelFormat::rgba;
     } else
         throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
                                          "(the ending was '{}')",
@@ -113,7 +113,7 @@ VideoFormat video_format(const fs::path& clip, double fps) {
 Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
-    if (format.pixels == PixelForm::yuv420)
+    if (format.pixels == PixelFormat::yuv420)
         // Matches yuv420.h; without the tags players would show other colors.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});

@@ -27,15 +27,15 @@ FrameRate to_frame_rate(double fps);
 enum class VideoKind { h264, vp9, gif };
 
 /// Form in which ffmpeg receives the frames.
-enum class PixelForm {
+enum class PixelFormat {
     yuv420,  // planes, see yuv420.h; an odd last column or row is duplicated
     rgba,    // R, G, B and a byte of 255, row by row from the top
 };
 
-/// Size of one frame of a picture of this size.
-std::size_t frame_bytes(PixelForm form, int width, int height);
+/// Size of one frame of a image of this size.
+std::size_t frame_bytes(PixelFormat form, int width, int height);
 
-/// Storage of a picture that stays unchanged.
+/// Storage of a image that stays unchanged.
 enum class FrameTimes {
     longer_frames,  // once, shown longer (for a second at most): costs little
     constant_rate,  // repeated for every frame
@@ -59,7 +59,7 @@ struct VideoFormat {
         "matroska";      // in ffmpeg's terms, because a link may lead to a name with another ending or none
     FrameRate rate;      // of the clip
     int frame_step = 1;  // 1, or more to drop frames if the format cannot hold all of them
-    PixelForm pixels = PixelForm::yuv420;
+    PixelFormat pixels = PixelFormat::yuv420;
 };
 
 /// Throws InputError if the ending is unknown, or the format cannot hold this frame rate.

@@ -8,9 +8,9 @@
 
 namespace tumble {
 
-VideoPixels::VideoPixels(PixelForm form, int width, int height)
-    : form_(form), width_(width), height_(height), bytes_(frame_bytes(form, width, height)) {
-    if (form == PixelForm::yuv420 && (width % 2 != 0 || height % 2 != 0))
+VideoPixels::VideoPixels(PixelFormat form, int width, int height)
+    : format_(form), width_(width), height_(height), bytes_(frame_bytes(form, width, height)) {
+    if (form == PixelFormat::yuv420 && (width % 2 != 0 || height % 2 != 0))
         padded_ = Image(width + width % 2, height + height % 2);
 }
 
@@ -18,7 +18,7 @@ void VideoPixels::update(const Image& image, std::span<const Rectangle> changed)
     TUMBLE_CHECK_EQ(image.width, width_);
     TUMBLE_CHECK_EQ(image.height, height_);
     if (changed.empty()) return;
-    if (form_ == PixelForm::rgba) {
+    if (format_ == PixelFormat::rgba) {
         for (const Rectangle& r : changed)
             for (int y = r.y; y < r.y + r.height; ++y)
                 std::memcpy(bytes_.data() + (image.at(r.x, y) - image.pixels.data()), image.at(r.x, y),

@@ -15,7 +15,7 @@ namespace tumble {
 class VideoPixels {
 public:
     /// `width`, `height`: of the images; for 4:2:0 an odd last column or row is duplicated.
-    VideoPixels(PixelForm form, int width, int height);
+    VideoPixels(PixelFormat form, int width, int height);
 
     /// Converts the regions of the image that may differ from the previous one; in the first call that must be all of
     /// it.
@@ -26,7 +26,7 @@ public:
 private:
     const Image& padded(const Image& image);
 
-    PixelForm form_;
+    PixelFormat format_;
     int width_, height_;
     Image padded_;  // empty if the size is even
     std::vector<std::uint8_t> bytes_;

@@ -45,16 +45,16 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
     if (lossless_)
         encoder_.emplace(program_, encoding_arguments(format_, options, lossless_->path()));
     else
-        encoder_.emplace(program_, with_report(encoding_arguments(format_, options, argument_of_clip())),
+        encoder_.emplace(program_, with_report(encoding_arguments(format_, options, output_argument())),
                          file_.descriptor());
-    const bool even = format_.pixels == PixelForm::yuv420;
+    const bool even = format_.pixels == PixelFormat::yuv420;
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
 }
 
-void VideoWriter::write(const Image& picture) {
-    const Rectangle whole{0, 0, picture.width, picture.height};
-    pixels_.update(picture, {&whole, 1});
+void VideoWriter::write(const Image& image) {
+    const Rectangle whole{0, 0, image.width, image.height};
+    pixels_.update(image, {&whole, 1});
     const std::span<const std::byte> bytes = pixels_.bytes();
     const auto copy = std::make_shared<std::vector<std::byte>>(bytes.begin(), bytes.end());
     write(std::shared_ptr<const std::byte>(copy, copy->data()));
@@ -109,7 +109,7 @@ void VideoWriter::convert_to_gif() {
     {
         const std::lock_guard lock(abandon_mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was abandoned", safe_path(clip_)));
-        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), argument_of_clip())),
+        gif_maker_.emplace(program_, with_report(gif_arguments(lossless_->path(), output_argument())),
                            file_.descriptor());
     }
     const ProcessEnd end = gif_maker_->finish();
@@ -119,7 +119,7 @@ void VideoWriter::convert_to_gif() {
     lossless_.reset();
 }
 
-fs::path VideoWriter::argument_of_clip() const {
+fs::path VideoWriter::output_argument() const {
     return file_.descriptor() ? fs::path(clip_to_standard_output) : file_.path();
 }
 
@@ -153,7 +153,7 @@ void VideoWriter::fail(const ProcessEnd& end) const { fail(end, fmt::format("fai
 
 void VideoWriter::fail(const ProcessEnd& end, const std::string& how) const {
     throw RunError(fmt::format("cannot write '{}': {} {}{}{}", safe_path(clip_), safe_path(program_), how,
-                               end.words.empty() ? "" : ":\n", end.words));
+                               end.error_text.empty() ? "" : ":\n", end.error_text));
 }
 
 }  // namespace tumble

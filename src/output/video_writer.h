@@ -1,7 +1,7 @@
 // A clip, encoded by the ffmpeg program while later frames are drawn: each frame goes through a pipe when it is
 // finished.
 //
-// An unchanged picture is sent once: its time stamp defines how long it is shown (FrameTimes). It is repeated once per
+// An unchanged image is sent once: its time stamp defines how long it is shown (FrameTimes). It is repeated once per
 // second, so that players can seek, and at the end of the clip.
 #pragma once
 
@@ -31,12 +31,12 @@ std::filesystem::path find_ffmpeg();
 /// except for abandon().
 class VideoWriter {
 public:
-    /// Starts ffmpeg, for pictures of this size. Throws InputError for an invalid ending or rate (see video_format()),
+    /// Starts ffmpeg, for images of this size. Throws InputError for an invalid ending or rate (see video_format()),
     /// RunError if ffmpeg is missing or the folder cannot be written.
     VideoWriter(const std::filesystem::path& clip, int width, int height, double fps, const ClipOptions& options = {});
 
-    /// The next frame, as a picture. Throws RunError with ffmpeg's message if it died.
-    void write(const Image& picture);
+    /// The next frame, as a image. Throws RunError with ffmpeg's message if it died.
+    void write(const Image& image);
     /// The next frame, as the bytes of a VideoPixels; held until the frame after it.
     void write(std::shared_ptr<const std::byte> pixels);
     /// The next frame equals the previous one.
@@ -65,18 +65,18 @@ private:
     void send(std::int64_t frame);
     void send(std::span<const std::byte> bytes);
     void convert_to_gif();
-    std::filesystem::path argument_of_clip() const;  // argument for ffmpeg
+    std::filesystem::path output_argument() const;  // argument for ffmpeg
 
     std::filesystem::path clip_;
     VideoFormat format_;
-    VideoPixels pixels_;  // of frames that arrive as pictures
+    VideoPixels pixels_;  // of frames that arrive as images
     std::filesystem::path program_;
     TemporaryFile file_;
     std::optional<PartFile> lossless_;         // a GIF's first stage
     std::optional<EncoderReport> report_;      // of a clip that is written in place
     std::shared_ptr<const std::byte> latest_;  // the frame written last,
     std::shared_ptr<const std::byte> shown_;  // and the one sent last (of a GIF, fewer are sent); null before the first
-    std::int64_t longest_;                    // largest number of frames for which one picture is shown
+    std::int64_t longest_;                    // largest number of frames for which one image is shown
     std::int64_t frames_ = 0, frames_in_clip_ = 0, sent_ = 0;
     std::int64_t last_sent_ = -1;  // its number in the clip
     double encoder_seconds_ = 0.0;

@@ -72,7 +72,7 @@ __m128i repeated(const Weights& w) {
 }
 
 /// Sums of adjacent pixels: of (p0, p1) and (p2, p3), (p0 + p1, p2 + p3).
-__m128i add_neighbours(__m128i first, __m128i second) {
+__m128i add_neighbors(__m128i first, __m128i second) {
     return _mm_add_epi16(_mm_unpacklo_epi64(first, second), _mm_unpackhi_epi64(first, second));
 }
 
@@ -96,8 +96,8 @@ void convert_eight(const RowPair& rows, int x) {
         _mm_storel_epi64(reinterpret_cast<__m128i*>((top ? rows.y_top : rows.y_bottom) + x),
                          _mm_packus_epi16(words, words));
     }
-    const __m128i first = add_neighbours(column_sums[0], column_sums[1]);
-    const __m128i second = add_neighbours(column_sums[2], column_sums[3]);
+    const __m128i first = add_neighbors(column_sums[0], column_sums[1]);
+    const __m128i second = add_neighbors(column_sums[2], column_sums[3]);
     const auto store_four = [](std::uint8_t* to, __m128i values) {
         const __m128i words = _mm_packs_epi32(values, values);
         const int bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
@@ -124,11 +124,11 @@ std::size_t yuv420_bytes(int width, int height) {
     return pixels + pixels / 2;
 }
 
-void convert_to_yuv420(const Image& image, const Rectangle& part, std::span<std::uint8_t> planes) {
+void convert_to_yuv420(const Image& image, const Rectangle& region, std::span<std::uint8_t> planes) {
     TUMBLE_CHECK_EQ(image.width % 2 + image.height % 2, 0);
     TUMBLE_CHECK_EQ(planes.size(), yuv420_bytes(image.width, image.height));
-    const int left = std::max(part.x, 0) & ~1, right = std::min(part.x + part.width + 1, image.width) & ~1;
-    const int top = std::max(part.y, 0) & ~1, bottom = std::min(part.y + part.height + 1, image.height) & ~1;
+    const int left = std::max(region.x, 0) & ~1, right = std::min(region.x + region.width + 1, image.width) & ~1;
+    const int top = std::max(region.y, 0) & ~1, bottom = std::min(region.y + region.height + 1, image.height) & ~1;
     const auto row = static_cast<std::size_t>(image.width);
     std::uint8_t* const cb = planes.data() + row * std::size_t(image.height);
     std::uint8_t* const cr = cb + row / 2 * std::size_t(image.height / 2);

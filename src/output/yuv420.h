@@ -22,6 +22,6 @@ namespace tumble {
 std::size_t yuv420_bytes(int width, int height);
 
 /// Converts the region, enlarged to whole squares; the rest of the planes is unchanged. Precondition: the size is even.
-void convert_to_yuv420(const Image& image, const Rectangle& part, std::span<std::uint8_t> planes);
+void convert_to_yuv420(const Image& image, const Rectangle& region, std::span<std::uint8_t> planes);
 
 }  // namespace tumble

@@ -63,7 +63,7 @@ double window_cell_for(const SceneDescription& scene, const RenderScene& looks) 
 RenderScene make_render_scene(const SceneDescription& scene) {
     RenderScene looks = describe_bodies(scene);
     for (RenderMesh& mesh : looks.meshes) {
-        mesh.occluders = make_mesh_occluders(mesh.asset->surface);
+        mesh.occluders = make_mesh_occluders(mesh.asset->mesh);
         set_mesh_probes(mesh);
     }
     looks.window_cell = window_cell_for(scene, looks);

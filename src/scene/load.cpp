@@ -4,8 +4,7 @@
 #include "scene/keys/bodies.h"
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/materials.h"
-#include "scene/keys/run_settings.h"
-#include "scene/keys/view_settings.h"
+#include "scene/keys/settings.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/set_values.h"
@@ -51,7 +50,8 @@ std::string read_text(const std::filesystem::path& file) {
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
-                             const SceneOverrides& overrides, FileList* read, MeshImports imports) {
+                             const SceneOverrides& overrides, FileList* read, MeshImports imports,
+                             MeshSupplier supplied) {
     toml::table document = parse_toml(text, file.string());
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
@@ -65,7 +65,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_run_settings(root, overrides, scene.simulation, scene.output);
     scene.light = read_light(root);
     scene.wind = read_wind(root);
-    MeshCache meshes(imports);
+    MeshCache meshes(imports, std::move(supplied));
     scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation, meshes);
     if (read != nullptr) {
         read->push_back(file);

@@ -3,7 +3,7 @@
 
 #include "scene/description/description.h"
 #include "scene/keys/overrides.h"
-#include "scene/mesh/mesh_file.h"
+#include "scene/mesh/mesh_loader.h"
 
 #include <filesystem>
 #include <string>
@@ -18,9 +18,10 @@ using FileList = std::vector<std::filesystem::path>;
 SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {},
                             FileList* read = nullptr, MeshImports imports = MeshImports::in_child_process);
 
-/// The same from text, for tests; relative mesh paths are relative to the folder of `file`.
+/// The same from text; relative mesh paths are relative to the folder of `file`. With `supplied`, a shape may be
+/// { type = "mesh", memory = INDEX, scale = ... }: the mesh in memory of that index.
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
                              const SceneOverrides& overrides = {}, FileList* read = nullptr,
-                             MeshImports imports = MeshImports::in_child_process);
+                             MeshImports imports = MeshImports::in_child_process, MeshSupplier supplied = {});
 
 }  // namespace tumble

@@ -79,6 +79,21 @@ TEST(Errors, OfASpecNameTheElement) {
     EXPECT_EQ(blamed([](SceneSpec& s) { s.light.direction = {}; }), "light.direction");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.wind = Wind{{}, -1.0, 1.0}; }), "wind.density");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.forces.push_back({"7", {}, {}}); }), "forces[0].body");
+    EXPECT_EQ(blamed([](SceneSpec& s) {
+                  s.bodies[1].grid = Grid{{1, 0, 1}, {1.0, 1.0, 1.0}, {}, 0.0};
+              }),
+              "bodies[1].grid.count");
+    EXPECT_EQ(blamed([](SceneSpec& s) {
+                  s.bodies[1].grid = Grid{};
+                  s.bodies[1].scatter = Scatter{};
+              }),
+              "bodies[1].scatter");
+    EXPECT_EQ(blamed([](SceneSpec& s) {
+                  s.bodies[1].scatter = Scatter{50, {1.0, 1.0, 1.0}, true, 0.0};
+              }),
+              "bodies[1].scatter");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].scale = ScaleRange{1.0, 2.0}; }), "bodies[1].scale");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].colors = {Color{}}; }), "bodies[1].colors");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.cords.push_back({"crate", {}, {}, 0.0}); }), "cords[0].radius");
     EXPECT_EQ(blamed([](SceneSpec& s) {
                   s.add(Box{}, BodyType::kinematic).keyframes = {{1.0, {}, {}}, {0.5, {}, {}}};
@@ -88,6 +103,38 @@ TEST(Errors, OfASpecNameTheElement) {
                   s.bodies[1].shape = Compound{{{Box{}, {}, {}, {}, {}}, {Sphere{0.0}, {}, {}, {}, {}}}};
               }),
               "bodies[1].shape.parts[1].shape.radius");
+}
+
+TEST(Errors, OfAMeshFromMemoryNameItsFault) {
+    const std::vector<Vec3> corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, NAN}};
+    const auto message = [](const TriangleMesh& mesh, BodyType type) {
+        SceneSpec spec;
+        spec.add(mesh, type);
+        const Error error = error_of([&] { Scene scene(spec); });
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_EQ(error.where().element, "bodies[0].shape.arrays");
+        return error.message();
+    };
+    const std::vector<Triangle> one{{0, 1, 2}}, wrong{{0, 1, 2}, {0, 1, 9}};
+    const std::vector<Vec3> three(corners.begin(), corners.begin() + 3);
+    EXPECT_EQ(message({}, BodyType::fixed), "the mesh has no arrays");
+    EXPECT_EQ(message({three, {}}, BodyType::fixed), "the mesh has no triangles");
+    EXPECT_EQ(message({corners, one}, BodyType::fixed),
+              "the mesh holds a coordinate that is not a finite number, or beyond 1e30");
+    EXPECT_EQ(message({three, wrong}, BodyType::fixed),
+              "the mesh has a wrong triangle, 1: a vertex must be below 3 (given 9)");
+    EXPECT_NE(message({three, one}, BodyType::dynamic).find("open mesh"), std::string::npos);
+}
+
+TEST(Errors, OfAClipTimingNameTheField) {
+    const Scene scene(crate_and_ball());
+    const auto blamed_field = [&](const ClipTiming& timing) {
+        return error_of([&] { FrameSequence frames(scene, timing); }).where().element;
+    };
+    EXPECT_EQ(blamed_field({0.0, 0.0, 8}), "speed");
+    EXPECT_EQ(blamed_field({NAN, 0.0, 8}), "speed");
+    EXPECT_EQ(blamed_field({1.0, 400.0, 8}), "shutter");
+    EXPECT_EQ(blamed_field({1.0, 180.0, 65}), "blur_samples");
 }
 
 TEST(Errors, OfAnEnumWithoutThatValueAreInput) {

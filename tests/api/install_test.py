@@ -34,6 +34,13 @@ def run(*command, code=0, **options):
     return done
 
 
+def links_of(text):
+    """The relative links of a page, without their anchors."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    found = re.findall(r"\]\(<?([^()\s>]+)>?\)", text)
+    return [link.split("#")[0] for link in found if not re.match(r"[a-z][a-z0-9+.-]*:|#", link)]
+
+
 class InstallTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -80,23 +87,27 @@ class InstallTest(unittest.TestCase):
                 tumble::LoadOptions options;
                 options.duration = 0.5;
                 const tumble::Scene scene = tumble::load_scene(arguments[1], options);
-                tumble::World world(scene);
-                tumble::Renderer renderer(scene);
-                tumble::ClipWriter clip(arguments[2], scene.output());
-                for (int frame = 0; frame < scene.frame_count(); ++frame) {
-                    if (frame > 0) world.advance_frame();
-                    clip.write(renderer.render(world.snapshot()));
+                const tumble::ClipTiming timings[] = {{}, {0.3, 180.0, 3}};
+                for (int i = 0; i < 2; ++i) {
+                    tumble::FrameSequence frames(scene, timings[i]);
+                    tumble::Renderer renderer(scene);
+                    tumble::ClipWriter clip(arguments[2 + i], scene.output());
+                    for (int frame = 0; frame < frames.frame_count(); ++frame)
+                        clip.write(renderer.render_blurred(frames.next()));
+                    clip.finish();
                 }
-                clip.finish();
             }
             """)
         place = self.library.parent
         run(CXX, "-std=c++17", *FLAGS.split(), source, f"-I{self.prefix / 'include'}", f"-L{place}",
             f"-Wl,-rpath,{place}", "-ltumble", "-o", self.folder / "clip")
-        ours, theirs = self.folder / "ours.mkv", self.folder / "theirs.mkv"
-        run(self.folder / "clip", SCENE, ours)
-        run(TUMBLE, "render", SCENE, "--duration", 0.5, "-o", theirs, "--quiet")
-        self.assertEqual(ours.read_bytes(), theirs.read_bytes())
+        ours = [self.folder / "ours.mkv", self.folder / "ours-slow.mkv"]
+        run(self.folder / "clip", SCENE, *ours)
+        slow = ["--speed", 0.3, "--shutter", 180, "--blur-samples", 3]
+        for clip, options in zip(ours, [[], slow]):
+            theirs = self.folder / "theirs.mkv"
+            run(TUMBLE, "render", SCENE, "--duration", 0.5, "-o", theirs, "--quiet", *options)
+            self.assertEqual(clip.read_bytes(), theirs.read_bytes(), options)
 
     def test_program_of_the_tutorial(self):
         page = (ROOT / "docs/tutorials/from-cpp.md").read_text()
@@ -169,6 +180,18 @@ class InstallTest(unittest.TestCase):
     def test_installed_program_runs(self):
         run(self.prefix / "bin/tumble", "simulate", SCENE, "--duration", "0.1", "--quiet")
         self.assertTrue((self.prefix / "bin/tumble").is_file())
+
+    def test_no_link_of_the_documents_leads_out_of_the_installed_tree(self):
+        documents = self.prefix / "share/doc/tumble"
+        pages = sorted(documents.rglob("*.md"))
+        self.assertEqual(len(pages), 3 + len(list((ROOT / "docs").rglob("*.md"))))
+        links = [(page, link) for page in pages for link in links_of(page.read_text())]
+        self.assertGreater(len(links), 200)
+        for page, link in links:
+            target = (page.parent / link).resolve()
+            self.assertTrue(target.is_relative_to(self.prefix.resolve()) and target.exists(),
+                            f"{page.relative_to(documents)}: {link}")
+        self.assertTrue(any(link.endswith("include/tumble/world.h") for _, link in links))
 
     def test_license_and_documents_are_installed(self):
         documents = self.prefix / "share/doc/tumble"

@@ -34,6 +34,31 @@ TEST(Output, ComparisonTellsTheRule) {
     EXPECT_EQ(other.max_difference, 50);
 }
 
+TEST(Output, ComparisonOfFilesIsThatOfImages) {
+    const TestFolder folder;
+    Image other = plain(10);
+    other.pixels[4 * (16 * 9 + 5)] = 200;
+    write_png(folder / "a.png", plain(10));
+    write_png(folder / "b.png", other);
+    const Comparison files = compare_png_files(folder / "a.png", folder / "b.png", {}, folder / "d.png");
+    EXPECT_FALSE(files.alike);
+    EXPECT_EQ(files.differing_pixels, 1);
+    EXPECT_EQ(files.max_difference, 190);
+    EXPECT_EQ(files.max_column, 5);
+    EXPECT_EQ(files.max_row, 9);
+    EXPECT_EQ(files.reason, compare_images(plain(10), other).reason);
+    const Image difference = read_png(folder / "d.png");
+    EXPECT_GT(difference.at(5, 9)[0], difference.at(5, 9)[2]);  // red
+    CompareOptions options;
+    options.fraction = 0.01;
+    options.window = 255.0;
+    EXPECT_TRUE(compare_png_files(folder / "a.png", folder / "b.png", options).alike);
+    EXPECT_EQ(folder.files(), 3u);
+    options.tolerance = 256;
+    EXPECT_THROW(compare_images(other, other, options), Error);
+    EXPECT_THROW(compare_png_files(folder / "a.png", folder / "none.png"), Error);
+}
+
 TEST(Output, FilesAppearWhenFinishedOrNever) {
     const TestFolder folder;
     const Scene scene(crate_and_ball());

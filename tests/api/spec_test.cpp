@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
+#include <sstream>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -43,6 +46,15 @@ SceneSpec everything() {
     Body& paddle = spec.add(Box{{2.0, 0.2, 1.0}}, BodyType::kinematic);
     paddle.keyframes = {{0.0, {0.0, 1.0, 0.0}, {}}, {1.0, {0.0, 2.0, 0.0}, AxisAngle{{0.0, 0.0, 1.0}, 30.0}}};
     paddle.interpolation = Interpolation::linear;
+    Body& blocks = spec.add(Box{{0.3, 0.3, 0.3}});
+    blocks.name = "block";
+    blocks.position = {8.0, 1.0, 0.0};
+    blocks.grid = Grid{{2, 3, 1}, {0.5, 0.6, 0.7}, {0.01, 0.0, 0.02}, 5.0};
+    blocks.colors = {Color{200, 0, 0}, Color{0, 200, 0}};
+    Body& stones = spec.add(Mesh{"torus.obj", 0.5, false});
+    stones.position = {-8.0, 5.0, 0.0};
+    stones.scatter = Scatter{5, {3.0, 4.0, 3.0}, false, 0.1};
+    stones.scale = ScaleRange{0.3, 0.9};
     spec.forces.push_back({"crate", {0.0, 0.5, 0.0}, {10.0, 0.0, 0.0}, true, 0.2, 0.7});
     spec.forces.push_back({"2", {}, {0.0, 1.0, 0.0}});
     spec.cords.push_back({"crate", {}, {0.0, 6.0, 0.0}, 0.02, {7, 8, 9}});
@@ -59,11 +71,94 @@ TEST(Spec, MovesLikeTheFileWithTheSameValues) {
     const Scene built(spec), loaded = load_scene(file);
     EXPECT_EQ(built.title(), spec.title);
     EXPECT_EQ(loaded.title(), spec.title);
-    ASSERT_EQ(built.body_count(), spec.bodies.size());
+    ASSERT_EQ(built.body_count(), spec.bodies.size() - 2 + 6 + 5);
+    EXPECT_EQ(built.body_name(built.find_body("block.5").value()), "block.5");
     EXPECT_TRUE(same(after(built, 12), after(loaded, 12)));
     EXPECT_EQ(Renderer(built).render(after(built, 2)), Renderer(loaded).render(after(loaded, 2)));
     EXPECT_EQ(built.files().size(), 2u);
     EXPECT_EQ(loaded.files().size(), 3u);
+}
+
+/// A cube as a file writes it.
+struct Cube {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+
+    explicit Cube(const std::string& obj) {
+        std::istringstream lines(obj);
+        for (std::string kind; lines >> kind;) {
+            double x, y, z;
+            lines >> x >> y >> z;
+            if (kind == "v")
+                vertices.push_back({x, y, z});
+            else
+                triangles.push_back({std::uint32_t(x) - 1, std::uint32_t(y) - 1, std::uint32_t(z) - 1});
+        }
+    }
+};
+
+// The reader numbers the vertices by their first use, which is their order here.
+constexpr const char* cube_obj =
+    "v 0 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\nf 1 4 6\nf 1 6 5\nf 2 8 7\nf 2 7 3\nf 1 5 8\nf 1 8 2\nf 4 3 7\nf 4 7 6\n";
+
+TEST(Spec, AMeshFromMemoryMovesLikeTheOneOfAFile) {
+    const TestFolder folder;
+    write_text(folder / "cube.obj", cube_obj);
+    const Cube cube(cube_obj);
+    ASSERT_EQ(cube.triangles.size(), 12u);
+    const TriangleMesh mesh(cube.vertices, cube.triangles, 0.7);
+    const auto fill = [](SceneSpec& spec, const Shape& shape) {
+        spec.add(shape).position = {-2.0, 3.0, 0.0};
+        spec.add(Compound{{{shape, {}, {}, {}, {}}, {Sphere{0.4}, {0.0, 1.0, 0.0}, {}, {}, {}}}}).position.y = 6.0;
+        Body& copies = spec.add(shape);
+        copies.position = {4.0, 5.0, 0.0};
+        copies.scatter = Scatter{4, {3.0, 4.0, 3.0}, true, 0.0};
+        copies.scale = ScaleRange{0.5, 1.5};
+        spec.add(shape, BodyType::fixed).position = {0.0, 0.0, -2.0};
+    };
+    SceneSpec from_memory = crate_and_ball(), from_file = crate_and_ball();
+    from_file.folder = folder.path();
+    fill(from_memory, mesh);
+    fill(from_file, Mesh{"cube.obj", 0.7, false});
+    const Scene ours(from_memory), theirs(from_file);
+    EXPECT_TRUE(ours.files().empty());
+    EXPECT_TRUE(same(after(ours, 12), after(theirs, 12)));
+    EXPECT_EQ(Renderer(ours).render(after(ours, 2)), Renderer(theirs).render(after(theirs, 2)));
+    EXPECT_DOUBLE_EQ(World(ours).properties(3).mass, 1000.0 * 0.7 * 0.7 * 0.7);
+}
+
+TEST(Spec, AMeshFromMemoryTakesAnyArrays) {
+    const Vec3 vertices[] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    const std::array<Triangle, 4> triangles{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+    SceneSpec spec;
+    spec.add(TriangleMesh({vertices, 4}, triangles));
+    EXPECT_NEAR(World(Scene(spec)).properties(0).mass, 1000.0 / 6.0, 1e-9);
+}
+
+TEST(Spec, AMeshFromMemoryHasNoFile) {
+    const Cube cube(cube_obj);
+    SceneSpec spec;
+    spec.add(TriangleMesh(cube.vertices, cube.triangles));
+    try {
+        to_toml(spec);
+        ADD_FAILURE() << "a text was made";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_EQ(error.where().element, "bodies[0].shape");
+    }
+}
+
+// The key by which such a scene passes the checks is not one of the format.
+TEST(Spec, AFileCannotNameAMeshInMemory) {
+    const TestFolder folder;
+    write_text(folder / "a.toml", "format = 1\n[[body]]\nshape = { type = \"mesh\", memory = 0 }\n");
+    try {
+        load_scene(folder / "a.toml");
+        ADD_FAILURE() << "it was read";
+    } catch (const Error& error) {
+        EXPECT_NE(error.message().find("unknown key"), std::string::npos) << error.what();
+    }
 }
 
 TEST(Spec, HasTheDefaultsOfTheFormat) {

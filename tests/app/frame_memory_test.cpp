@@ -16,9 +16,9 @@ SceneDescription scene_of(int width, int height) {
     return scene;
 }
 
-PictureWork clip_of(std::int64_t frames) {
-    PictureWork work;
-    work.forms.video = PixelForm::yuv420;
+RenderWork clip_of(std::int64_t frames) {
+    RenderWork work;
+    work.outputs.video = PixelFormat::yuv420;
     work.clip = VideoKind::h264;
     work.frames = frames;
     return work;
@@ -27,21 +27,21 @@ PictureWork clip_of(std::int64_t frames) {
 TEST(FrameMemory, GrowsWithTheRequestedOutputs) {
     const SceneDescription scene = scene_of(1000, 1000);
     constexpr std::uint64_t pixels = 1'000'000;
-    PictureWork work;
-    work.forms.png = true;
-    EXPECT_EQ(picture_memory(scene, work).worker, 30 * pixels);
-    EXPECT_EQ(picture_memory(scene, work).encoder, 0u);
-    work.moments = 8;
-    EXPECT_EQ(picture_memory(scene, work).worker, 46 * pixels);
-    EXPECT_EQ(picture_memory(scene, clip_of(1)).worker, 33 * pixels);
-    EXPECT_EQ(picture_memory(scene, clip_of(100)).worker, 37.5 * pixels);
-    EXPECT_EQ(picture_memory(scene, clip_of(100)).encoder, 25 * pixels);
+    RenderWork work;
+    work.outputs.png = true;
+    EXPECT_EQ(render_memory(scene, work).worker, 30 * pixels);
+    EXPECT_EQ(render_memory(scene, work).encoder, 0u);
+    work.blur_samples = 8;
+    EXPECT_EQ(render_memory(scene, work).worker, 46 * pixels);
+    EXPECT_EQ(render_memory(scene, clip_of(1)).worker, 33 * pixels);
+    EXPECT_EQ(render_memory(scene, clip_of(100)).worker, 37.5 * pixels);
+    EXPECT_EQ(render_memory(scene, clip_of(100)).encoder, 25 * pixels);
     SceneDescription with_cord = scene;
     with_cord.cords.emplace_back();
-    EXPECT_EQ(picture_memory(with_cord, PictureWork{work.forms, {}, 1, 1}).worker, (64 + 4 + 4 + 10) * pixels);
-    PictureWork depth;
-    depth.forms.aovs.add(Aov::depth);
-    EXPECT_EQ(picture_memory(scene, depth).worker, (16 + 2 * 4) * pixels);
+    EXPECT_EQ(render_memory(with_cord, RenderWork{work.outputs, {}, 1, 1}).worker, (64 + 4 + 4 + 10) * pixels);
+    RenderWork depth;
+    depth.outputs.aovs.add(Aov::depth);
+    EXPECT_EQ(render_memory(scene, depth).worker, (16 + 2 * 4) * pixels);
 }
 
 TEST(FrameMemory, FewerProcessesDrawIfNotAllFit) {

@@ -20,7 +20,7 @@
 namespace tumble {
 namespace {
 
-constexpr FrameOutputs both{PixelForm::yuv420, true, {}};
+constexpr FrameOutputs both{PixelFormat::yuv420, true, {}};
 
 SceneDescription two_boxes() {
     SceneDescription scene;
@@ -58,17 +58,17 @@ Snapshot at_frame(std::int64_t n) {
 
 MotionBlurFrame sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
 
-/// The shutter is open while the box moves to its next place; without movement, all moments are the same.
+/// The shutter is open while the box moves to its next place; without movement, all blur samples are the same.
 MotionBlurFrame blurred(std::int64_t n) {
-    MotionBlurFrame exposure = sharp(n);
+    MotionBlurFrame frame_poses = sharp(n);
     const Snapshot next = at_frame(n + 1);
     for (int i = 1; i < 4; ++i) {
         Snapshot between = at_frame(n);
         between.time += double(i) / (4 * 60.0);
         between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
-        exposure.moments.push_back(between);
+        frame_poses.blur_samples.push_back(between);
     }
-    return exposure;
+    return frame_poses;
 }
 
 struct Seen {
@@ -80,20 +80,20 @@ struct Seen {
 
 /// Draws this many frames; `meanwhile` is called with the number of each finished frame.
 std::vector<Seen> draw(
-    RenderPool& drawer, const SceneDescription& scene, std::int64_t frames,
+    RenderPool& render_pool, const SceneDescription& scene, std::int64_t frames,
     const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
-    const std::function<MotionBlurFrame(std::int64_t)>& exposure = sharp, std::int64_t first = 0) {
+    const std::function<MotionBlurFrame(std::int64_t)>& frame_poses = sharp, std::int64_t first = 0) {
     BoundedQueue<MotionBlurFrame> poses(4);
     std::thread simulation([&] {
         for (std::int64_t n = 0; n < frames; ++n)
-            if (!poses.push(exposure(n))) return;
+            if (!poses.push(frame_poses(n))) return;
         poses.close();
     });
     std::vector<Seen> seen;
     DrawingTimes times;
-    const std::size_t video_bytes = frame_bytes(PixelForm::yuv420, scene.output.width, scene.output.height);
+    const std::size_t video_bytes = frame_bytes(PixelFormat::yuv420, scene.output.width, scene.output.height);
     try {
-        drawer.run(
+        render_pool.run(
             poses,
             [&](const Frame& frame) {
                 seen.push_back({frame.number,
@@ -118,12 +118,12 @@ TEST(RenderPool, TheNumberOfProcessesChangesNoByte) {
     const SceneDescription scene = two_boxes();
     std::vector<Seen> first;
     for (const int workers : {1, 2, 3}) {
-        RenderPool drawer(scene, {}, both, workers);
-        const std::vector<Seen> seen = draw(drawer, scene, 24);
+        RenderPool render_pool(scene, {}, both, workers);
+        const std::vector<Seen> seen = draw(render_pool, scene, 24);
         ASSERT_EQ(seen.size(), 24u);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
-        EXPECT_EQ(drawer.drawn(), 11);
+        EXPECT_EQ(render_pool.drawn(), 11);
     }
     for (std::size_t n = 0; n < first.size(); ++n) {
         EXPECT_EQ(first[n].number, std::int64_t(n));
@@ -139,12 +139,12 @@ TEST(RenderPool, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
     for (const bool blur : {false, true}) {
         std::vector<Seen> first;
         for (const int workers : {1, 2}) {
-            RenderPool drawer(scene, {}, both, workers, 4);
+            RenderPool render_pool(scene, {}, both, workers, 4);
             const std::vector<Seen> seen = draw(
-                drawer, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
+                render_pool, scene, 24, [](std::int64_t) {}, blur ? blurred : sharp);
             if (first.empty()) first = seen;
             EXPECT_TRUE(seen == first) << workers;
-            EXPECT_EQ(drawer.drawn(), 24);
+            EXPECT_EQ(render_pool.drawn(), 24);
         }
         for (std::size_t n = 1; n < first.size(); ++n) {
             EXPECT_FALSE(first[n].repeated) << n;
@@ -157,19 +157,19 @@ TEST(RenderPool, AMovingCameraDrawsEveryFrameAlikeInAnyProcess) {
 TEST(RenderPool, AFrameDoesNotDependOnTheFirstFrame) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
-        MotionBlurFrame exposure = sharp(n);
-        exposure.moments[0].bodies[1].origin.x() += 3e-5 * double(n);  // 0.02 pixels are 0.9e-3 m
-        return exposure;
+        MotionBlurFrame frame_poses = sharp(n);
+        frame_poses.blur_samples[0].bodies[1].origin.x() += 3e-5 * double(n);  // 0.02 pixels are 0.9e-3 m
+        return frame_poses;
     };
-    for (const auto& exposure : {std::function<MotionBlurFrame(std::int64_t)>(creeping),
-                                 std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
+    for (const auto& frame_poses : {std::function<MotionBlurFrame(std::int64_t)>(creeping),
+                                    std::function<MotionBlurFrame(std::int64_t)>(blurred)}) {
         RenderPool whole(scene, {}, both, 2, 4);
         const std::vector<Seen> all = draw(
-            whole, scene, 36, [](std::int64_t) {}, exposure);
+            whole, scene, 36, [](std::int64_t) {}, frame_poses);
         for (const std::int64_t first : {1, 7, 10, 20, 35}) {
-            RenderPool drawer(scene, {}, both, 2, 4);
+            RenderPool render_pool(scene, {}, both, 2, 4);
             const std::vector<Seen> seen = draw(
-                drawer, scene, 36, [](std::int64_t) {}, exposure, first);
+                render_pool, scene, 36, [](std::int64_t) {}, frame_poses, first);
             ASSERT_EQ(seen.size(), std::size_t(36 - first));
             EXPECT_FALSE(seen.front().repeated);
             for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -205,18 +205,18 @@ TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
     const auto without_aovs = [](std::int64_t n) { return MotionBlurFrame{n, {trembling(n)}, {}}; };
     std::vector<Seen> pictures, first;
     {
-        RenderPool drawer(scene, {}, both, 2);
+        RenderPool render_pool(scene, {}, both, 2);
         pictures = draw(
-            drawer, scene, 24, [](std::int64_t) {}, without_aovs);
+            render_pool, scene, 24, [](std::int64_t) {}, without_aovs);
     }
     for (const int workers : {1, 2, 3}) {
-        RenderPool drawer(scene, {}, with, workers);
+        RenderPool render_pool(scene, {}, with, workers);
         const std::vector<Seen> seen = draw(
-            drawer, scene, 24, [](std::int64_t) {}, with_aovs);
+            render_pool, scene, 24, [](std::int64_t) {}, with_aovs);
         ASSERT_EQ(seen.size(), 24u);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
-        EXPECT_EQ(drawer.drawn(), 11);
+        EXPECT_EQ(render_pool.drawn(), 11);
 
         RenderPool no_pictures(scene, {}, alone, workers);
         const std::vector<Seen> aovs = draw(
@@ -249,8 +249,8 @@ int status_of_process(const std::function<int()>& work) {
 
 TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
     const SceneDescription scene = two_boxes();
-    RenderPool drawer(scene, {}, both, 2);
-    const std::vector<Seen> seen = draw(drawer, scene, 16);
+    RenderPool render_pool(scene, {}, both, 2);
+    const std::vector<Seen> seen = draw(render_pool, scene, 16);
     const auto expect = [&] {
         RenderOptions options;
         options.full_redraw = true;
@@ -260,7 +260,7 @@ TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
             Image image;
             renderer.render(at_frame(s.number), image);
             const Rectangle whole{0, 0, image.width, image.height};
-            VideoPixels pixels(PixelForm::yuv420, image.width, image.height);
+            VideoPixels pixels(PixelFormat::yuv420, image.width, image.height);
             pixels.update(image, {&whole, 1});
             if (!std::ranges::equal(pixels.bytes(), s.video) || !std::ranges::equal(png.encode(image), s.png)) return 1;
         }
@@ -273,9 +273,9 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
     const SceneDescription scene = two_boxes();
     std::vector<Seen> first;
     for (const int workers : {1, 3}) {
-        RenderPool drawer(scene, {}, both, workers, 4);
+        RenderPool render_pool(scene, {}, both, workers, 4);
         const std::vector<Seen> seen = draw(
-            drawer, scene, 20, [](std::int64_t) {}, blurred);
+            render_pool, scene, 20, [](std::int64_t) {}, blurred);
         if (first.empty()) first = seen;
         EXPECT_TRUE(seen == first) << workers;
     }
@@ -287,7 +287,7 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
         for (const Seen& s : first) {
             ImageMean mean;
             Image image, expected;
-            for (const Snapshot& moment : blurred(s.number).moments) {
+            for (const Snapshot& moment : blurred(s.number).blur_samples) {
                 renderer.render(moment, image);
                 mean.add(image);
             }
@@ -311,8 +311,8 @@ std::string error_of(const std::function<void()>& action) {
 TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
     const SceneDescription scene = two_boxes();
     for (const int workers : {1, 2}) {
-        RenderPool drawer(scene, {}, both, workers);
-        const pid_t process = drawer.processes().back();
+        RenderPool render_pool(scene, {}, both, workers);
+        const pid_t process = render_pool.processes().back();
         std::int64_t last = -1;
         const std::string error = error_of([&] {
             // An infinite number of moving frames: the run can only end by the error, however the frames are
@@ -321,7 +321,7 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
                 if (n == 3) kill(process, SIGKILL);
                 last = n;
             };
-            draw(drawer, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
+            draw(render_pool, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
                 return MotionBlurFrame{n, {at_frame(n % 8)}, {}};
             });
         });
@@ -336,8 +336,8 @@ TEST(RenderPool, OpenGlErrorsAreReported) {
     const SceneDescription scene = two_boxes();
     RenderOptions options;
     options.shader_folder = "/nowhere";
-    RenderPool drawer(scene, options, both, 2);
-    const std::string error = error_of([&] { draw(drawer, scene, 4); });
+    RenderPool render_pool(scene, options, both, 2);
+    const std::string error = error_of([&] { draw(render_pool, scene, 4); });
     EXPECT_EQ(error.find("error: cannot draw frame "), 0u) << error;
     EXPECT_NE(error.find("/nowhere"), std::string::npos) << error;
     EXPECT_EQ(error.find("error:", 1), std::string::npos) << error;
@@ -345,10 +345,10 @@ TEST(RenderPool, OpenGlErrorsAreReported) {
 
 TEST(RenderPool, RunReturnsAfterAbandon) {
     const SceneDescription scene = two_boxes();
-    RenderPool drawer(scene, {}, both, 2);
+    RenderPool render_pool(scene, {}, both, 2);
     EXPECT_NE(error_of([&] {
-                  draw(drawer, scene, 15, [&](std::int64_t n) {
-                      if (n == 2) drawer.abandon();
+                  draw(render_pool, scene, 15, [&](std::int64_t n) {
+                      if (n == 2) render_pool.abandon();
                   });
               }),
               "no error");
@@ -362,10 +362,10 @@ TEST(RenderPool, LeavesNoProcessBehind) {
         ids = unused.processes();
     }
     {
-        RenderPool drawer(scene, {}, both, 2);
-        draw(drawer, scene, 3);
-        for (const pid_t id : drawer.processes()) ids.push_back(id);
-        const ProcessEnd end = drawer.finish();
+        RenderPool render_pool(scene, {}, both, 2);
+        draw(render_pool, scene, 3);
+        for (const pid_t id : render_pool.processes()) ids.push_back(id);
+        const ProcessEnd end = render_pool.finish();
         EXPECT_GT(end.cpu_seconds, 0.0);
         EXPECT_GT(end.peak_memory, std::int64_t(1) << 20);
     }

@@ -59,7 +59,7 @@ TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
     order.add(with_aovs(numbered(0)), 0, false);
     Frame no_picture;
     no_picture.number = 1;
-    order.add_with_last_picture(with_aovs(no_picture));
+    order.add_with_last_image(with_aovs(no_picture));
     order.add(numbered(2), 0, false);
     ASSERT_TRUE(order.add_repeated(3));
     const std::int64_t pictures[] = {0, 0, 2, 2}, aovs[] = {0, 1, 1, 1};
@@ -75,15 +75,15 @@ TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
 
 TEST(ReorderBuffer, UnchangedRefersToTheWorkersOwnFrame) {
     // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. A frame that is "unchanged" since the worker's own previous frame
-    // is a repetition only if that is also the previous picture of the clip.
+    // is a repetition only if that is also the previous image of the clip.
     ReorderBuffer order(2);
     const auto add = [&](std::int64_t n, std::size_t worker, bool unchanged) {
         order.add(numbered(n), worker, unchanged);
     };
     add(0, 0, false);
     add(1, 1, false);
-    add(2, 0, true);  // the picture of 0 again, after that of 1
-    add(3, 1, true);  // the picture of 1 again, after that of 0
+    add(2, 0, true);  // the image of 0 again, after that of 1
+    add(3, 1, true);  // the image of 1 again, after that of 0
     add(4, 0, false);
     add(5, 0, true);
     const bool repeated[] = {false, false, false, false, false, true};

@@ -2,6 +2,7 @@
 
 import os
 import pty
+import re
 import subprocess
 
 import program
@@ -132,6 +133,13 @@ class Render(program.ProgramTest):
         self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")
         self.check(0, "render", "empty.toml", "--frames", "out")
         self.assertEqual(len(list((self.folder / "out").iterdir())), 7)
+
+    def test_memory_does_not_grow_with_the_length_of_a_clip(self):
+        def peak(seconds):
+            run = self.check(0, "render", "scene.toml", "-o", "a.mp4", "--duration", seconds)
+            return int(re.search(r"peak memory (\d+) MiB", run.stderr)[1])
+
+        self.assertLess(peak("120"), peak("6") + 10)   # 1201 and 61 frames, the queues full in both
 
     def test_quiet_is_silent(self):
         run = self.check(0, "render", "scene.toml", "--frames", "out", "--quiet")

@@ -40,7 +40,7 @@ TEST(Png, ComesBackToTheBit) {
         const Image image = colorful(width, height);
         write_png(folder / "a.png", image);
         EXPECT_EQ(read_png(folder / "a.png"), image) << width << " x " << height;
-        EXPECT_EQ(read_png_size(folder / "a.png"), (PictureSize{width, height}));
+        EXPECT_EQ(read_png_size(folder / "a.png"), (ImageSize{width, height}));
     }
     EXPECT_EQ(folder.files(), 1u);
 }

@@ -59,15 +59,15 @@ TEST(Process, ItsFailureIsReported) {
     Process process(shell, {"-c", "echo first >&2; echo the reason >&2; exit 7"});
     const ProcessEnd end = process.finish();
     EXPECT_EQ(end.exit_code, 7);
-    EXPECT_EQ(end.words, "first\nthe reason");
+    EXPECT_EQ(end.error_text, "first\nthe reason");
     EXPECT_EQ(end.describe(), "exit code 7");
 }
 
 TEST(Process, LongOutputIsCutToItsEnd) {
     Process process(shell, {"-c", "i=0; while [ $i -lt 20000 ]; do echo line $i; i=$((i+1)); done >&2; exit 1"});
     const ProcessEnd end = process.finish();
-    EXPECT_LT(end.words.size(), 10000u);
-    EXPECT_TRUE(end.words.ends_with("line 19999"));
+    EXPECT_LT(end.error_text.size(), 10000u);
+    EXPECT_TRUE(end.error_text.ends_with("line 19999"));
 }
 
 TEST(Process, ADeadReaderRaisesNoSignal) {
@@ -80,7 +80,7 @@ TEST(Process, ADeadReaderRaisesNoSignal) {
     EXPECT_FALSE(process.write(bytes_of(text)));
     const ProcessEnd end = process.finish();
     EXPECT_EQ(end.exit_code, 3);
-    EXPECT_EQ(end.words, "gone");
+    EXPECT_EQ(end.error_text, "gone");
     sigset_t waiting;
     sigpending(&waiting);
     EXPECT_EQ(sigismember(&waiting, SIGPIPE), 0) << "the signal was left behind";
@@ -129,7 +129,7 @@ TEST(Process, ItsEndDoesNotWaitForItsChildren) {
         Process process(shell, {"-c", leave_behind + "echo done >&2; exit 5", (folder / "a").string()});
         const ProcessEnd end = process.finish();
         EXPECT_EQ(end.exit_code, 5);
-        EXPECT_EQ(end.words, "done");
+        EXPECT_EQ(end.error_text, "done");
     }
     {
         Process process(shell, {"-c", leave_behind + "exit 6", (folder / "b").string()});
@@ -185,7 +185,7 @@ TEST(Process, ItsMessagesAreReadWhileItIsFed) {
     EXPECT_TRUE(process.write(bytes_of(text)));
     const ProcessEnd end = process.finish();
     EXPECT_TRUE(end.ok());
-    EXPECT_TRUE(end.words.ends_with("line 29999"));
+    EXPECT_TRUE(end.error_text.ends_with("line 29999"));
     EXPECT_EQ(read_text(folder / "out").size(), text.size());
 }
 

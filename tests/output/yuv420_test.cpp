@@ -94,7 +94,7 @@ TEST(Yuv420, WideAndNarrowImagesAgree) {
 TEST(Yuv420, PartsMakeTheWhole) {
     std::mt19937 random(3);
     const Rectangle whole{0, 0, 50, 38};
-    for (const PixelForm form : {PixelForm::yuv420, PixelForm::rgba}) {
+    for (const PixelFormat form : {PixelFormat::yuv420, PixelFormat::rgba}) {
         for (int odd = 0; odd < 2; ++odd) {
             Image image = noise(50 - odd, 38 - odd, 4);
             const Rectangle all{0, 0, image.width, image.height};
@@ -118,7 +118,7 @@ TEST(Yuv420, PartsMakeTheWhole) {
             }
         }
     }
-    EXPECT_EQ(frame_bytes(PixelForm::yuv420, 49, 37), yuv420_bytes(whole.width, whole.height));
+    EXPECT_EQ(frame_bytes(PixelFormat::yuv420, 49, 37), yuv420_bytes(whole.width, whole.height));
 }
 
 }  // namespace

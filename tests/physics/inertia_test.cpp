@@ -117,6 +117,6 @@ TEST(PrincipalInertia, EqualForSymmetricShapes) {
     const PrincipalInertia far = principal_inertia(mesh_mass(box_mesh(low, low + Vec3(0.5, 0.5, 0.5)), 700.0).inertia);
     EXPECT_TRUE(far.moments.x() == far.moments.y() && far.moments.y() == far.moments.z());
     EXPECT_EQ(far.axes.coeffs(), Quat::Identity().coeffs());
-    const Vec3 icosahedral = principal_inertia(mesh_mass(icosahedron(0.7)->surface, 700.0).inertia).moments;
+    const Vec3 icosahedral = principal_inertia(mesh_mass(icosahedron(0.7)->mesh, 700.0).inertia).moments;
     EXPECT_TRUE(icosahedral.x() == icosahedral.y() && icosahedral.y() == icosahedral.z());
 }

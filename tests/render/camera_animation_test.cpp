@@ -251,7 +251,7 @@ TEST(MovingCamera, StandsStillWithAJitteringBody) {
     SceneDescription scene = small_heap();
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
-    scene.bodies[1].surface.visible = false;  // followed although invisible
+    scene.bodies[1].appearance.visible = false;  // followed although invisible
     PoseFilter poses(scene);
     Snapshot snapshot = at_time(scene, 0.0);
     poses.follow(snapshot);

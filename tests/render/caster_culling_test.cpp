@@ -70,7 +70,7 @@ TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
     SceneDescription scene = empty_scene();
     const Vec3 down = scene.light.direction.normalized();
     const Vec3 across = down.unitOrthogonal();
-    const Quat turned = turn_between(Vec3::UnitZ(), down);
+    const Quat turned = rotation_between(Vec3::UnitZ(), down);
     const auto cube = [&](const Vec3& at, double size) {
         return box_body(at, Vec3::Constant(size), {200, 200, 200}, turned);
     };

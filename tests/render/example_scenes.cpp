@@ -40,16 +40,16 @@ BodyDescription ground_plane(Color color, Pattern pattern) {
     BodyDescription body;
     body.type = BodyType::fixed;
     body.shape = PlaneShape{};
-    body.surface.color = color;
-    body.surface.pattern = pattern;
-    body.surface.roughness = 0.8;
+    body.appearance.color = color;
+    body.appearance.pattern = pattern;
+    body.appearance.roughness = 0.8;
     return body;
 }
 
 BodyDescription box_body(const Vec3& position, const Vec3& size, Color color, const Quat& rotation) {
     BodyDescription body;
     body.shape = BoxShape{size};
-    body.surface.color = color;
+    body.appearance.color = color;
     body.position = position;
     body.rotation = rotation;
     return body;
@@ -58,7 +58,7 @@ BodyDescription box_body(const Vec3& position, const Vec3& size, Color color, co
 BodyDescription ball_body(const Vec3& position, double radius, Color color, const Quat& rotation) {
     BodyDescription body = box_body(position, Vec3::Ones(), color, rotation);
     body.shape = SphereShape{radius};
-    body.surface.roughness = 0.3;
+    body.appearance.roughness = 0.3;
     return body;
 }
 
@@ -66,7 +66,7 @@ BodyDescription mesh_body(const Vec3& position, std::shared_ptr<const MeshAsset>
                           const Quat& rotation) {
     BodyDescription body = box_body(position, Vec3::Ones(), color, rotation);
     body.shape = MeshShape{std::move(asset)};
-    body.surface.roughness = 0.35;
+    body.appearance.roughness = 0.35;
     return body;
 }
 
@@ -78,16 +78,16 @@ std::shared_ptr<const MeshAsset> torus_asset(double ring_radius, double tube_rad
             const SinCos a = sincos(2.0 * pi * i / around), b = sincos(2.0 * pi * j / across);
             const Vec3 normal(b.cos * a.sin, b.sin, b.cos * a.cos);
             const Vec3 p = Vec3(a.sin, 0.0, a.cos) * ring_radius + normal * tube_radius;
-            asset->surface.vertices.push_back(p);
+            asset->mesh.vertices.push_back(p);
             asset->vertices.push_back({{float(p.x()), float(p.y()), float(p.z())},
                                        {float(normal.x()), float(normal.y()), float(normal.z())}});
             const std::uint32_t next_i = (i + 1) % around, next_j = (j + 1) % across;
             const std::uint32_t corners[4] = {i * across + j, next_i * across + j, next_i * across + next_j,
                                               i * across + next_j};
-            asset->surface.triangles.push_back({corners[0], corners[1], corners[2]});
-            asset->surface.triangles.push_back({corners[0], corners[2], corners[3]});
+            asset->mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+            asset->mesh.triangles.push_back({corners[0], corners[2], corners[3]});
         }
-    for (const auto& t : asset->surface.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
+    for (const auto& t : asset->mesh.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
     return asset;
 }
 
@@ -96,14 +96,14 @@ std::shared_ptr<const MeshAsset> sheet_asset(double size, std::uint32_t cells) {
     for (std::uint32_t j = 0; j <= cells; ++j)
         for (std::uint32_t i = 0; i <= cells; ++i) {
             const Vec3 p = size * Vec3(double(i) / cells - 0.5, 0.0, double(j) / cells - 0.5);
-            asset->surface.vertices.push_back(p);
+            asset->mesh.vertices.push_back(p);
             asset->vertices.push_back({{float(p.x()), 0.0f, float(p.z())}, {0.0f, 1.0f, 0.0f}});
             if (i == cells || j == cells) continue;
             const std::uint32_t at = j * (cells + 1) + i, below = at + cells + 1;
-            asset->surface.triangles.push_back({at, below, below + 1});
-            asset->surface.triangles.push_back({at, below + 1, at + 1});
+            asset->mesh.triangles.push_back({at, below, below + 1});
+            asset->mesh.triangles.push_back({at, below + 1, at + 1});
         }
-    for (const auto& t : asset->surface.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
+    for (const auto& t : asset->mesh.triangles) asset->indices.insert(asset->indices.end(), t.begin(), t.end());
     return asset;
 }
 

@@ -174,7 +174,7 @@ TEST(OccluderFinder, EqualsAFullComparison) {
 
 TEST(OccluderBoxes, StayInsideAndLeaveTheHoleFree) {
     const auto torus = torus_asset(1.0, 0.3);
-    const std::vector<OccluderBox> boxes = make_mesh_occluders(torus->surface);
+    const std::vector<OccluderBox> boxes = make_mesh_occluders(torus->mesh);
     ASSERT_FALSE(boxes.empty());
     EXPECT_LE(boxes.size(), 16u);
     double volume = 0.0;
@@ -187,7 +187,7 @@ TEST(OccluderBoxes, StayInsideAndLeaveTheHoleFree) {
     EXPECT_GT(volume, 0.4 * solid);
     EXPECT_LT(volume, 1.2 * solid);
 
-    TriangleMesh open = torus->surface;
+    TriangleMesh open = torus->mesh;
     open.triangles.pop_back();
     EXPECT_TRUE(make_mesh_occluders(open).empty());
 }

@@ -26,7 +26,7 @@ template <class Height>
 std::shared_ptr<const MeshAsset> hills(double size, std::uint32_t cells, Height height) {
     auto asset = std::make_shared<MeshAsset>(*sheet_asset(size, cells));
     for (std::size_t i = 0; i < asset->vertices.size(); ++i) {
-        Vec3& p = asset->surface.vertices[i];
+        Vec3& p = asset->mesh.vertices[i];
         p.y() = height(p.x(), p.z());
         const double e = 1e-3 * size;
         const Vec3 normal = Vec3(height(p.x() - e, p.z()) - height(p.x() + e, p.z()), 2.0 * e,
@@ -53,7 +53,7 @@ void add_curved_ground(SceneDescription& scene, Random& random, unsigned kind) {
     if (kind == 2) body = mesh_body(Vec3::Zero(), sheet_asset(size, std::max(cells / 8, 1u)), stone, slant);
     if (kind == 3) body = mesh_body(Vec3(0.0, -0.6, 0.0), torus_asset(0.3 * size, 0.1 * size), stone);
     body.type = BodyType::fixed;
-    if (random.chance(0.3)) body.surface.pattern = Pattern::grid;
+    if (random.chance(0.3)) body.appearance.pattern = Pattern::grid;
     scene.bodies.push_back(body);
 }
 
@@ -79,7 +79,7 @@ void add_ground(SceneDescription& scene, Random& random, unsigned kind) {
         scene.bodies.push_back(slab(Vec3(0.5 * size, random.between(-0.5, 0.5), 0.0), whole));
     }
     for (BodyDescription& body : scene.bodies)
-        if (random.chance(0.3)) body.surface.pattern = Pattern::grid;
+        if (random.chance(0.3)) body.appearance.pattern = Pattern::grid;
 }
 
 enum class Ground { boxes, curved };

@@ -25,7 +25,7 @@ SceneDescription shadow_scene() {
 // Levels that body 1 takes at each place: the image without it less the image with it.
 std::vector<double> levels_taken(const SceneDescription& scene, const std::vector<Vec3>& places) {
     SceneDescription open = scene;
-    open.bodies[1].surface.visible = false;
+    open.bodies[1].appearance.visible = false;
     const Image without = drawn(open), with = drawn(scene);
     std::vector<double> levels;
     for (const Vec3& at : places) levels.push_back(brightness_at(without, scene, at) - brightness_at(with, scene, at));
@@ -91,7 +91,7 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     scene.bodies.push_back(ball_body(Vec3(-2.0, 1.5, 0.0), 0.5, {60, 130, 200}));
     scene.bodies.push_back(box_body(Vec3(2.0, 1.5, 0.0), Vec3::Ones(), {200, 160, 60},
                                     Quat(Eigen::AngleAxisd(0.6, Vec3(1.0, 0.0, 1.0).normalized()))));
-    scene.bodies.back().surface.metallic = 1.0;
+    scene.bodies.back().appearance.metallic = 1.0;
     const auto with_sun = [&](const Vec3& direction) {
         scene.light.direction = direction;
         return drawn(scene);
@@ -107,7 +107,7 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
     scene.bodies[0].rotation = Quat::Identity();
     scene.bodies[0].position.z() = -8.0;
     EXPECT_NE(with_sun(Vec3(0.2, -0.5, 1.0)), with_sun(Vec3(0.2, -0.6, 1.0))) << "is no ground";
-    scene.bodies[0].surface.visible = false;
+    scene.bodies[0].appearance.visible = false;
     scene.bodies[0].position.z() = -1000.0;
     EXPECT_NE(with_sun(Vec3(0.3, 1.0, -0.4)), with_sun(Vec3(0.3, 1.0, 0.4))) << "nor is nothing";
 }
@@ -115,10 +115,10 @@ TEST(Light, ASunBelowTheGroundLightsNothing) {
 // A sheet with one border bent upward, which gives it the AO radius of a body with a height.
 BodyDescription bent_sheet(bool face_up) {
     auto asset = std::make_shared<MeshAsset>(*sheet_asset(16.0, 8));
-    for (Vec3& v : asset->surface.vertices) v.y() = v.z() < -7.0 ? 2.0 : 0.0;
+    for (Vec3& v : asset->mesh.vertices) v.y() = v.z() < -7.0 ? 2.0 : 0.0;
     for (MeshAsset::Vertex& v : asset->vertices) v.position[1] = v.position[2] < -7.0f ? 2.0f : 0.0f;
     if (!face_up) {
-        for (auto& t : asset->surface.triangles) std::swap(t[1], t[2]);
+        for (auto& t : asset->mesh.triangles) std::swap(t[1], t[2]);
         for (std::size_t i = 0; i < asset->indices.size(); i += 3)
             std::swap(asset->indices[i + 1], asset->indices[i + 2]);
         for (MeshAsset::Vertex& v : asset->vertices) v.normal[1] = -1.0f;
@@ -189,7 +189,7 @@ BodyDescription wide_ground(const std::string& kind, double size) {
     BodyDescription ground = box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), color);
     if (kind == "mesh") ground = mesh_body(Vec3::Zero(), sheet_asset(size, 8), color);
     ground.type = BodyType::fixed;
-    ground.surface.roughness = 0.8;  // the same as the plane's
+    ground.appearance.roughness = 0.8;  // the same as the plane's
     return ground;
 }
 
@@ -284,8 +284,8 @@ TEST(Light, MetalEdgesDoNotGlitter) {
     };
     const std::vector<double> wood = brightest();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        scene.bodies[i].surface.metallic = 1.0;
-        scene.bodies[i].surface.roughness = 0.1 + 0.1 * double(i % 3);
+        scene.bodies[i].appearance.metallic = 1.0;
+        scene.bodies[i].appearance.roughness = 0.1 + 0.1 * double(i % 3);
     }
     const std::vector<double> metal = brightest();
     int glitter = 0;
@@ -356,7 +356,7 @@ TEST(Light, ContactIsAsDarkOnALargeMeshOrBallAsOnAPlane) {
     const std::vector<double> on_plane = taken();
     const auto compare = [&](const std::string& what) {
         scene.bodies[0].type = BodyType::fixed;
-        scene.bodies[0].surface.roughness = 0.8;  // the same as the plane's
+        scene.bodies[0].appearance.roughness = 0.8;  // the same as the plane's
         const std::vector<double> here = taken();
         for (std::size_t i = 0; i < places.size(); ++i)
             EXPECT_NEAR(here[i], on_plane[i], 4.5)
@@ -411,7 +411,7 @@ TEST(Light, ContactIsNotDarkFarAway) {
             scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(size, cells), {190, 190, 190});
             scene.bodies[0].type = BodyType::fixed;
             SceneDescription alone = scene;
-            alone.bodies[1].surface.visible = false;
+            alone.bodies[1].appearance.visible = false;
             EXPECT_LE(most_difference(drawn(scene), drawn(alone), scene, Vec3(3.0, 0.0, 0.0), 1.2), 1)
                 << size << " m, " << cells;
         }

@@ -163,11 +163,11 @@ TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
         last = detail.indices.size();
         EXPECT_EQ(detail.surface.triangles.size() * 3, detail.indices.size());
         EXPECT_TRUE(closedness(detail.surface).closed()) << "it has an outline all around";
-        for (const Vec3& vertex : asset->surface.vertices) ASSERT_LE(distance(vertex, detail.surface), deviation);
+        for (const Vec3& vertex : asset->mesh.vertices) ASSERT_LE(distance(vertex, detail.surface), deviation);
         for (const auto& t : detail.surface.triangles) {
             const Vec3 middle =
                 (detail.surface.vertices[t[0]] + detail.surface.vertices[t[1]] + detail.surface.vertices[t[2]]) / 3.0;
-            ASSERT_LE(distance(middle, asset->surface), deviation);
+            ASSERT_LE(distance(middle, asset->mesh), deviation);
         }
     }
     EXPECT_LT(last, asset->indices.size() / 8);

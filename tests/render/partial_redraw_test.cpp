@@ -30,7 +30,7 @@ SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
         scene.bodies[0] = seed % 3 == 0   ? box_body(Vec3(0.0, -1.0, 0.0), Vec3(size, 2.0, size), {176, 180, 184})
                           : seed % 3 == 1 ? mesh_body(Vec3::Zero(), sheet_asset(size, 5), {176, 180, 184})
                                           : ball_body(Vec3(0.0, -size, 0.0), size, {176, 180, 184});
-        if (seed % 2 == 0) scene.bodies[0].surface.pattern = Pattern::grid;
+        if (seed % 2 == 0) scene.bodies[0].appearance.pattern = Pattern::grid;
         scene.bodies[0].type = BodyType::fixed;
     }
     if (seed % 4 == 1) {
@@ -41,8 +41,8 @@ SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
     for (int i = 0; i < 9; ++i) {
         const Vec3 size(random.between(0.2, 1.2), random.between(0.2, 1.2), random.between(0.2, 1.2));
         scene.bodies.push_back(box_body(Vec3::Zero(), size, random.color()));
-        scene.bodies.back().surface.metallic = i == 3 ? 1.0 : 0.0;
-        if (i == 4) scene.bodies.back().surface.pattern = Pattern::checker;
+        scene.bodies.back().appearance.metallic = i == 3 ? 1.0 : 0.0;
+        if (i == 4) scene.bodies.back().appearance.pattern = Pattern::checker;
     }
     for (int i = 0; i < 3; ++i)
         scene.bodies.push_back(ball_body(Vec3::Zero(), random.between(0.15, 0.6), random.color()));

@@ -67,18 +67,18 @@ SceneDescription gallery_scene() {
     scene.bodies.push_back(mesh_body(Vec3(2.0, 1.0, -0.6), torus, {0x4f, 0x9a, 0xd9}, tilt));
     for (int i = 0; i < 4; ++i) {
         BodyDescription ball = ball_body(Vec3(-2.4 + 1.4 * i, 0.5, -1.2), 0.5, {0x3c, 0x9d, 0x6b}, tilt);
-        ball.surface.roughness = 0.1 + 0.3 * i;
+        ball.appearance.roughness = 0.1 + 0.3 * i;
         scene.bodies.push_back(ball);
     }
     BodyDescription metal = ball_body(Vec3(0.9, 0.6, 1.2), 0.6, {0xe0, 0xb0, 0x50}, tilt);
-    metal.surface.metallic = 1.0;
-    metal.surface.roughness = 0.25;
+    metal.appearance.metallic = 1.0;
+    metal.appearance.roughness = 0.25;
     scene.bodies.push_back(metal);
     scene.bodies.push_back(box_body(Vec3(3.2, 0.5, 1.0), Vec3(0.25, 1.0, 0.6), {0xf2, 0xf0, 0xea}));
     scene.bodies.push_back(ball_body(Vec3(-0.2, 0.2, 2.6), 0.2, {0xd8, 0x3a, 0x3a}));
     BodyDescription patterned = box_body(Vec3(2.4, 0.4, 2.6), Vec3(0.8, 0.8, 0.8), {0x8a, 0x6f, 0xc8},
                                          Quat(Eigen::AngleAxisd(0.5, Vec3::UnitY())));
-    patterned.surface.pattern = Pattern::checker;
+    patterned.appearance.pattern = Pattern::checker;
     scene.bodies.push_back(patterned);
     scene.cords.push_back({3, Vec3::Zero(), Vec3(2.0, 4.0, -0.6), 0.02, {60, 60, 60}});
     return scene;
@@ -90,7 +90,7 @@ TEST(Pictures, Gallery) { draw(gallery_scene(), "gallery"); }
 
 TEST(Pictures, HeapOnChecker) {
     SceneDescription scene = heap_scene(100);
-    scene.bodies[0].surface.pattern = Pattern::checker;
+    scene.bodies[0].appearance.pattern = Pattern::checker;
     draw(scene, "heap-checker");
 }
 

@@ -78,7 +78,7 @@ TEST(PoseFilter, StaysWithinTheToleranceOfASlowMovement) {
 
 TEST(PoseFilter, MovesPlanesExactlyAndIgnoresHiddenBodies) {
     SceneDescription scene = one_box();
-    scene.bodies[1].surface.visible = false;
+    scene.bodies[1].appearance.visible = false;
     PoseFilter poses(scene);
     Snapshot snapshot = first_snapshot(scene);
     poses.follow(snapshot);
@@ -90,7 +90,7 @@ TEST(PoseFilter, MovesPlanesExactlyAndIgnoresHiddenBodies) {
 
 TEST(PoseFilter, AnInvisibleBodyMovesItsCord) {
     SceneDescription scene = one_box();
-    scene.bodies[1].surface.visible = false;
+    scene.bodies[1].appearance.visible = false;
     scene.cords.push_back({1, Vec3::Zero(), Vec3(0.0, 3.0, 0.0), 0.02, {60, 60, 60}});
     PoseFilter poses(scene);
     Snapshot snapshot = first_snapshot(scene);

@@ -110,7 +110,7 @@ TEST(Renderer, DrawsAllPartsOfABody) {
     box.shape = right.shape;
     box.position = Vec3(1.5, 1.0, 0.0);
     box.rotation = quarter * right.rotation;
-    box.surface.color = *right.color;
+    box.appearance.color = *right.color;
     apart.bodies = {ground_plane(), ball, box, scene.bodies[2]};
     apart.cords[0].body = 3;
     const Image other = drawn(apart);
@@ -208,7 +208,7 @@ TEST(Renderer, HidesInvisibleBodiesAndDrawsNothingBehindTheEye) {
     const Image nothing = drawn(scene);
     scene.bodies = {box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {200, 30, 30}),
                     box_body(Vec3(0.0, 1.0, 16.0), Vec3::Ones(), {200, 30, 30})};
-    scene.bodies[0].surface.visible = false;
+    scene.bodies[0].appearance.visible = false;
     EXPECT_EQ(drawn(scene), nothing);
 }
 

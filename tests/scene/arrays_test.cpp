@@ -86,7 +86,7 @@ TEST(Grid, APaletteChangesOnlyColors) {
     const auto plain = bodies(lines), colored = bodies(lines + "colors = [\"#ff0000\", \"#00ff00\", \"#0000ff\"]");
     EXPECT_EQ(numbers(plain), numbers(colored));
     std::map<std::string, int> uses;
-    for (const BodyDescription& b : colored) ++uses[to_string(b.surface.color)];
+    for (const BodyDescription& b : colored) ++uses[to_string(b.appearance.color)];
     EXPECT_EQ(uses.size(), 3u);
     for (const auto& [color, n] : uses) EXPECT_GT(n, 20) << color;
 }
@@ -161,9 +161,9 @@ TEST(Scatter, StaysInItsBoxAndApart) {
 }
 
 TEST(Scatter, TurnsItsCopiesUnlessAskedNotTo) {
-    const auto turned = bodies("scatter = { count = 200, size = [90, 90, 90] }");
+    const auto flipped = bodies("scatter = { count = 200, size = [90, 90, 90] }");
     Vec3 mean = Vec3::Zero();
-    for (const BodyDescription& b : turned) mean += b.rotation * Vec3(0, 1, 0) / 200.0;
+    for (const BodyDescription& b : flipped) mean += b.rotation * Vec3(0, 1, 0) / 200.0;
     EXPECT_LT(mean.norm(), 0.2);
     for (const BodyDescription& b :
          bodies("scatter = { count = 20, size = [90, 90, 90], rotation = \"none\" }\nrotation = [0, 1, 0, 0]")) {
@@ -178,13 +178,13 @@ TEST(Scatter, TheSameSeedGivesTheSameBytesAndAnotherGivesOthers) {
 }
 
 TEST(Random, IsTheSameEverywhere) {  // mt19937_64 and the mixing are specified to the bit
-    Random random(1, 0, Random::Purpose::place);
+    Random random(1, 0, Random::Purpose::position);
     EXPECT_EQ(random.unit(), 0.73236295993950207);
     EXPECT_EQ(random.unit(), 0.40196350523301438);
 }
 
 TEST(Random, RotationsAreUniform) {
-    Random random(1, 2, Random::Purpose::turn);
+    Random random(1, 2, Random::Purpose::rotation);
     Mat3 mean = Mat3::Zero();
     double small = 0.0;
     constexpr int count = 20000;

@@ -41,7 +41,7 @@ TEST_F(AssimpImport, ACubeOfOff) {
         load_mesh(write("cube.off",
                         "OFF\n8 6 12\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n"
                         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
-    EXPECT_EQ(mesh.asset->surface.triangles.size(), 12u);
+    EXPECT_EQ(mesh.asset->mesh.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
 }
 
@@ -54,7 +54,7 @@ TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {
     ASSERT_EQ(objects.size(), 2u);
     EXPECT_NEAR(objects[0].closedness.signed_volume, 1.0 / 6.0, 1e-15);
     EXPECT_NEAR(objects[1].closedness.signed_volume, 8.0 / 6.0, 1e-14);
-    EXPECT_EQ(objects[1].asset->surface.bounds().center(), Vec3(1.0, 6.0, 1.0));
+    EXPECT_EQ(objects[1].asset->mesh.bounds().center(), Vec3(1.0, 6.0, 1.0));
 }
 
 TEST_F(AssimpImport, NoOtherFileIsOpened) {

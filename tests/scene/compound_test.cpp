@@ -82,9 +82,9 @@ TEST_F(Compounds, ObjectsOfAMeshFileArePartsAndShared) {
     const auto& list = parts(scene);
     ASSERT_EQ(list.size(), 2u);
     const MeshAsset& cube = *std::get<MeshShape>(list[0].shape).asset;
-    EXPECT_EQ(cube.surface.vertices.size(), 8u);
-    EXPECT_EQ(cube.surface.bounds().max, Vec3(2, 2, 2));
-    EXPECT_EQ(std::get<MeshShape>(list[1].shape).asset->surface.vertices.size(), 4u);
+    EXPECT_EQ(cube.mesh.vertices.size(), 8u);
+    EXPECT_EQ(cube.mesh.bounds().max, Vec3(2, 2, 2));
+    EXPECT_EQ(std::get<MeshShape>(list[1].shape).asset->mesh.vertices.size(), 4u);
     EXPECT_EQ(local_bounds(scene.bodies[0].shape).max, Vec3(8, 2, 2));
     EXPECT_EQ(&cube, std::get<MeshShape>(parts(scene, 1)[0].shape).asset.get());
 }
@@ -94,7 +94,7 @@ TEST_F(Compounds, TheHoopIsMadeOfConvexParts) {
     ASSERT_EQ(objects.size(), 24u);
     for (const LoadedMesh& object : objects) {
         EXPECT_TRUE(object.closedness.closed());
-        const TriangleMesh& mesh = object.asset->surface;
+        const TriangleMesh& mesh = object.asset->mesh;
         for (const auto& t : mesh.triangles) {
             const Vec3& a = mesh.vertices[t[0]];
             const Vec3 n = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).normalized();

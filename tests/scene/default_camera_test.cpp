@@ -190,18 +190,18 @@ TEST(DefaultCamera, LooksIntoContainers) {
 
     const Vec3 before = default_camera(bin, {}).eye;
     for (BodyDescription& body : bin.bodies)
-        if (body.type == BodyType::fixed) body.surface.visible = false;  // nothing hides the bodies
+        if (body.type == BodyType::fixed) body.appearance.visible = false;  // nothing hides the bodies
     EXPECT_FALSE(over_the_rim(default_camera(bin, {}).eye, {0.0, 0.25, 0.0}, 1.9, 2.0));
     EXPECT_LT(default_camera(bin, {}).eye.y() / default_camera(bin, {}).eye.norm(), 0.8 * before.y() / before.norm());
 
     auto tube = std::make_shared<MeshAsset>();  // four upright sides, open
     for (const double y : {0.0, 2.0})
         for (const auto& [x, z] : {std::pair(-2.0, -2.0), {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}})
-            tube->surface.vertices.push_back({x, y, z});
+            tube->mesh.vertices.push_back({x, y, z});
     for (std::uint32_t i = 0; i < 4; ++i) {
         const std::uint32_t next = (i + 1) % 4;
-        tube->surface.triangles.push_back({i, next, next + 4});
-        tube->surface.triangles.push_back({i, next + 4, i + 4});
+        tube->mesh.triangles.push_back({i, next, next + 4});
+        tube->mesh.triangles.push_back({i, next + 4, i + 4});
     }
     SceneDescription mesh;
     mesh.bodies = {ground(), BodyDescription{}, box_at({0.0, 5.0, 0.0}, Vec3::Constant(0.5))};

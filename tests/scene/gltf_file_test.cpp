@@ -67,7 +67,7 @@ protected:
         return error_of(document);
     }
     void expect_tetrahedron(const LoadedMesh& mesh) const {
-        EXPECT_EQ(mesh.asset->surface.vertices.size(), 4u);
+        EXPECT_EQ(mesh.asset->mesh.vertices.size(), 4u);
         EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 1.0 / 6.0);
         EXPECT_TRUE(mesh.closedness.closed());
     }
@@ -97,12 +97,12 @@ TEST_F(Gltf, NodesThatShowOneMeshAreEachAnObject) {
     Document document;
     document.nodes =
         R"([{"children":[1,2]},{"mesh":0,"translation":[2,0,0]},{"mesh":0,"rotation":[0,1,0,0],"scale":[1,2,-1]}])";
-    EXPECT_EQ(loaded(document).asset->surface.triangles.size(), 8u);
+    EXPECT_EQ(loaded(document).asset->mesh.triangles.size(), 8u);
     const auto objects = load_mesh_objects(folder() / "a.gltf");
     ASSERT_EQ(objects.size(), 2u);
-    EXPECT_EQ(objects[0].asset->surface.bounds().min, Vec3(2, 0, 0));
-    EXPECT_EQ(objects[1].asset->surface.bounds().min, Vec3(-1, 0, 0));
-    EXPECT_EQ(objects[1].asset->surface.bounds().max, Vec3(0, 2, 1));
+    EXPECT_EQ(objects[0].asset->mesh.bounds().min, Vec3(2, 0, 0));
+    EXPECT_EQ(objects[1].asset->mesh.bounds().min, Vec3(-1, 0, 0));
+    EXPECT_EQ(objects[1].asset->mesh.bounds().max, Vec3(0, 2, 1));
     EXPECT_DOUBLE_EQ(objects[1].closedness.signed_volume, 2.0 / 6.0);
 }
 
@@ -118,9 +118,9 @@ TEST_F(Gltf, StripsFansAndUnindexedTriangles) {
         document.buffers = R"([{"byteLength":56,"uri":"data.bin"}])";
         const auto mesh = loaded(document);
         Vec3 sum = Vec3::Zero();
-        for (const auto& t : mesh.asset->surface.triangles) {
-            const Vec3& a = mesh.asset->surface.vertices[t[0]];
-            sum += 0.5 * (mesh.asset->surface.vertices[t[1]] - a).cross(mesh.asset->surface.vertices[t[2]] - a);
+        for (const auto& t : mesh.asset->mesh.triangles) {
+            const Vec3& a = mesh.asset->mesh.vertices[t[0]];
+            sum += 0.5 * (mesh.asset->mesh.vertices[t[1]] - a).cross(mesh.asset->mesh.vertices[t[2]] - a);
         }
         return sum;
     };

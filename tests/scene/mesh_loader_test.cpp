@@ -15,17 +15,16 @@ class MeshLoader : public MeshFiles {};
 
 /// Drawn triangles match the surface, their normals are unit and on the side of their face.
 void expect_drawable(const MeshAsset& mesh) {
-    ASSERT_EQ(mesh.indices.size(), 3 * mesh.surface.triangles.size());
+    ASSERT_EQ(mesh.indices.size(), 3 * mesh.mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         ASSERT_LT(mesh.indices[i], mesh.vertices.size());
-        const auto& t = mesh.surface.triangles[i / 3];
+        const auto& t = mesh.mesh.triangles[i / 3];
         const MeshAsset::Vertex& drawn = mesh.vertices[mesh.indices[i]];
         const Vec3 p(drawn.position[0], drawn.position[1], drawn.position[2]),
             n(drawn.normal[0], drawn.normal[1], drawn.normal[2]);
-        EXPECT_TRUE(p.isApprox(mesh.surface.vertices[t[i % 3]], 1e-6) ||
-                    (p - mesh.surface.vertices[t[i % 3]]).norm() < 1e-6);
+        EXPECT_TRUE(p.isApprox(mesh.mesh.vertices[t[i % 3]], 1e-6) || (p - mesh.mesh.vertices[t[i % 3]]).norm() < 1e-6);
         EXPECT_NEAR(n.norm(), 1.0, 1e-6);
-        const Vec3 &a = mesh.surface.vertices[t[0]], &b = mesh.surface.vertices[t[1]], &c = mesh.surface.vertices[t[2]];
+        const Vec3 &a = mesh.mesh.vertices[t[0]], &b = mesh.mesh.vertices[t[1]], &c = mesh.mesh.vertices[t[2]];
         EXPECT_GT((b - a).cross(c - a).dot(n), 0.0);
     }
 }
@@ -45,11 +44,11 @@ TEST_F(MeshLoader, EveryMeshOfTheAssetsIsClosedAndFacesOutward) {
 }
 
 TEST_F(MeshLoader, ReadsEachKindOfFile) {
-    EXPECT_EQ(load_mesh(asset("torus.obj")).asset->surface.triangles.size(), 2304u);
-    EXPECT_EQ(load_mesh(asset("half_pipe.stl")).asset->surface.triangles.size(), 212u);
-    EXPECT_EQ(load_mesh(asset("knot.ply")).asset->surface.triangles.size(), 4032u);
-    EXPECT_EQ(load_mesh(asset("egg.gltf")).asset->surface.triangles.size(), 2976u);
-    EXPECT_EQ(load_mesh(asset("star.glb")).asset->surface.vertices.size(), 12u);  // welded from 60 corners
+    EXPECT_EQ(load_mesh(asset("torus.obj")).asset->mesh.triangles.size(), 2304u);
+    EXPECT_EQ(load_mesh(asset("half_pipe.stl")).asset->mesh.triangles.size(), 212u);
+    EXPECT_EQ(load_mesh(asset("knot.ply")).asset->mesh.triangles.size(), 4032u);
+    EXPECT_EQ(load_mesh(asset("egg.gltf")).asset->mesh.triangles.size(), 2976u);
+    EXPECT_EQ(load_mesh(asset("star.glb")).asset->mesh.vertices.size(), 12u);  // welded from 60 corners
 }
 
 TEST_F(MeshLoader, ATorusHasItsVolumeAndTheNormalsOfItsFile) {
@@ -63,7 +62,7 @@ TEST_F(MeshLoader, ATorusHasItsVolumeAndTheNormalsOfItsFile) {
 }
 
 TEST_F(MeshLoader, TheCradlesTrackIsWhereTheBallsSlide) {
-    const TriangleMesh track = load_mesh(asset("cradle_track.obj")).asset->surface;
+    const TriangleMesh track = load_mesh(asset("cradle_track.obj")).asset->mesh;
     int upper = 0;
     for (const Vec3& v : track.vertices) {
         EXPECT_NEAR(std::fabs(v.z()), 0.5, 1e-12);
@@ -79,8 +78,8 @@ TEST_F(MeshLoader, TheCradlesTrackIsWhereTheBallsSlide) {
 
 TEST_F(MeshLoader, ACubeIsExactAndHasHardEdges) {
     const LoadedMesh cube = load_mesh(write("cube.obj", cube_points() + cube_faces()));
-    EXPECT_EQ(cube.asset->surface.vertices.size(), 8u);
-    EXPECT_EQ(cube.asset->surface.triangles.size(), 12u);
+    EXPECT_EQ(cube.asset->mesh.vertices.size(), 8u);
+    EXPECT_EQ(cube.asset->mesh.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(cube.closedness.signed_volume, 8.0);
     EXPECT_EQ(cube.asset->vertices.size(), 24u);  // three normals per corner
     expect_drawable(*cube.asset);
@@ -88,16 +87,16 @@ TEST_F(MeshLoader, ACubeIsExactAndHasHardEdges) {
 
 TEST_F(MeshLoader, DecimalsOfTheFileAreKeptExactly) {  // through assimp's floats
     const auto mesh = load_mesh(write("a.obj", "v 0.1 0.2 0.3\nv 12.3456 0 0\nv 0 -0.0007 0\nf 1 2 3\n"));
-    EXPECT_EQ(mesh.asset->surface.vertices[0], Vec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(mesh.asset->surface.vertices[1], Vec3(12.3456, 0, 0));
-    EXPECT_EQ(mesh.asset->surface.vertices[2], Vec3(0, -0.0007, 0));
+    EXPECT_EQ(mesh.asset->mesh.vertices[0], Vec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(mesh.asset->mesh.vertices[1], Vec3(12.3456, 0, 0));
+    EXPECT_EQ(mesh.asset->mesh.vertices[2], Vec3(0, -0.0007, 0));
 }
 
 TEST_F(MeshLoader, ARoundSurfaceWithoutNormalsIsSmooth) {
     const auto knot = load_mesh(asset("knot.ply"));
-    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->surface.vertices.size());  // one normal per point
+    EXPECT_EQ(knot.asset->vertices.size(), knot.asset->mesh.vertices.size());  // one normal per point
     const auto egg = load_mesh(asset("egg.gltf"));
-    EXPECT_EQ(egg.asset->vertices.size(), egg.asset->surface.vertices.size());
+    EXPECT_EQ(egg.asset->vertices.size(), egg.asset->mesh.vertices.size());
     for (const MeshAsset::Vertex& v : egg.asset->vertices) {
         if (std::fabs(std::fabs(v.position[1]) - 0.5) > 1e-6) continue;
         EXPECT_NEAR(std::fabs(v.normal[1]), 1.0, 1e-5);  // at the poles
@@ -106,7 +105,7 @@ TEST_F(MeshLoader, ARoundSurfaceWithoutNormalsIsSmooth) {
 
 TEST_F(MeshLoader, AGemKeepsItsFlatFacets) {
     const auto gem = load_mesh(asset("gem.obj"));
-    const TriangleMesh& s = gem.asset->surface;
+    const TriangleMesh& s = gem.asset->mesh;
     for (std::size_t t = 0; t < s.triangles.size(); ++t) {
         const Vec3 &a = s.vertices[s.triangles[t][0]], &b = s.vertices[s.triangles[t][1]],
                    &c = s.vertices[s.triangles[t][2]];
@@ -130,7 +129,7 @@ TEST_F(MeshLoader, StlFacetsOfARoundTubeAreSmoothed) {
         stl += "facet normal 0 0 0\nouter loop\n" + corner(k, 0) + corner(n, 1) + corner(k, 1) + "endloop\nendfacet\n";
     }
     const auto tube = load_mesh(write("tube.stl", stl + "endsolid tube\n"));
-    EXPECT_EQ(tube.asset->surface.vertices.size(), 48u);
+    EXPECT_EQ(tube.asset->mesh.vertices.size(), 48u);
     EXPECT_EQ(tube.asset->vertices.size(), 48u);
     EXPECT_EQ(tube.closedness.open_edges, 48u);
     for (const MeshAsset::Vertex& v : tube.asset->vertices) {
@@ -143,7 +142,7 @@ TEST_F(MeshLoader, AnInsideOutMeshIsTurned) {
         load_mesh(write("a.obj", cube_points() + "f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n"));
     EXPECT_TRUE(mesh.closedness.closed());
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
-    EXPECT_DOUBLE_EQ(closedness(mesh.asset->surface).signed_volume, 8.0);
+    EXPECT_DOUBLE_EQ(closedness(mesh.asset->mesh).signed_volume, 8.0);
     expect_drawable(*mesh.asset);
 }
 
@@ -186,7 +185,7 @@ TEST_F(MeshLoader, AOneSidedSurfaceIsUnchanged) {
     for (int k = 0; k < 11; ++k) strip += fmt::format("f {} {} {} {}\n", 2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2);
     const auto mesh = load_mesh(write("strip.obj", strip + "f 23 2 1 24\n"));
     EXPECT_EQ(mesh.closedness.crowded_edges, 1u);
-    EXPECT_EQ(mesh.asset->surface.triangles.size(), 24u);
+    EXPECT_EQ(mesh.asset->mesh.triangles.size(), 24u);
 }
 
 TEST_F(MeshLoader, AnOpenMeshSaysHowManyEdgesAreOpen) {
@@ -199,9 +198,9 @@ TEST_F(MeshLoader, AnOpenMeshSaysHowManyEdgesAreOpen) {
 TEST_F(MeshLoader, PointsThatNoFaceUsesAndFacesWithoutAreaAreLeftOut) {
     const auto mesh =
         load_mesh(write("a.obj", "v 99 99 99\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.5 0 0\nf 2 3 4\nf 2 5 3\nf 2 2 3\n"));
-    EXPECT_EQ(mesh.asset->surface.triangles.size(), 1u);
-    EXPECT_EQ(mesh.asset->surface.vertices.size(), 3u);
-    EXPECT_EQ(mesh.asset->surface.bounds().max, Vec3(1, 1, 0));
+    EXPECT_EQ(mesh.asset->mesh.triangles.size(), 1u);
+    EXPECT_EQ(mesh.asset->mesh.vertices.size(), 3u);
+    EXPECT_EQ(mesh.asset->mesh.bounds().max, Vec3(1, 1, 0));
 }
 
 TEST_F(MeshLoader, ASliverThatClosesAGapCountsForClosedness) {
@@ -210,8 +209,8 @@ TEST_F(MeshLoader, ASliverThatClosesAGapCountsForClosedness) {
                                                                "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"));
     EXPECT_TRUE(mesh.closedness.closed());
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
-    for (const auto& t : mesh.asset->surface.triangles) {
-        const auto& v = mesh.asset->surface.vertices;
+    for (const auto& t : mesh.asset->mesh.triangles) {
+        const auto& v = mesh.asset->mesh.vertices;
         EXPECT_GT((v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).norm(), 0.1);
     }
 }
@@ -231,7 +230,7 @@ TEST_F(MeshLoader, NodesOfAGltfMoveTurnAndMirrorTheirMeshes) {
     };
     const auto egg = load_mesh(asset("egg.gltf"));
     const auto moved = load_mesh(write("moved.gltf", replace("2,0,0,0, 0,2,0,0, 0,0,2,0, 10,20,30,1")));
-    EXPECT_TRUE(moved.asset->surface.bounds().center().isApprox(Vec3(10, 20, 30), 1e-6));
+    EXPECT_TRUE(moved.asset->mesh.bounds().center().isApprox(Vec3(10, 20, 30), 1e-6));
     EXPECT_NEAR(moved.closedness.signed_volume, 8.0 * egg.closedness.signed_volume, 1e-6);
     const auto mirrored = load_mesh(write("mirrored.gltf", replace("1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1")));
     EXPECT_NEAR(mirrored.closedness.signed_volume, egg.closedness.signed_volume, 1e-9);
@@ -251,8 +250,8 @@ TEST_F(MeshLoader, AMirroredSheetKeepsItsFrontSide) {
     };
     for (const char* scale : {"[1,1,1]", "[1,-1,1]", "[-1,1,1]"}) {
         const auto mesh = load_mesh(write("sheet.gltf", sheet(scale)));
-        ASSERT_EQ(mesh.asset->surface.triangles.size(), 1u);
-        EXPECT_TRUE(face_normal(mesh.asset->surface, 0).isApprox(Vec3(0, 0, 1))) << scale;
+        ASSERT_EQ(mesh.asset->mesh.triangles.size(), 1u);
+        EXPECT_TRUE(face_normal(mesh.asset->mesh, 0).isApprox(Vec3(0, 0, 1))) << scale;
     }
 }
 
@@ -284,7 +283,7 @@ TEST_F(MeshLoader, PlyInItsThreeEncodingsIsTheSame) {
     for (const LoadedMesh& mesh : {a, b, c}) {
         EXPECT_TRUE(mesh.closedness.closed());
         EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 0.1 / 6.0);
-        EXPECT_EQ(mesh.asset->surface.vertices[2], Vec3(0, 0.1, 0));
+        EXPECT_EQ(mesh.asset->mesh.vertices[2], Vec3(0, 0.1, 0));
     }
 }
 
@@ -302,7 +301,7 @@ TEST_F(MeshLoader, TheCacheSharesEqualScales) {
     EXPECT_EQ(one, again);
     EXPECT_NE(one, two);
     EXPECT_EQ(two, cache.load(asset("gem.obj"), 2.0).asset);
-    EXPECT_TRUE(two->surface.bounds().max.isApprox(2.0 * one->surface.bounds().max));
+    EXPECT_TRUE(two->mesh.bounds().max.isApprox(2.0 * one->mesh.bounds().max));
     EXPECT_NEAR(cache.load(asset("gem.obj"), 2.0).closedness.signed_volume,
                 8.0 * cache.load(asset("gem.obj"), 1.0).closedness.signed_volume, 1e-12);
 }

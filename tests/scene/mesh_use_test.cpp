@@ -29,7 +29,7 @@ TEST_F(MeshUse, FilesAreFoundFromTheScenesFolder) {
         folder() / "scenes" / "scene.toml");
     const auto& mesh = std::get<MeshShape>(scene.bodies[0].shape).asset;
     EXPECT_EQ(mesh->file, (folder() / "cube.obj").string());
-    EXPECT_EQ(mesh->surface.bounds().max, Vec3(3, 3, 3));
+    EXPECT_EQ(mesh->mesh.bounds().max, Vec3(3, 3, 3));
     EXPECT_EQ(mesh, std::get<MeshShape>(scene.bodies[1].shape).asset);
 }
 

@@ -27,7 +27,7 @@ void expect_cut(const std::vector<Vec3>& corners, double tolerance = 1e-12) {
 
 TEST(Polygon, ConvexOnesAndOnesWithDentsKeepTheirAreaInEveryPlane) {
     for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0.2), Vec3(0, -1, 0)}) {
-        const Quat turn = turn_between(Vec3(0, 0, 1), normal);
+        const Quat turn = rotation_between(Vec3(0, 0, 1), normal);
         const auto placed = [&](std::vector<Vec3> points) {
             for (Vec3& p : points) p = turn * p + Vec3(3, -2, 5);
             return points;

@@ -144,11 +144,11 @@ TEST(SceneValues, BodiesTakeMissingKeysFromTheirMaterial) {
     EXPECT_EQ(ball.density, 7800.0);
     EXPECT_EQ(ball.restitution, 0.4);
     EXPECT_EQ(ball.friction, 0.1);
-    EXPECT_EQ(ball.surface.color, (Color{0xff, 0x00, 0x80}));
-    EXPECT_EQ(ball.surface.roughness, 0.2);
-    EXPECT_EQ(ball.surface.metallic, 1.0);
-    EXPECT_EQ(ball.surface.pattern, Pattern::checker);
-    EXPECT_FALSE(ball.surface.visible);
+    EXPECT_EQ(ball.appearance.color, (Color{0xff, 0x00, 0x80}));
+    EXPECT_EQ(ball.appearance.roughness, 0.2);
+    EXPECT_EQ(ball.appearance.metallic, 1.0);
+    EXPECT_EQ(ball.appearance.pattern, Pattern::checker);
+    EXPECT_FALSE(ball.appearance.visible);
     EXPECT_EQ(ball.position, Vec3(1, 2, 3));
     EXPECT_EQ(ball.velocity, Vec3(4, 5, 6));
     EXPECT_EQ(ball.angular_velocity, Vec3(7, 8, 9));
@@ -161,10 +161,10 @@ TEST(SceneValues, BodiesTakeMissingKeysFromTheirMaterial) {
     EXPECT_EQ(box.density, 500.0);
     EXPECT_FALSE(box.mass.has_value());
     EXPECT_EQ(box.restitution, 0.9);
-    EXPECT_EQ(box.surface.color, (Color{0x80, 0x90, 0xa0}));
-    EXPECT_EQ(box.surface.roughness, 0.9);
-    EXPECT_EQ(box.surface.metallic, 0.25);
-    EXPECT_EQ(box.surface.pattern, Pattern::grid);
+    EXPECT_EQ(box.appearance.color, (Color{0x80, 0x90, 0xa0}));
+    EXPECT_EQ(box.appearance.roughness, 0.9);
+    EXPECT_EQ(box.appearance.metallic, 0.25);
+    EXPECT_EQ(box.appearance.pattern, Pattern::grid);
     EXPECT_EQ(box.integrator, IntegratorKind::symplectic_euler);
     EXPECT_FALSE(ball.integrator.has_value());     // the simulation's
     EXPECT_NEAR(box.rotation.norm(), 1.0, 1e-15);  // 0.7071 is close enough to be normalized
@@ -177,8 +177,8 @@ TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnDefaults) {
     EXPECT_EQ(plane.offset, 0.5);
     EXPECT_EQ(floor.type, BodyType::fixed);
     EXPECT_EQ(floor.friction, 0.7);
-    EXPECT_EQ(floor.surface.pattern, Pattern::grid);
-    EXPECT_GT(int(floor.surface.color.r), 0xc0);
+    EXPECT_EQ(floor.appearance.pattern, Pattern::grid);
+    EXPECT_GT(int(floor.appearance.color.r), 0xc0);
 }
 
 TEST(SceneValues, KeyframesKeepMissingPartsOfThePose) {
@@ -235,8 +235,8 @@ TEST(SceneValues, ABodyWithoutMaterialHasTheDefaultsOfTheFormat) {
     EXPECT_EQ(body.restitution, 0.5);
     EXPECT_EQ(body.friction, 0.0);
     EXPECT_EQ(body.name, "0");
-    EXPECT_EQ(body.surface.pattern, Pattern::plain);
-    EXPECT_TRUE(body.surface.visible);
+    EXPECT_EQ(body.appearance.pattern, Pattern::plain);
+    EXPECT_TRUE(body.appearance.visible);
     EXPECT_EQ(body.position, Vec3(0, 0, 0));
     EXPECT_EQ(body.rotation.coeffs(), Quat::Identity().coeffs());
 }

@@ -168,7 +168,7 @@ TEST(BoxOnBox, FeaturesStayTheSameUnderSmallMotion) {
 // Only ties: corner on corner, corner on edge, edge along edge, face edges exactly over each other.
 TEST(BoxOnBox, DegenerateTouchesAreFiniteAndShallow) {
     const double diagonal = std::sqrt(3.0);
-    const Mat3 on_corner = turn_between(Vec3(1.0, 1.0, 1.0), Vec3::UnitY()).toRotationMatrix();
+    const Mat3 on_corner = rotation_between(Vec3(1.0, 1.0, 1.0), Vec3::UnitY()).toRotationMatrix();
     const Mat3 on_edge = turned(Vec3::UnitX(), std::numbers::pi / 4);
     struct Case {
         Mat3 below, above;

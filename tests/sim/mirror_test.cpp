@@ -14,7 +14,7 @@ Vec3 mirror_axial(const Vec3& v) { return {v.x(), -v.y(), -v.z()}; }
 Quat mirror(const Quat& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
 
 std::shared_ptr<const MeshAsset> mirror(const MeshAsset& asset) {
-    TriangleMesh mesh = asset.surface;
+    TriangleMesh mesh = asset.mesh;
     for (Vec3& v : mesh.vertices) v = mirror(v);
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     return asset_of(mesh);

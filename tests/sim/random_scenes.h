@@ -71,7 +71,7 @@ inline double lowest_point(const BodyDescription& d, const BodyState& s) {
     if (const auto* box = std::get_if<BoxShape>(&d.shape))
         vertices = make_box(box->size).vertices;
     else if (const auto* mesh = std::get_if<MeshShape>(&d.shape))
-        vertices = mesh->asset->surface.vertices;
+        vertices = mesh->asset->mesh.vertices;
     double y = 1e300;
     for (const Vec3& v : vertices) y = std::min(y, (s.origin + s.orientation * v).y());
     return y;

@@ -11,7 +11,7 @@ namespace tumble::testing {
 inline std::shared_ptr<const MeshAsset> asset_of(TriangleMesh mesh) {
     auto asset = std::make_shared<MeshAsset>();
     asset->file = "made in the test";
-    asset->surface = std::move(mesh);
+    asset->mesh = std::move(mesh);
     return asset;
 }
 

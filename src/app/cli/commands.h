@@ -2,11 +2,11 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
-#include "output/image_compare.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
+#include "tumble/output.h"
 
 #include <filesystem>
 #include <optional>
@@ -25,7 +25,7 @@ struct RenderCommand {
     double start = 0.0;          // s, scene time; earlier frames are not drawn
     double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;        // moments while the shutter is open
+    int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h
     int workers = 1;             // render processes
     bool quiet = false;
@@ -68,9 +68,9 @@ void run_encode(const EncodeCommand& command);
 struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::filesystem::path> difference;
-    CompareOptions options;
+    v0::CompareOptions options;
 };
-/// Returns 0 if the pictures are alike, 1 if they differ, 2 if they cannot be compared.
+/// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared.
 int run_compare(const CompareCommand& command);
 
 struct InfoCommand {

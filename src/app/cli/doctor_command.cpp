@@ -36,9 +36,9 @@ struct Finding {
 };
 
 /// Waits for child processes until they end, the time limit is reached, or Ctrl-C is pressed.
-class Patience {
+class TimeLimit {
 public:
-    explicit Patience(double limit) : limit_(limit) {}
+    explicit TimeLimit(double limit) : limit_(limit) {}
 
     ProgramOutput run(const std::filesystem::path& program, const std::vector<std::string>& arguments) {
         return run_program(program, arguments, stop());
@@ -68,7 +68,7 @@ private:
 constexpr int failed = 1, out_of_memory = 3;  // exit codes of a check
 
 /// Runs a check in the child process.
-[[noreturn]] void look_and_tell(const std::function<std::string()>& look, int pipe) {
+[[noreturn]] void run_check(const std::function<std::string()>& check, int pipe) {
     ::setpgid(0, 0);  // Ctrl-C must reach it only through the parent
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     sigset_t none;
@@ -77,7 +77,7 @@ constexpr int failed = 1, out_of_memory = 3;  // exit codes of a check
     std::string text;
     int code = 0;
     try {
-        text = look();
+        text = check();
     } catch (const MemoryError& error) {
         text = error.what();
         code = out_of_memory;
@@ -92,30 +92,30 @@ constexpr int failed = 1, out_of_memory = 3;  // exit codes of a check
     ::_exit(code);  // no destructors of the parent's objects, no second flush of its streams
 }
 
-/// Runs `look` in a process of its own: a driver that crashes or hangs is a finding as well.
-Finding in_own_process(const std::function<std::string()>& look, Patience& patience) {
+/// Runs `check` in a process of its own: a driver that crashes or hangs is a finding as well.
+Finding in_own_process(const std::function<std::string()>& check, TimeLimit& time_limit) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) return {false, "cannot make a pipe"};
     std::fflush(nullptr);
     const pid_t id = ::fork();
     if (id == 0) {
         ::close(ends[0]);
-        look_and_tell(look, ends[1]);
+        run_check(check, ends[1]);
     }
     ::close(ends[1]);
     ProgramOutput output;
-    if (id > 0) output = patience.listen(id, ends[0]);
+    if (id > 0) output = time_limit.listen(id, ends[0]);
     ::close(ends[0]);
     if (id < 0) return {false, "cannot start a process"};
-    if (output.stopped) return patience.late("the driver");
+    if (output.stopped) return time_limit.late("the driver");
     if (output.end.signal == 0) return {output.end.ok(), output.text, output.end.exit_code != out_of_memory};
     const std::string limit = memory_limit_note();
     return {false, fmt::format("the driver crashed ({}){}", strsignal(output.end.signal), limit), limit.empty()};
 }
 
 /// Draws an empty scene of a few pixels.
-Finding try_drawing(GlBackend backend, Patience& patience) {
-    const auto look = [backend] {
+Finding try_drawing(GlBackend backend, TimeLimit& time_limit) {
+    const auto check = [backend] {
         SceneDescription scene;
         scene.output.width = scene.output.height = 32;
         scene.camera.eye = {0.0, 1.0, 5.0};
@@ -129,10 +129,10 @@ Finding try_drawing(GlBackend backend, Patience& patience) {
         if (image.width != 32 || image.height != 32) throw RunError("the picture has a different size than requested");
         return renderer.driver();
     };
-    return in_own_process(look, patience);
+    return in_own_process(check, time_limit);
 }
 
-Finding look_for_shaders() {
+Finding check_shaders() {
     try {
         return {true, find_shader_folder().string()};
     } catch (const RunError& error) {
@@ -140,15 +140,15 @@ Finding look_for_shaders() {
     }
 }
 
-Finding look_for_ffmpeg(Patience& patience) try {
+Finding check_ffmpeg(TimeLimit& time_limit) try {
     const auto program = find_program("ffmpeg");
     if (!program) return {false, "not on the PATH"};
-    const ProgramOutput version = patience.run(*program, {"-hide_banner", "-version"});
-    if (version.stopped) return patience.late(program->string());
+    const ProgramOutput version = time_limit.run(*program, {"-hide_banner", "-version"});
+    if (version.stopped) return time_limit.late(program->string());
     if (!version.end.ok())
         return {false, fmt::format("{} does not run ({})", program->string(), version.end.describe())};
-    const ProgramOutput encoders = patience.run(*program, {"-hide_banner", "-encoders"});
-    if (encoders.stopped) return patience.late(program->string());
+    const ProgramOutput encoders = time_limit.run(*program, {"-hide_banner", "-encoders"});
+    if (encoders.stopped) return time_limit.late(program->string());
     std::string text = version.text.substr(0, version.text.find(" Copyright"));
     for (const char* needed : {"libx264 ", "libvpx-vp9", "gif "})
         if (!encoders.end.ok() || encoders.text.find(needed) == std::string::npos)
@@ -177,15 +177,15 @@ std::string versions() {
 }  // namespace
 
 int run_doctor(const DoctorCommand& command) {
-    Patience patience(command.time_limit);
+    TimeLimit time_limit(command.time_limit);
     put("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
     put("  {:<16} {}\n", "libraries", versions());
 
-    const Finding shaders = look_for_shaders();
-    const Finding osmesa = try_drawing(GlBackend::osmesa, patience);
-    const Finding egl = try_drawing(GlBackend::egl, patience);
-    const Finding ffmpeg = look_for_ffmpeg(patience);
-    if (patience.interrupted()) throw RunError("interrupted");
+    const Finding shaders = check_shaders();
+    const Finding osmesa = try_drawing(GlBackend::osmesa, time_limit);
+    const Finding egl = try_drawing(GlBackend::egl, time_limit);
+    const Finding ffmpeg = check_ffmpeg(time_limit);
+    if (time_limit.interrupted()) throw RunError("interrupted");
     print("shaders", shaders, "set TUMBLE_SHADERS to the folder of that name, or install Tumble again");
     print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6");
     print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl)");

@@ -38,7 +38,7 @@ void check_regular(const fs::path& path) {
 
 /// Number of frames. Precondition: they are numbered from 0 without gaps and have one size; throws InputError naming a
 /// file that violates it.
-std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
+std::int64_t checked_frame_count(const fs::path& folder, ImageSize& size) {
     const std::vector<std::int64_t> numbers = frames_in(folder);
     if (numbers.empty())
         throw InputError({folder.string(), 0, 0},
@@ -52,7 +52,7 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
                 fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
                             frame_path(folder, numbers.back()).filename().string()));
         check_regular(path);
-        const PictureSize this_size = read_png_size(path);
+        const ImageSize this_size = read_png_size(path);
         if (i == 0) size = this_size;
         if (this_size != size)
             throw InputError({path.string(), 0, 0},
@@ -64,7 +64,7 @@ std::int64_t checked_frame_count(const fs::path& folder, PictureSize& size) {
 
 /// Bytes of at most this many frames: those in the queue, the one being read, and the one being written. ffmpeg holds
 /// the last one in three copies: converted, passed on, and in the pipe.
-std::uint64_t pictures_on_their_way(const PictureSize& size, const VideoFormat& format, std::int64_t frames) {
+std::uint64_t buffered_image_bytes(const ImageSize& size, const VideoFormat& format, std::int64_t frames) {
     const auto images = std::uint64_t(std::min<std::int64_t>(frames, waiting_frames + 2));
     return images * 4 * std::uint64_t(size.width) * std::uint64_t(size.height) +
            (1 + std::min<std::uint64_t>(images, 2)) * frame_bytes(format.pixels, size.width, size.height);
@@ -98,16 +98,16 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
 
 void run_encode(const EncodeCommand& command) {
     const VideoFormat format = video_format(command.clip, command.fps);
-    PictureSize size;
+    ImageSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
     OutputPlan plan;
     for (std::int64_t n = 0; n < frames; ++n) plan.add_input(frame_path(command.frames, n));
     plan.add("--output", command.clip);
     find_ffmpeg();
     const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);
-    const std::uint64_t on_their_way = pictures_on_their_way(size, format, frames);
-    require_memory(on_their_way, what, "smaller frames take less");
-    require_memory(on_their_way + encoder_memory(format.kind, size.width, size.height), shared_memory(), what,
+    const std::uint64_t buffered = buffered_image_bytes(size, format, frames);
+    require_memory(buffered, what, "smaller frames take less");
+    require_memory(buffered + encoder_memory(format.kind, size.width, size.height), shared_memory(), what,
                    "smaller frames take less");
 
     Interrupt interrupt;

@@ -39,7 +39,7 @@ struct ShapeText {
 };
 
 ShapeText shape_text(const Shape& shape) {
-    struct Tell {
+    struct ShapeVisitor {
         ShapeText operator()(const PlaneShape& s) const { return {"plane", fmt::format("offset {:.4g}", s.offset)}; }
         ShapeText operator()(const BoxShape& s) const {
             return {"box", fmt::format("{:.4g} x {:.4g} x {:.4g}", s.size.x(), s.size.y(), s.size.z())};
@@ -48,13 +48,13 @@ ShapeText shape_text(const Shape& shape) {
         ShapeText operator()(const MeshShape& s) const {
             return {"mesh",
                     fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
-                                s.asset->surface.triangles.size())};
+                                s.asset->mesh.triangles.size())};
         }
         ShapeText operator()(const CompoundShape& s) const {
             return {"compound", fmt::format("{} parts", s.parts->size())};
         }
     };
-    return std::visit(Tell{}, shape);
+    return std::visit(ShapeVisitor{}, shape);
 }
 
 std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }
@@ -145,11 +145,11 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
 
 void print_cost(const SceneDescription& scene, World& world) {
     const double pixels = double(scene.output.width) * scene.output.height;
-    PictureWork work;
+    RenderWork work;
     work.clip = VideoKind::h264;
-    work.forms.video = PixelForm::yuv420;
+    work.outputs.video = PixelFormat::yuv420;
     work.frames = scene.frame_count();
-    const PictureMemory memory = picture_memory(scene, work);
+    const RenderMemory memory = render_memory(scene, work);
     put("\ncost\n");
     put("  simulation  {}\n", simulation_cost(scene, world));
     put("  drawing     {:.4g} million pixels, {:.4g} million samples\n", 1e-6 * pixels * double(scene.frame_count()),

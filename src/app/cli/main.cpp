@@ -1,16 +1,38 @@
 #include "app/cli/options.h"
 #include "app/cli/say.h"
-#include "app/cli/standard_streams.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "tumble/error.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <exception>
 #include <new>
 
+namespace {
+
+/// Opens /dev/null for standard input, output and error if they are closed (">&-"). Otherwise the next file, pipe or
+/// socket would get that number and receive, for example, the messages for standard error. Call it before anything is
+/// opened.
+///
+/// Standard output is opened for reading, so that a write to it is still an error.
+void open_missing_standard_streams() {
+    constexpr std::array<int, 3> how{O_RDONLY, O_RDONLY, O_WRONLY};  // by descriptor
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (::fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+        // The lowest free descriptor is this one. Without /dev/null, a folder occupies it.
+        if (::open("/dev/null", how[static_cast<std::size_t>(stream)]) < 0) ::open("/", O_RDONLY | O_DIRECTORY);
+    }
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    tumble::open_missing_standard_streams();
+    open_missing_standard_streams();
     // A file beyond the user's size limit, and a pipe without a reader, then give an error of the write, like a full
     // disk.
     std::signal(SIGXFSZ, SIG_IGN);

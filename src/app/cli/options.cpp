@@ -4,11 +4,10 @@
 #include "app/cli/say.h"
 #include "app/plots/quantities.h"
 #include "app/threads/thread_budget.h"
-#include "app/timing/motion_blur.h"
-#include "app/timing/time_scaling.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "scene/toml/limits.h"
+#include "sim/frames/clip_timing.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

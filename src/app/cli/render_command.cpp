@@ -5,10 +5,10 @@
 #include "app/pipeline/pipeline.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
-#include "app/timing/time_scaling.h"
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "sim/frames/clip_timing.h"
 
 #include <fmt/format.h>
 
@@ -28,51 +28,53 @@ struct Summary {
     const SceneDescription& scene;
     const FrameRange& frames;
     const Pipeline& pipeline;
-    const FrameFolder* folder;
-    const AovFolder* aovs;
-    const VideoWriter* video;
-    const RenderPool& drawer;
+    const PipelineOutputs& outputs;
+    const RenderPool& render_pool;
     ProcessEnd workers_end;
     std::optional<fs::path> clip;
     double clip_fps;
     double seconds;
 
     void print() const {
-        if (video != nullptr)
-            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), video->frames_in_clip(), scene.output.width,
-                scene.output.height, every_so_manieth(), stored());
-        if (folder != nullptr)
-            say("wrote {} to {}\n", safe_path(frame_path(folder->path(), frames.first)),
-                frame_path(folder->path(), frames.end - 1).filename().string());
-        if (aovs != nullptr)
-            say("wrote {} to {}: {}\n", safe_path(aov_path(aovs->path(), frames.first)),
-                aov_path(aovs->path(), frames.end - 1).filename().string(), names_of(aovs->aovs()));
+        if (outputs.video != nullptr)
+            say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), outputs.video->frames_in_clip(),
+                scene.output.width, scene.output.height, frame_step_note(), stored());
+        if (outputs.folder != nullptr)
+            say("wrote {} to {}\n", safe_path(frame_path(outputs.folder->path(), frames.first)),
+                frame_path(outputs.folder->path(), frames.end - 1).filename().string());
+        if (outputs.aovs != nullptr)
+            say("wrote {} to {}: {}\n", safe_path(aov_path(outputs.aovs->path(), frames.first)),
+                aov_path(outputs.aovs->path(), frames.end - 1).filename().string(), names_of(outputs.aovs->aovs()));
         print_times();
-        if (folder != nullptr) print_older("frames", frames_in(folder->path()), folder->path(), frame_path);
-        if (aovs != nullptr) print_older("AOVs", aovs_in(aovs->path()), aovs->path(), aov_path);
+        if (outputs.folder != nullptr)
+            print_older("frames", frames_in(outputs.folder->path()), outputs.folder->path(), frame_path);
+        if (outputs.aovs != nullptr) print_older("AOVs", aovs_in(outputs.aovs->path()), outputs.aovs->path(), aov_path);
     }
 
-    std::string every_so_manieth() const {
-        if (video->frames_in_clip() == frames.count()) return "";
+    std::string frame_step_note() const {
+        if (outputs.video->frames_in_clip() == frames.count()) return "";
         return fmt::format(" (one in {} of {}: the format holds no more)", video_format(*clip, clip_fps).frame_step,
                            frames.count());
     }
 
     std::string stored() const {
-        if (video->frames_stored() == video->frames_in_clip()) return "";
-        return fmt::format(", stored as {} (unchanged pictures are shown longer)", video->frames_stored());
+        if (outputs.video->frames_stored() == outputs.video->frames_in_clip()) return "";
+        return fmt::format(", stored as {} (unchanged pictures are shown longer)", outputs.video->frames_stored());
     }
 
     void print_times() const {
         const PipelineTimes& t = pipeline.times();
-        std::string text = fmt::format(
-            "{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s", seconds,
-            double(frames.count()) / seconds, drawer.drawn(), t.simulation.cpu.load(), t.drawing.drawing.cpu.load());
-        if (folder != nullptr) text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
-        if (aovs != nullptr) text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
-        if (video != nullptr)
+        std::string text =
+            fmt::format("{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s", seconds,
+                        double(frames.count()) / seconds, render_pool.drawn(), t.simulation.cpu.load(),
+                        t.drawing.drawing.cpu.load());
+        if (outputs.folder != nullptr)
+            text += fmt::format(", PNG {:.2f} s", t.drawing.png.cpu.load() + t.files.cpu.load());
+        if (outputs.aovs != nullptr)
+            text += fmt::format(", AOVs {:.2f} s", t.drawing.aovs.cpu.load() + t.aov_files.cpu.load());
+        if (outputs.video != nullptr)
             text += fmt::format(", conversion {:.2f} s, video {:.2f} s", t.drawing.conversion.cpu.load(),
-                                t.video.cpu.load() + video->encoder_seconds());
+                                t.video.cpu.load() + outputs.video->encoder_seconds());
         rusage used{};
         getrusage(RUSAGE_SELF, &used);
         say("{}; peak memory {} MiB\n", text, (used.ru_maxrss + workers_end.peak_memory / 1024) / 1024);
@@ -124,26 +126,27 @@ void run_render(const RenderCommand& command) {
     if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
 
     // All checks of the outputs come before the simulation and before anything is written.
-    PictureWork work{
-        {std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.moments};
-    const FrameOutputs& forms = work.forms;
+    RenderWork work{
+        {std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.blur_samples};
+    const FrameOutputs& outputs = work.outputs;
     if (clip) {
         const VideoFormat format = video_format(*clip, clip_fps);
-        work.forms.video = format.pixels;
+        work.outputs.video = format.pixels;
         work.clip = format.kind;
         find_ffmpeg();
     }
     check_outputs(command, inputs, frames, clip, aovs_to);
-    const int wanted_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
-    const int workers = workers_that_fit(scene, work, wanted_workers);
-    if (workers < wanted_workers && !command.quiet)
-        say("note: {} render processes in place of {}, because there is no memory for more\n", workers, wanted_workers);
+    const int requested_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
+    const int workers = workers_that_fit(scene, work, requested_workers);
+    if (workers < requested_workers && !command.quiet)
+        say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
+            requested_workers);
     Interrupt interrupt;  // before any thread or process is made
     // Before any thread. The processes open OpenGL while the bodies are built.
-    RenderPool drawer(scene, command.drawing, forms, workers, shutter.moments);
+    RenderPool render_pool(scene, command.drawing, outputs, workers, shutter.blur_samples);
     const int threads =
         command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
-    World world(scene, divided(timing, shutter.parts), threads);
+    World world(scene, divided(timing, shutter.intervals), threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;
@@ -154,25 +157,15 @@ void run_render(const RenderCommand& command) {
     std::optional<VideoWriter> video;
     if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.clip_options);
 
-    Pipeline pipeline(world, frames, drawer, folder ? &*folder : nullptr, video ? &*video : nullptr,
-                      aovs ? &*aovs : nullptr, shutter);
+    const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
+    Pipeline pipeline(world, frames, render_pool, destinations, shutter);
     {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
-    const ProcessEnd workers_end = drawer.finish();
+    const ProcessEnd workers_end = render_pool.finish();
     if (!command.quiet)
-        Summary{scene,
-                frames,
-                pipeline,
-                folder ? &*folder : nullptr,
-                aovs ? &*aovs : nullptr,
-                video ? &*video : nullptr,
-                drawer,
-                workers_end,
-                clip,
-                clip_fps,
-                wall_seconds() - start}
+        Summary{scene, frames, pipeline, destinations, render_pool, workers_end, clip, clip_fps, wall_seconds() - start}
             .print();
 }
 

@@ -21,11 +21,11 @@ namespace {
 constexpr double interrupt_period = 0.02;  // s between checks for Ctrl-C, because a frame may take only a microsecond
 
 /// Checks for Ctrl-C and shows the progress, without a system call per frame.
-class Watch {
+class RunMonitor {
 public:
-    Watch(std::int64_t frames, bool quiet) : progress_(frames, quiet) {}
+    RunMonitor(std::int64_t frames, bool quiet) : progress_(frames, quiet) {}
 
-    void look(std::int64_t done) {
+    void update(std::int64_t done) {
         const double now = wall_seconds();
         if (now - last_ < interrupt_period) return;
         last_ = now;
@@ -53,7 +53,7 @@ void run_simulate(const SimulateCommand& command) {
     const std::int64_t frames = scene.frame_count();
     const double fps = scene.output().fps;
     {
-        Watch watch(frames, command.quiet);
+        RunMonitor monitor(frames, command.quiet);
         v0::World world(scene, command.threads);
         std::optional<v0::TrajectoryTable> trajectory;
         if (command.trajectory) trajectory.emplace(*command.trajectory, scene);
@@ -64,7 +64,7 @@ void run_simulate(const SimulateCommand& command) {
             if (n > 0) world.advance_frame();
             if (trajectory) trajectory->add(world.snapshot());
             if (energy) energy->add(n, double(n) / fps, world.energies());
-            watch.look(n + 1);
+            monitor.update(n + 1);
         }
         if (trajectory) trajectory->finish();
         if (energy) energy->finish();

@@ -2,11 +2,16 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/file_lock.h"
 #include "output/part_file.h"
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -15,6 +20,16 @@
 namespace tumble {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+int open_lock(const std::filesystem::path& path) {
+    constexpr int how = O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    const int file = ::open(path.c_str(), O_RDWR | how, 0666);
+    return file < 0 && errno == EACCES ? ::open(path.c_str(), O_RDONLY | how, 0666) : file;  // a file of another user
+}
+
+}  // namespace
 
 fs::path frame_path(const fs::path& folder, std::int64_t frame) {
     return folder / fmt::format("frame_{:06}.png", frame);
@@ -42,6 +57,29 @@ std::vector<std::int64_t> numbers_in(const fs::path& folder, std::string_view be
     if (error) throw InputError({folder.string(), 0, 0}, "cannot be read as a folder: " + error.message());
     std::sort(numbers.begin(), numbers.end());
     return numbers;
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) : path_(folder / ".tumble.lock") {
+    for (;;) {
+        file_ = open_lock(path_);
+        if (file_ < 0)
+            throw RunError(
+                fmt::format("cannot write into '{}': {}", safe_path(folder), std::generic_category().message(errno)));
+        const Lock lock = lock_file(file_);
+        // The run that held it may have ended between the two calls and removed the file.
+        if (lock != Lock::held && is_still_at(file_, path_)) return;
+        ::close(file_);
+        if (lock == Lock::held)
+            throw RunError(
+                fmt::format("cannot write into '{}': another run is writing frames there; wait for its end, or "
+                            "name another folder",
+                            safe_path(folder)));
+    }
+}
+
+FolderLock::~FolderLock() {
+    ::unlink(path_.c_str());  // while it is still locked
+    ::close(file_);
 }
 
 FrameFolder::FrameFolder(const fs::path& folder) : folder_(folder) {

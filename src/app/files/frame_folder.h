@@ -1,8 +1,6 @@
 // A folder of frames: frame_000000.png, frame_000001.png, ...
 #pragma once
 
-#include "app/files/folder_lock.h"
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -23,6 +21,21 @@ std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::s
 
 /// The number in such a name; empty for another name.
 std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after);
+
+/// Holds a folder during its lifetime, by a lock on a hidden file in it. The lock ends with the process, even if it is
+/// killed; a file that a killed process left is taken over.
+class FolderLock {
+public:
+    /// Throws RunError if another run holds the folder, or if no file can be made in it.
+    explicit FolderLock(const std::filesystem::path& folder);
+    ~FolderLock();
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    std::filesystem::path path_;
+    int file_ = -1;
+};
 
 /// A folder for the frames of this run only. It is made if missing, and removed again if no file was ever written into
 /// it.

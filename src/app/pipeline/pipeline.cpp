@@ -17,11 +17,11 @@ namespace {
 constexpr std::size_t waiting_poses = 8;
 constexpr std::size_t waiting_pose_bytes = 16 << 20;  // lower limit for scenes of very many bodies
 // Each holds a slot of the process that drew it, so a number above that of the slots would have no effect.
-constexpr std::size_t waiting_frames = 2;
+constexpr std::size_t queued_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
 
 std::size_t poses_that_may_wait(std::size_t bodies, const Shutter& shutter) {
-    const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.moments);
+    const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.blur_samples);
     return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
 }
 
@@ -41,19 +41,16 @@ void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder,
-                   VideoWriter* video, AovFolder* aovs, Shutter shutter)
-    : world_(world),
+Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& render_pool, const PipelineOutputs& outputs,
+                   Shutter shutter)
+    : sequence_(world, shutter),
       frames_(frames),
-      drawer_(drawer),
-      folder_(folder),
-      video_(video),
-      aovs_(aovs),
-      shutter_(shutter),
+      render_pool_(render_pool),
+      outputs_(outputs),
       poses_(poses_that_may_wait(world.snapshot().bodies.size(), shutter)),
-      for_png_(waiting_frames),
-      for_aovs_(waiting_frames),
-      for_video_(waiting_frames) {}
+      for_png_(queued_frames),
+      for_aovs_(queued_frames),
+      for_video_(queued_frames) {}
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
     TaskGroup stages;
@@ -64,13 +61,13 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
         for_video_.cancel();
         frame_files_.cancel();
         aov_files_.cancel();
-        drawer_.abandon();
-        if (video_ != nullptr) video_->abandon();
+        render_pool_.abandon();
+        if (outputs_.video != nullptr) outputs_.video->abandon();
     });
     stages.start([this] { simulate(); });
     stages.start([this] {
-        drawer_.run(
-            poses_, [this](const Frame& frame) { return hand_on(frame); }, times_.drawing, frames_.first);
+        render_pool_.run(
+            poses_, [this](const Frame& frame) { return deliver(frame); }, times_.drawing, frames_.first);
         for_png_.close();
         for_aovs_.close();
         for_video_.close();
@@ -78,72 +75,59 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
     const auto publish = [&](PublishQueue& files, StageTime& time) {
         for (int i = 0; i < PublishQueue::threads; ++i) stages.start([&] { files.run(time); });
     };
-    if (folder_ != nullptr) {
+    if (outputs_.folder != nullptr) {
         stages.start([this] { write_frames(); });
         publish(frame_files_, times_.files);
     }
-    if (aovs_ != nullptr) {
+    if (outputs_.aovs != nullptr) {
         stages.start([this] { write_aovs(); });
         publish(aov_files_, times_.aov_files);
     }
-    if (video_ != nullptr) stages.start([this] { write_video(); });
+    if (outputs_.video != nullptr) stages.start([this] { write_video(); });
     supervise(stages, interrupt, [&] { report(finished()); });
-    if (folder_ != nullptr) bring_to_disk(folder_->path());
-    if (aovs_ != nullptr) bring_to_disk(aovs_->path());
+    if (outputs_.folder != nullptr) bring_to_disk(outputs_.folder->path());
+    if (outputs_.aovs != nullptr) bring_to_disk(outputs_.aovs->path());
 }
 
 void Pipeline::simulate() {
-    const bool ahead = aovs_ != nullptr && aovs_->aovs().has(Aov::motion);
+    const bool ahead = outputs_.aovs != nullptr && outputs_.aovs->aovs().has(Aov::motion);
     std::optional<MotionBlurFrame> waiting;  // with motion AOVs, a frame waits for the poses of the next one
     for (std::int64_t n = 0; n < frames_.end; ++n) {
-        MotionBlurFrame exposure = expose(n);
-        if (waiting) waiting->aovs->next = exposure.aovs->now;
+        MotionBlurFrame frame_poses = simulate_frame(n);
+        if (waiting) waiting->aovs->next = frame_poses.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
         waiting.reset();
         if (ahead)
-            waiting = std::move(exposure);
-        else if (!poses_.push(std::move(exposure)))
+            waiting = std::move(frame_poses);
+        else if (!poses_.push(std::move(frame_poses)))
             return;
     }
     if (waiting) {
-        waiting->aovs->next = after_the_last();
+        waiting->aovs->next = timed(times_.simulation, [&] { return sequence_.next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
 }
 
-MotionBlurFrame Pipeline::expose(std::int64_t frame) {
+MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
-    MotionBlurFrame exposure;
-    exposure.frame = frame;
-    // The last frame is simulated only while its shutter is open.
-    const int parts = frame + 1 < frames_.end ? shutter_.parts : shutter_.moments;
-    for (int part = 0; part < parts; ++part) {
-        if (frame > 0 || part > 0) world_.advance_frame();
-        if (part < shutter_.moments) exposure.moments.push_back(world_.snapshot());
-    }
-    if (aovs_ != nullptr) exposure.aovs = AovPoses{exposure.moments.front(), std::nullopt};
-    return exposure;
+    MotionBlurFrame frame_poses{frame, sequence_.next(), std::nullopt};
+    if (outputs_.aovs != nullptr) frame_poses.aovs = AovPoses{frame_poses.blur_samples.front(), std::nullopt};
+    return frame_poses;
 }
 
-/// The poses of the frame after the last one.
-Snapshot Pipeline::after_the_last() {
-    const StageTimer timer(times_.simulation);
-    for (int part = shutter_.moments - 1; part < shutter_.parts; ++part) world_.advance_frame();
-    return world_.snapshot();
-}
-
-bool Pipeline::hand_on(const Frame& frame) {
-    if (folder_ != nullptr && !for_png_.push(frame)) return false;
-    if (aovs_ != nullptr && !for_aovs_.push(frame)) return false;
-    return video_ == nullptr || for_video_.push(frame);
+bool Pipeline::deliver(const Frame& frame) {
+    if (outputs_.folder != nullptr && !for_png_.push(frame)) return false;
+    if (outputs_.aovs != nullptr && !for_aovs_.push(frame)) return false;
+    return outputs_.video == nullptr || for_video_.push(frame);
 }
 
 // A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
         auto file = timed(times_.files, [&] {
-            auto part = std::make_unique<TemporaryFile>(frame_path(folder_->path(), frame->number), LeftParts::kept);
+            auto part =
+                std::make_unique<TemporaryFile>(frame_path(outputs_.folder->path(), frame->number), LeftParts::kept);
             part->write(frame->png);
             return part;
         });
@@ -155,7 +139,7 @@ void Pipeline::write_frames() {
 
 void Pipeline::write_aovs() {
     while (std::optional<Frame> frame = for_aovs_.pop()) {
-        auto file = timed(times_.aov_files, [&] { return aovs_->write(frame->number, frame->aovs); });
+        auto file = timed(times_.aov_files, [&] { return outputs_.aovs->write(frame->number, frame->aovs); });
         frame.reset();
         if (!aov_files_.put(std::move(file))) return;
     }
@@ -166,22 +150,22 @@ void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
         const StageTimer timer(times_.video);
         if (frame->repeated)
-            video_->repeat();
+            outputs_.video->repeat();
         else
-            video_->write(frame->video);
-        ++filmed_;
+            outputs_.video->write(frame->video);
+        ++encoded_;
     }
     // After a stop the queue ends as well, but the clip is not complete.
-    if (filmed_ != frames_.count()) return;
+    if (encoded_ != frames_.count()) return;
     const StageTimer timer(times_.video);
-    video_->finish();
+    outputs_.video->finish();
 }
 
 std::int64_t Pipeline::finished() const {
     std::int64_t done = frames_.count();
-    if (folder_ != nullptr) done = std::min(done, frame_files_.published());
-    if (aovs_ != nullptr) done = std::min(done, aov_files_.published());
-    if (video_ != nullptr) done = std::min(done, filmed_.load());
+    if (outputs_.folder != nullptr) done = std::min(done, frame_files_.published());
+    if (outputs_.aovs != nullptr) done = std::min(done, aov_files_.published());
+    if (outputs_.video != nullptr) done = std::min(done, encoded_.load());
     return done;
 }
 

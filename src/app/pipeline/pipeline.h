@@ -12,12 +12,12 @@
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "app/files/publish_queue.h"
+#include "app/pipeline/frame_range.h"
 #include "app/threads/stage_timer.h"
-#include "app/timing/frame_range.h"
 #include "app/workers/render_pool.h"
 #include "output/video_writer.h"
 #include "scene/description/description.h"
-#include "sim/world.h"
+#include "sim/frames/frame_sequence.h"
 
 #include <atomic>
 #include <cstdint>
@@ -35,13 +35,19 @@ struct PipelineTimes {
     StageTime files, aov_files, video;
 };
 
+/// Destinations of the frames; null: not requested.
+struct PipelineOutputs {
+    const FrameFolder* folder = nullptr;
+    VideoWriter* video = nullptr;
+    AovFolder* aovs = nullptr;
+};
+
 class Pipeline {
 public:
-    /// Simulates the frames up to the end of the range and draws those in it. Each goes to the given outputs (null: not
-    /// requested). The frames of the world are the parts of the shutter. All arguments must outlive run(); the render
-    /// pool must make the outputs that are requested.
-    Pipeline(World& world, const FrameRange& frames, RenderPool& drawer, const FrameFolder* folder, VideoWriter* video,
-             AovFolder* aovs = nullptr, Shutter shutter = {});
+    /// Simulates the frames up to the end of the range and draws those in it. The frames of the world are the intervals
+    /// of the shutter. All arguments must outlive run(); the render pool must make the outputs that are requested.
+    Pipeline(World& world, const FrameRange& frames, RenderPool& render_pool, const PipelineOutputs& outputs,
+             Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
     /// first error of any stage, or RunError after an interrupt. Frames that are published by then are complete and
@@ -52,25 +58,21 @@ public:
 
 private:
     void simulate();
-    MotionBlurFrame expose(std::int64_t frame);
-    Snapshot after_the_last();
+    MotionBlurFrame simulate_frame(std::int64_t frame);
     void write_frames();
     void write_aovs();
     void write_video();
-    bool hand_on(const Frame& frame);
+    bool deliver(const Frame& frame);
     std::int64_t finished() const;
 
-    World& world_;
+    FrameSequence sequence_;
     FrameRange frames_;
-    RenderPool& drawer_;
-    const FrameFolder* folder_;
-    VideoWriter* video_;
-    AovFolder* aovs_;
-    Shutter shutter_;
+    RenderPool& render_pool_;
+    PipelineOutputs outputs_;
     BoundedQueue<MotionBlurFrame> poses_;
     BoundedQueue<Frame> for_png_, for_aovs_, for_video_;
     PublishQueue frame_files_, aov_files_;
-    std::atomic<std::int64_t> filmed_{0};
+    std::atomic<std::int64_t> encoded_{0};
     PipelineTimes times_;
 };
 

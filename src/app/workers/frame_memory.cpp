@@ -12,35 +12,35 @@ namespace tumble {
 namespace {
 
 // Bytes per pixel.
-constexpr std::uint64_t sample = 8;         // color and depth
-constexpr std::uint64_t targets = 2;        // the background and the frame, each with all samples (framebuffer.h)
-constexpr std::uint64_t picture_bytes = 4;  // RGBA
+constexpr std::uint64_t sample = 8;       // color and depth
+constexpr std::uint64_t targets = 2;      // the background and the frame, each with all samples (framebuffer.h)
+constexpr std::uint64_t image_bytes = 4;  // RGBA
 constexpr std::uint64_t drawing = 10;  // buffers of antialiasing and readback: measured, see docs/explanation/output.md
-constexpr std::uint64_t light = 12;    // the sums of a mean of moments (image_mean.h)
+constexpr std::uint64_t light = 12;    // the sums of a mean of blur samples (image_mean.h)
 constexpr std::uint64_t surface = 16;  // visibility buffer: depth, surface, triangle (visibility_buffer.h)
 
 constexpr std::int64_t slots = 4;  // of a worker (render_pool.cpp); a frame takes one
 
 }  // namespace
 
-PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work) {
+RenderMemory render_memory(const SceneDescription& scene, const RenderWork& work) {
     const OutputSettings& output = scene.output;
     const std::uint64_t pixels = std::uint64_t(output.width) * std::uint64_t(output.height);
     const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);  // the renderer's rule
-    PictureMemory memory;
-    if (work.forms.picture()) {
-        memory.worker += pixels * (targets * samples * sample + picture_bytes + drawing);
-        if (samples > 1) memory.worker += pixels * picture_bytes;  // their mean
-        if (work.moments > 1) memory.worker += pixels * (light + picture_bytes);
+    RenderMemory memory;
+    if (work.outputs.image()) {
+        memory.worker += pixels * (targets * samples * sample + image_bytes + drawing);
+        if (samples > 1) memory.worker += pixels * image_bytes;  // their mean
+        if (work.blur_samples > 1) memory.worker += pixels * (light + image_bytes);
     }
-    if (work.forms.video) {
+    if (work.outputs.video) {
         const auto used = std::uint64_t(std::clamp<std::int64_t>(work.frames, 1, slots));
-        memory.worker += (used + 1) * frame_bytes(*work.forms.video, output.width, output.height);
+        memory.worker += (used + 1) * frame_bytes(*work.outputs.video, output.width, output.height);
     }
-    if (!work.forms.aovs.empty()) {
+    if (!work.outputs.aovs.empty()) {
         memory.worker += pixels * surface;
         for (const Aov aov : all_aovs)
-            if (work.forms.aovs.has(aov))
+            if (work.outputs.aovs.has(aov))
                 memory.worker += 2 * pixels * bytes_of_pixel(aov);  // values, and space for the file
     }
     if (work.clip) memory.encoder = encoder_memory(*work.clip, output.width, output.height);
@@ -63,9 +63,9 @@ std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
     return of_pixel * std::uint64_t(width) * std::uint64_t(height);
 }
 
-int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers, const AvailableMemory& own,
+int workers_that_fit(const SceneDescription& scene, const RenderWork& work, int workers, const AvailableMemory& own,
                      const AvailableMemory& shared) {
-    const PictureMemory memory = picture_memory(scene, work);
+    const RenderMemory memory = render_memory(scene, work);
     const std::string what = fmt::format("drawing pictures of {} x {} pixels", scene.output.width, scene.output.height);
     const std::string_view remedy = "a smaller --size takes less";
     require_memory(memory.worker, own, what, remedy);

@@ -14,26 +14,26 @@
 namespace tumble {
 
 /// The outputs, and the number of images per frame.
-struct PictureWork {
-    FrameOutputs forms;
+struct RenderWork {
+    FrameOutputs outputs;
     std::optional<VideoKind> clip;  // kind of the clip, for the encoder
     std::int64_t frames = 1;
-    int moments = 1;  // per frame: above 1 with motion blur
+    int blur_samples = 1;  // per frame: above 1 with motion blur
 };
 
-struct PictureMemory {
+struct RenderMemory {
     std::uint64_t worker = 0, encoder = 0;  // bytes: of each render process, of the ffmpeg program
     std::uint64_t total(int workers) const { return std::uint64_t(workers) * worker + encoder; }
 };
 
-PictureMemory picture_memory(const SceneDescription& scene, const PictureWork& work);
+RenderMemory render_memory(const SceneDescription& scene, const RenderWork& work);
 
 /// Memory of the ffmpeg program for frames of this size, bytes.
 std::uint64_t encoder_memory(VideoKind kind, int width, int height);
 
 /// Largest number of workers, up to the given one, that fit into memory: frames do not depend on their number. `own`
 /// bounds each process, `shared` all together. Throws RunError if not even one fits.
-int workers_that_fit(const SceneDescription& scene, const PictureWork& work, int workers,
+int workers_that_fit(const SceneDescription& scene, const RenderWork& work, int workers,
                      const AvailableMemory& own = available_memory(), const AvailableMemory& shared = shared_memory());
 
 }  // namespace tumble

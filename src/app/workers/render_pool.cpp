@@ -21,7 +21,7 @@ namespace {
 constexpr int slots_of_worker = 4;
 
 /// In memory shared by all processes. Null with a single process.
-std::shared_ptr<ShaderCompileSchedule> make_turns(int workers) {
+std::shared_ptr<ShaderCompileSchedule> make_compile_schedule(int workers) {
     if (workers < 2) return nullptr;
     void* const memory =
         mmap(nullptr, sizeof(ShaderCompileSchedule), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -71,15 +71,15 @@ private:
     std::shared_ptr<SharedFrames> memory_;  // lives as long as one of its slots is read
 };
 
-RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
-                       int workers, int most_moments)
-    : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
-    RenderOptions in_turns = options;
-    in_turns.turns = turns_.get();
+RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+                       int workers, int max_blur_samples)
+    : compile_schedule_(make_compile_schedule(workers)), pose_filter_(scene), aov_changes_(scene), outputs_(outputs) {
+    RenderOptions with_schedule = options;
+    with_schedule.turns = compile_schedule_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
         workers_.push_back(
-            std::make_unique<RenderProcess>(scene, in_turns, forms, slots_of_worker, most_moments, sockets));
+            std::make_unique<RenderProcess>(scene, with_schedule, outputs, slots_of_worker, max_blur_samples, sockets));
         sockets.push_back(workers_.back()->socket());
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
@@ -87,7 +87,7 @@ RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& optio
 
 RenderPool::~RenderPool() = default;
 
-void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on,
+void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
                      DrawingTimes& times, std::int64_t first) {
     ReorderBuffer order(workers_.size(), first);
     std::vector<std::thread> threads;
@@ -101,14 +101,14 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
         for (std::size_t i = 0; i < workers_.size(); ++i)
             threads.push_back(start_thread<std::thread>([&, i] {
                 try {
-                    tend(i, poses, order, times, first);
+                    serve(i, poses, order, times, first);
                 } catch (...) {
                     order.fail(std::current_exception());
                 }
                 order.leave();
             }));
         while (const std::optional<Frame> frame = order.next())
-            if (!hand_on(*frame)) break;
+            if (!deliver(*frame)) break;
     } catch (...) {
         stop();
         throw;
@@ -118,34 +118,34 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
 
 /// Selects the poses to draw; false: the frame equals the previous one, which is not allowed for the first frame
 /// (`anew`).
-bool RenderPool::follow(MotionBlurFrame& exposure, bool anew) {
-    if (!forms_.picture() || (!follow_picture(exposure) && !anew)) exposure.moments.clear();
-    if (exposure.aovs && !aov_changes_.follow(*exposure.aovs) && !anew) exposure.aovs.reset();
-    return !exposure.moments.empty() || exposure.aovs;
+bool RenderPool::filter(MotionBlurFrame& frame_poses, bool anew) {
+    if (!outputs_.image() || (!filter_image(frame_poses) && !anew)) frame_poses.blur_samples.clear();
+    if (frame_poses.aovs && !aov_changes_.follow(*frame_poses.aovs) && !anew) frame_poses.aovs.reset();
+    return !frame_poses.blur_samples.empty() || frame_poses.aovs;
 }
 
-/// Selects the poses to draw of the picture; false: it equals that of the previous frame. If nothing moves while the
-/// shutter is open, one moment is left.
-bool RenderPool::follow_picture(MotionBlurFrame& exposure) {
+/// Selects the poses to draw of the image; false: it equals that of the previous frame. If nothing moves while the
+/// shutter is open, one sample is left.
+bool RenderPool::filter_image(MotionBlurFrame& frame_poses) {
     bool first = false, later = false;
-    for (std::size_t i = 0; i < exposure.moments.size(); ++i)
-        if (drawn_poses_.follow(exposure.moments[i])) (i == 0 ? first : later) = true;
-    if (!later) exposure.moments.resize(1);
+    for (std::size_t i = 0; i < frame_poses.blur_samples.size(); ++i)
+        if (pose_filter_.follow(frame_poses.blur_samples[i])) (i == 0 ? first : later) = true;
+    if (!later) frame_poses.blur_samples.resize(1);
     const bool moved_before = std::exchange(moves_, later);
     return first || later || moved_before;
 }
 
 /// Main function of the thread that serves one worker.
-void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
-                      DrawingTimes& times, std::int64_t first) {
+void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
+                       DrawingTimes& times, std::int64_t first) {
     Slots& slots = *slots_[worker];
     const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<MotionBlurFrame> pose = poses.pop()) {
-            const bool wanted = follow(*pose, pose->frame == first);
+            const bool wanted = filter(*pose, pose->frame == first);
             if (pose->frame < first) continue;
             if (wanted) {
-                if (!pose->moments.empty()) ++drawn_;
+                if (!pose->blur_samples.empty()) ++drawn_;
                 return pose;
             }
             if (!order.add_repeated(pose->frame)) break;
@@ -167,8 +167,8 @@ void RenderPool::tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, 
             frame.aov_slot = slot;
             frame.aovs = slots.memory().aovs(*slot).first(drawn.aov_bytes);
         }
-        if (pose->moments.empty()) {
-            order.add_with_last_picture(std::move(frame));
+        if (pose->blur_samples.empty()) {
+            order.add_with_last_image(std::move(frame));
             continue;
         }
         frame.slot = slot;

@@ -3,12 +3,12 @@
 // processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
 // A frame in which nothing drawn has moved is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
-// true poses: if only those have moved, the picture is repeated, but not the AOVs.
+// true poses: if only those have moved, the image is repeated, but not the AOVs.
 #pragma once
 
 #include "app/threads/bounded_queue.h"
 #include "app/threads/stage_timer.h"
-#include "app/timing/motion_blur.h"
+#include "app/workers/motion_blur_frame.h"
 #include "app/workers/render_process.h"
 #include "render/scene/pose_filter.h"
 #include "scene/description/description.h"
@@ -28,7 +28,7 @@ namespace tumble {
 /// One finished frame of the clip with all its outputs, shared by their writers.
 struct Frame {
     std::int64_t number = 0;
-    bool repeated = false;                   // the same picture as the previous frame
+    bool repeated = false;                   // the same image as the previous frame
     std::shared_ptr<const std::byte> video;  // in the form of VideoPixels; null if not requested
     std::span<const std::byte> png;          // the file; valid as long as `slot`
     std::shared_ptr<const void> slot;
@@ -44,16 +44,16 @@ class ReorderBuffer;
 
 class RenderPool {
 public:
-    /// Starts the processes. Precondition: the program has no other thread. `moments`: largest number per frame. The
-    /// scene must outlive it. Throws RunError.
-    RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int workers,
-               int most_moments = 1);
+    /// Starts the processes. Precondition: the program has no other thread. `blur_samples`: largest number per frame.
+    /// The scene must outlive it. Throws RunError.
+    RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs, int workers,
+               int max_blur_samples = 1);
     ~RenderPool();
 
     /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
-    /// `hand_on` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
+    /// `deliver` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
     /// look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
-    void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& hand_on,
+    void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
              DrawingTimes& times, std::int64_t first = 0);
 
     /// Ends the processes at once, from any thread; run() then returns.
@@ -67,18 +67,18 @@ public:
 
 private:
     class Slots;
-    bool follow(MotionBlurFrame& exposure, bool anew);
-    bool follow_picture(MotionBlurFrame& exposure);
-    void tend(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
-              std::int64_t first);
+    bool filter(MotionBlurFrame& frame_poses, bool anew);
+    bool filter_image(MotionBlurFrame& frame_poses);
+    void serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
+               std::int64_t first);
 
-    std::shared_ptr<ShaderCompileSchedule> turns_;
+    std::shared_ptr<ShaderCompileSchedule> compile_schedule_;
     std::vector<std::unique_ptr<RenderProcess>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;  // of each worker
     std::mutex pose_mutex_;                      // serializes taking the next pose
-    PoseFilter drawn_poses_;
+    PoseFilter pose_filter_;
     AovChanges aov_changes_;
-    FrameOutputs forms_;
+    FrameOutputs outputs_;
     bool moves_ = false;  // whether bodies moved while the shutter was open for the previous frame
     std::int64_t drawn_ = 0;
 };

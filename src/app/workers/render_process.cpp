@@ -36,7 +36,7 @@ constexpr auto longest_end = std::chrono::seconds(1);
 struct Job {
     std::int64_t frame = 0;
     int slot = 0;
-    std::size_t moments = 1;  // 0: no picture is requested
+    std::size_t blur_samples = 1;  // 0: no image is requested
     bool aovs = false;
 };
 
@@ -70,19 +70,19 @@ WorkTime timed(const Work& work) {
 /// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
                SharedFrames& memory)
         : memory_(memory) {
-        if (forms.picture()) renderer_.emplace(scene, options);
-        if (!forms.aovs.empty()) aovs_.emplace(scene, forms.aovs);
-        if (forms.video) video_.emplace(*forms.video, scene.output.width, scene.output.height);
-        if (forms.png) png_.emplace();
+        if (outputs.image()) renderer_.emplace(scene, options);
+        if (!outputs.aovs.empty()) aovs_.emplace(scene, outputs.aovs);
+        if (outputs.video) video_.emplace(*outputs.video, scene.output.width, scene.output.height);
+        if (outputs.png) png_.emplace();
     }
 
     DrawnFrame make(const Job& job) {
         DrawnFrame drawn;
         drawn.frame = snapshot_.frame = job.frame;
-        if (job.moments > 0) make_picture(job, drawn);
+        if (job.blur_samples > 0) make_image(job, drawn);
         if (job.aovs)
             drawn.aovs = timed([&] {
                 memory_.read_aov_poses(aov_poses_);
@@ -94,43 +94,43 @@ public:
     }
 
 private:
-    void make_picture(const Job& job, DrawnFrame& drawn) {
-        drawn.drawing = timed([&] { expose(job); });
-        const bool partly = !blurred_before_ && job.moments == 1;  // otherwise the previous picture was a different one
+    void make_image(const Job& job, DrawnFrame& drawn) {
+        drawn.drawing = timed([&] { draw_samples(job); });
+        const bool partly = !was_blurred_ && job.blur_samples == 1;  // otherwise the previous image was a different one
         const std::vector<Rectangle> changed =
             partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
-        const Image& picture = job.moments == 1 ? image_ : blurred_;
-        blurred_before_ = job.moments > 1;
+        const Image& image = job.blur_samples == 1 ? image_ : blurred_;
+        was_blurred_ = job.blur_samples > 1;
         drawn.unchanged = changed.empty();
         if (video_)
             drawn.conversion = timed([&] {
-                video_->update(picture, changed);
+                video_->update(image, changed);
                 std::ranges::copy(video_->bytes(), memory_.video(job.slot).data());
             });
         if (png_)
             drawn.png = timed([&] {
-                if (!changed.empty()) file_ = png_->encode(picture, changed);
+                if (!changed.empty()) file_ = png_->encode(image, changed);
                 std::ranges::copy(file_, memory_.png(job.slot).data());
             });
         drawn.png_bytes = file_.size();
     }
 
-    void expose(const Job& job) {
-        for (std::size_t i = 0; i < job.moments; ++i) {
+    void draw_samples(const Job& job) {
+        for (std::size_t i = 0; i < job.blur_samples; ++i) {
             memory_.read_poses(i, snapshot_);
             renderer_->render(snapshot_, image_);
-            if (job.moments > 1) mean_.add(image_);
+            if (job.blur_samples > 1) mean_.add(image_);
         }
-        if (job.moments > 1) mean_.take(blurred_);
+        if (job.blur_samples > 1) mean_.take(blurred_);
     }
 
     SharedFrames& memory_;
     std::optional<Renderer> renderer_;
     Snapshot snapshot_;
-    Image image_;  // the last moment that was drawn
+    Image image_;  // the last sample that was drawn
     ImageMean mean_;
     Image blurred_;
-    bool blurred_before_ = false;
+    bool was_blurred_ = false;
     std::optional<VideoPixels> video_;
     std::optional<PngEncoder> png_;
     std::span<const std::byte> file_;
@@ -146,7 +146,7 @@ std::string reason(const std::exception& error) {
     return std::string(text);
 }
 
-[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
                        SharedFrames& memory, int socket) {
     ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
     sigset_t none;
@@ -161,14 +161,14 @@ std::string reason(const std::exception& error) {
     Job job;
     bool asked = false;
     try {
-        FrameMaker maker(scene, options, forms, memory);
+        FrameMaker maker(scene, options, outputs, memory);
         while ((asked = receive_message(socket, job)))
             if (!send_message(socket, maker.make(job))) break;
         ::_exit(
             0);  // skips destructors of OpenGL, which would take milliseconds to free memory that ends with the process
     } catch (const std::exception& error) {
         const bool out_of_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-        memory.write_words(out_of_memory ? "out of memory" : reason(error));
+        memory.write_error(out_of_memory ? "out of memory" : reason(error));
         DrawnFrame failure;
         failure.failed = true;
         // If OpenGL could not be opened, no frame may have been requested yet.
@@ -179,9 +179,9 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
-                             int slots, int most_moments, std::span<const int> other_sockets)
-    : memory_(std::make_shared<SharedFrames>(scene, forms, slots, most_moments)) {
+RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+                             int slots, int max_blur_samples, std::span<const int> other_sockets)
+    : memory_(std::make_shared<SharedFrames>(scene, outputs, slots, max_blur_samples)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
@@ -195,7 +195,7 @@ RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions&
         // program's end.
         ::close(ends[0]);
         for (const int socket : other_sockets) ::close(socket);
-        work(scene, options, forms, *memory_, ends[1]);
+        work(scene, options, outputs, *memory_, ends[1]);
     }
     const int error = errno;
     ::close(ends[1]);
@@ -211,14 +211,16 @@ RenderProcess::~RenderProcess() {
     finish();
 }
 
-DrawnFrame RenderProcess::draw(const MotionBlurFrame& exposure, int slot) {
-    for (std::size_t i = 0; i < exposure.moments.size(); ++i) memory_->write_poses(i, exposure.moments[i]);
-    if (exposure.aovs) memory_->write_aov_poses(*exposure.aovs);
+DrawnFrame RenderProcess::draw(const MotionBlurFrame& frame_poses, int slot) {
+    for (std::size_t i = 0; i < frame_poses.blur_samples.size(); ++i)
+        memory_->write_poses(i, frame_poses.blur_samples[i]);
+    if (frame_poses.aovs) memory_->write_aov_poses(*frame_poses.aovs);
     DrawnFrame drawn;
-    if (!send_message(socket_, Job{exposure.frame, slot, exposure.moments.size(), exposure.aovs.has_value()}) ||
+    if (!send_message(socket_,
+                      Job{frame_poses.frame, slot, frame_poses.blur_samples.size(), frame_poses.aovs.has_value()}) ||
         !receive_message(socket_, drawn))
-        died(exposure.frame);
-    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", exposure.frame, memory_->words()));
+        died(frame_poses.frame);
+    if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", frame_poses.frame, memory_->error_text()));
     return drawn;
 }
 

@@ -3,7 +3,7 @@
 // shared memory. It writes no files, so that it can be stopped at any time.
 #pragma once
 
-#include "app/timing/motion_blur.h"
+#include "app/workers/motion_blur_frame.h"
 #include "app/workers/shared_frames.h"
 #include "output/process.h"
 #include "render/renderer.h"
@@ -27,7 +27,7 @@ struct WorkTime {
 struct DrawnFrame {
     std::int64_t frame = 0;
     bool failed = false;                       // the reason is in the shared memory
-    bool unchanged = false;                    // the same picture as the previous frame of this worker
+    bool unchanged = false;                    // the same image as the previous frame of this worker
     std::size_t png_bytes = 0, aov_bytes = 0;  // of the files in the slot
     WorkTime drawing, conversion, png, aovs;
 };
@@ -36,16 +36,16 @@ class RenderProcess {
 public:
     /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it.
     /// Precondition: the program has no other thread. Throws RunError if there are no more processes or no memory.
-    RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms, int slots,
-                  int most_moments, std::span<const int> other_sockets = {});
+    RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs, int slots,
+                  int max_blur_samples, std::span<const int> other_sockets = {});
     /// Ends the process in any state.
     ~RenderProcess();
     RenderProcess(const RenderProcess&) = delete;
     RenderProcess& operator=(const RenderProcess&) = delete;
 
-    /// Draws one frame into the slot and waits for it: the picture if it has moments, the AOVs if it has their poses.
-    /// Throws RunError naming the frame if drawing fails or the process has died.
-    DrawnFrame draw(const MotionBlurFrame& exposure, int slot);
+    /// Draws one frame into the slot and waits for it: the image if it has blur samples, the AOVs if it has their
+    /// poses. Throws RunError naming the frame if drawing fails or the process has died.
+    DrawnFrame draw(const MotionBlurFrame& frame_poses, int slot);
 
     /// Ends the process at once, from any thread. A waiting draw() then fails.
     void kill();

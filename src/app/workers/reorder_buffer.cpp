@@ -12,7 +12,7 @@ constexpr std::int64_t most_ahead = 4096;  // bounds the repeated frames that wa
 }  // namespace
 
 ReorderBuffer::ReorderBuffer(std::size_t workers, std::int64_t first)
-    : first_(first), next_(first), working_(workers), picture_of_worker_(workers, -1) {}
+    : first_(first), next_(first), working_(workers), image_of_worker_(workers, -1) {}
 
 void ReorderBuffer::add(Frame frame, std::size_t worker, bool unchanged) {
     const std::lock_guard lock(mutex_);
@@ -21,7 +21,7 @@ void ReorderBuffer::add(Frame frame, std::size_t worker, bool unchanged) {
     changed_.notify_all();
 }
 
-void ReorderBuffer::add_with_last_picture(Frame frame) {
+void ReorderBuffer::add_with_last_image(Frame frame) {
     const std::lock_guard lock(mutex_);
     const std::int64_t number = frame.number;
     waiting_.emplace(number, Waiting{std::move(frame), std::nullopt, true});
@@ -64,11 +64,11 @@ std::optional<Frame> ReorderBuffer::next() {
     waiting_.erase(found);
     ++next_;
     changed_.notify_all();
-    return told_apart(std::move(waiting));
+    return marked_repeated(std::move(waiting));
 }
 
 /// Frames arrive here in order, so the previous frame of the worker is known.
-Frame ReorderBuffer::told_apart(Waiting waiting) {
+Frame ReorderBuffer::marked_repeated(Waiting waiting) {
     Frame& frame = waiting.frame;
     TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);
     if (!frame.aov_slot) {
@@ -83,10 +83,10 @@ Frame ReorderBuffer::told_apart(Waiting waiting) {
         last_ = std::move(frame);
         return last_;
     }
-    std::int64_t& worker = picture_of_worker_[*waiting.worker];
-    const std::int64_t picture = waiting.unchanged ? worker : frame.number;
-    frame.repeated = picture == last_picture_;
-    worker = last_picture_ = picture;
+    std::int64_t& worker = image_of_worker_[*waiting.worker];
+    const std::int64_t image = waiting.unchanged ? worker : frame.number;
+    frame.repeated = image == last_image_;
+    worker = last_image_ = image;
     last_ = std::move(frame);
     return last_;
 }

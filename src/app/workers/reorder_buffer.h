@@ -18,11 +18,11 @@ public:
     /// `workers`: their number; `first`: the first frame, which must have all outputs.
     explicit ReorderBuffer(std::size_t workers, std::int64_t first = 0);
 
-    /// Adds a drawn frame; `unchanged`: it is the same picture as the previous frame of this worker.
+    /// Adds a drawn frame; `unchanged`: it is the same image as the previous frame of this worker.
     void add(Frame frame, std::size_t worker, bool unchanged);
 
-    /// Adds a frame with its own AOVs and the picture of the previous frame (empty if no pictures are drawn).
-    void add_with_last_picture(Frame frame);
+    /// Adds a frame with its own AOVs and the image of the previous frame (empty if no images are drawn).
+    void add_with_last_image(Frame frame);
 
     /// Adds a frame that equals the previous one. Waits while too many are ahead. False: the buffer was stopped.
     bool add_repeated(std::int64_t number);
@@ -40,10 +40,10 @@ public:
 private:
     struct Waiting {
         Frame frame;
-        std::optional<std::size_t> worker;  // none: the picture is repeated
+        std::optional<std::size_t> worker;  // none: the image is repeated
         bool unchanged = false;
     };
-    Frame told_apart(Waiting waiting);
+    Frame marked_repeated(Waiting waiting);
 
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -54,10 +54,10 @@ private:
     bool stopped_ = false;
     std::exception_ptr error_;
 
-    // A picture's number is that of the first frame that shows it; only next() uses these.
-    std::vector<std::int64_t> picture_of_worker_;
+    // An image's number is that of the first frame that shows it; only next() uses these.
+    std::vector<std::int64_t> image_of_worker_;
     Frame last_;
-    std::int64_t last_picture_ = -1;
+    std::int64_t last_image_ = -1;
 };
 
 }  // namespace tumble

@@ -17,30 +17,30 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t page = 4096;            // bytes: parts with different writers are on separate pages
-constexpr std::size_t numbers_of_moment = 4;  // time; x, y, z
+constexpr std::size_t page = 4096;            // bytes: regions with different writers are on separate pages
+constexpr std::size_t numbers_of_sample = 4;  // time; x, y, z
 constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
 
 }  // namespace
 
-SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& forms, int slots, int most_moments)
+SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& outputs, int slots, int max_blur_samples)
     : followed_(scene.camera.follow),
-      motion_(forms.aovs.has(Aov::motion)),
+      motion_(outputs.aovs.has(Aov::motion)),
       bodies_(scene.bodies.size()),
-      most_moments_(std::size_t(most_moments)),
-      poses_size_((numbers_of_moment + bodies_ * numbers_of_body) * sizeof(double)),
-      slots_at_(words_size + whole_pages((most_moments_ + (forms.aovs.empty() ? 0
-                                                           : motion_          ? 2
-                                                                              : 1)) *
-                                         poses_size_)),
+      max_blur_samples_(std::size_t(max_blur_samples)),
+      poses_size_((numbers_of_sample + bodies_ * numbers_of_body) * sizeof(double)),
+      slots_at_(error_text_size + whole_pages((max_blur_samples_ + (outputs.aovs.empty() ? 0
+                                                                    : motion_            ? 2
+                                                                                         : 1)) *
+                                              poses_size_)),
       video_at_(0),
-      video_size_(forms.video ? frame_bytes(*forms.video, scene.output.width, scene.output.height) : 0),
+      video_size_(outputs.video ? frame_bytes(*outputs.video, scene.output.width, scene.output.height) : 0),
       png_at_(whole_pages(video_size_)),
-      png_size_(forms.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
+      png_size_(outputs.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
       aovs_at_(png_at_ + whole_pages(png_size_)),
-      aovs_size_(forms.aovs.empty() ? 0 : aov_file_bound(forms.aovs, scene.output.width, scene.output.height)),
+      aovs_size_(outputs.aovs.empty() ? 0 : aov_file_bound(outputs.aovs, scene.output.width, scene.output.height)),
       slot_size_(aovs_at_ + whole_pages(aovs_size_)),
       size_(slots_at_ + slot_size_ * std::size_t(slots)) {
     // Pages that are never written take no memory, so the space for a PNG file may be far larger than the file.
@@ -54,9 +54,9 @@ SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& fo
 
 SharedFrames::~SharedFrames() { munmap(memory_, size_); }
 
-void SharedFrames::write_poses(std::size_t moment, const Snapshot& snapshot) {
+void SharedFrames::write_poses(std::size_t sample, const Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
-    double* to = poses(moment).data();
+    double* to = poses(sample).data();
     *to++ = snapshot.time;
     if (followed_) std::copy_n(snapshot.bodies[*followed_].center_of_mass.data(), 3, to);
     to += 3;
@@ -67,9 +67,9 @@ void SharedFrames::write_poses(std::size_t moment, const Snapshot& snapshot) {
     }
 }
 
-void SharedFrames::read_poses(std::size_t moment, Snapshot& snapshot) const {
+void SharedFrames::read_poses(std::size_t sample, Snapshot& snapshot) const {
     snapshot.bodies.resize(bodies_);
-    const double* from = poses(moment).data();
+    const double* from = poses(sample).data();
     snapshot.time = *from++;
     if (followed_) std::copy_n(from, 3, snapshot.bodies[*followed_].center_of_mass.data());
     from += 3;
@@ -81,22 +81,22 @@ void SharedFrames::read_poses(std::size_t moment, Snapshot& snapshot) const {
 }
 
 void SharedFrames::write_aov_poses(const AovPoses& poses) {
-    write_poses(most_moments_, poses.now);
+    write_poses(max_blur_samples_, poses.now);
     TUMBLE_CHECK_EQ(poses.next.has_value(), motion_);
-    if (motion_) write_poses(most_moments_ + 1, *poses.next);
+    if (motion_) write_poses(max_blur_samples_ + 1, *poses.next);
 }
 
 void SharedFrames::read_aov_poses(AovPoses& poses) const {
-    read_poses(most_moments_, poses.now);
-    if (motion_) read_poses(most_moments_ + 1, poses.next.emplace());
+    read_poses(max_blur_samples_, poses.now);
+    if (motion_) read_poses(max_blur_samples_ + 1, poses.next.emplace());
 }
 
-void SharedFrames::write_words(const std::string& words) {
-    const std::size_t size = std::min(words.size(), words_size - 1);
-    std::memcpy(memory_, words.data(), size);
+void SharedFrames::write_error(const std::string& text) {
+    const std::size_t size = std::min(text.size(), error_text_size - 1);
+    std::memcpy(memory_, text.data(), size);
     memory_[size] = std::byte{0};
 }
 
-std::string SharedFrames::words() const { return reinterpret_cast<const char*>(memory_); }
+std::string SharedFrames::error_text() const { return reinterpret_cast<const char*>(memory_); }
 
 }  // namespace tumble

@@ -72,7 +72,7 @@ void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& looks, 
         const auto in_world = [&](const Vec3& point) { return Vec3(state.origin + state.orientation * point); };
         if (look.kind == DrawKind::ball) add_ball(state.origin, look.half_size.x());
         if (look.kind == DrawKind::mesh) {
-            const TriangleMesh& mesh = looks.meshes[look.mesh].asset->surface;
+            const TriangleMesh& mesh = looks.meshes[look.mesh].asset->mesh;
             for (const auto& t : mesh.triangles)
                 add_triangle(in_world(mesh.vertices[t[0]]), in_world(mesh.vertices[t[1]]),
                              in_world(mesh.vertices[t[2]]));

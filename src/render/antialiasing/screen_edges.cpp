@@ -196,7 +196,7 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const Drawab
     const RenderBody& look = looks_->bodies[body];
     const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
     const TriangleMesh& surface =
-        level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
+        level == 0 ? looks_->meshes[look.mesh].asset->mesh : details_->at(look.mesh, level).surface;
     const auto is_as_before = [&](const Seen& seen) {
         return seen.level == level && seen.origin == state.origin &&
                seen.orientation.coeffs() == state.orientation.coeffs() && seen.eye == view_->eye() &&

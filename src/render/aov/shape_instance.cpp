@@ -9,7 +9,7 @@ namespace {
 bool is_closed(const Shape& shape) {
     const auto* mesh = std::get_if<MeshShape>(&shape);
     if (mesh == nullptr) return true;
-    const Closedness form = closedness(mesh->asset->surface);
+    const Closedness form = closedness(mesh->asset->mesh);
     return form.closed() && form.signed_volume > 0.0;
 }
 
@@ -28,14 +28,14 @@ std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
     };
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
-        if (!body.surface.visible) continue;
+        if (!body.appearance.visible) continue;
         const auto* compound = std::get_if<CompoundShape>(&body.shape);
         if (compound == nullptr) {
-            add({i, body.shape, Vec3::Zero(), Quat::Identity(), body.surface.color, true});
+            add({i, body.shape, Vec3::Zero(), Quat::Identity(), body.appearance.color, true});
             continue;
         }
         for (const CompoundPart& part : *compound->parts)
-            add({i, part.shape, part.position, part.rotation, part.color.value_or(body.surface.color), true});
+            add({i, part.shape, part.position, part.rotation, part.color.value_or(body.appearance.color), true});
     }
     return parts;
 }

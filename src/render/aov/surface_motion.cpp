@@ -13,7 +13,7 @@ RigidMotion between(const PartPlace& now, const PartPlace& next) {
 
 /// A cord stays attached at both ends; offsets perpendicular to it only rotate with it.
 RigidMotion between(const CordPlace& now, const CordPlace& next) {
-    const Mat3 turn = turn_between(now.to - now.from, next.to - next.from).toRotationMatrix();
+    const Mat3 turn = rotation_between(now.to - now.from, next.to - next.from).toRotationMatrix();
     return {turn, next.from - turn * now.from};
 }
 

@@ -110,7 +110,7 @@ void VisibilityBufferRenderer::find_shape(const MeshShape& mesh, std::size_t ind
 void VisibilityBufferRenderer::find_cord(std::size_t index, const CordPlace& place, const PinholeCamera& camera) {
     const double radius = cords_[index].radius;
     const Vec3 axis = place.to - place.from;
-    const Quat turn = turn_between(Vec3::UnitY(), axis);
+    const Quat turn = rotation_between(Vec3::UnitY(), axis);
     const PartPlace around{turn.toRotationMatrix(), 0.5 * (place.from + place.to)};
     find_rows(corners_of(around, Vec3::Zero(), Vec3(radius, 0.5 * axis.norm(), radius)), parts_.size() + index, camera,
               [&](const RayRow& rays, double* depths) { cord_depths(place, radius, rays, depths); });

@@ -85,7 +85,7 @@ CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, cons
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
     const double length = (to - from).norm();
     return {0.5 * (from + to), length,
-            turn_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
+            rotation_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
 }
 
 Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place,

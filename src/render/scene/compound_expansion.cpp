@@ -25,7 +25,7 @@ CompoundExpansion::CompoundExpansion(const SceneDescription& scene) : scene_(sce
             drawn.position = body.position + body.rotation * part.position;
             drawn.rotation = body.rotation * part.rotation;
             drawn.keyframes.clear();
-            if (part.color) drawn.surface.color = *part.color;
+            if (part.color) drawn.appearance.color = *part.color;
             scene_.bodies.push_back(std::move(drawn));
             parts_.push_back({i, part.position, part.rotation});
         }

@@ -21,7 +21,7 @@ DrawableBounds cord_item(const CordDescription& cord, const BodyState& state, co
     DrawableBounds item;
     item.center = 0.5 * (from + to);
     item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
-    const Quat turn = turn_between(Vec3::UnitY(), to - from);
+    const Quat turn = rotation_between(Vec3::UnitY(), to - from);
     item.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, item.radius, cord.radius).asDiagonal();
     return item;
 }

@@ -40,7 +40,7 @@ PoseFilter::PoseFilter(const SceneDescription& scene)
       followed_(scene.camera.follow),
       view_(scene.camera, scene.output.width, scene.output.height) {
     for (const BodyDescription& body : scene.bodies)
-        radii_.push_back(body.surface.visible ? radius_of(body.shape) : 0.0);
+        radii_.push_back(body.appearance.visible ? radius_of(body.shape) : 0.0);
     if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);  // it moves everything that is drawn
     for (const CordDescription& cord : scene.cords)
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);

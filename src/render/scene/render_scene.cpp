@@ -28,7 +28,7 @@ double reach_of(const Vec3& half_size) {
 RenderMesh make_mesh_look(const MeshAsset& asset) {
     RenderMesh look;
     look.asset = &asset;
-    const Closedness form = closedness(asset.surface);
+    const Closedness form = closedness(asset.mesh);
     look.closed = form.closed() && form.signed_volume > 0.0;
     Bounds bounds;
     for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
@@ -83,13 +83,13 @@ RenderScene describe_bodies(const SceneDescription& scene) {
     for (const BodyDescription& body : scene.bodies) {
         RenderBody look;
         look.fixed = body.type == BodyType::fixed;
-        if (body.surface.visible) {
+        if (body.appearance.visible) {
             std::visit([&](const auto& shape) { set_shape(look, shape, looks); }, body.shape);
-            const std::array<double, 3> linear = to_linear(body.surface.color);
+            const std::array<double, 3> linear = to_linear(body.appearance.color);
             look.color = {float(linear[0]), float(linear[1]), float(linear[2])};
-            look.roughness = float(body.surface.roughness);
-            look.metallic = float(body.surface.metallic);
-            look.pattern = body.surface.pattern;
+            look.roughness = float(body.appearance.roughness);
+            look.metallic = float(body.appearance.metallic);
+            look.pattern = body.appearance.pattern;
         }
         if (look.kind == DrawKind::plane) looks.planes.push_back(looks.bodies.size());
         looks.bodies.push_back(look);

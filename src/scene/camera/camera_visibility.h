@@ -1,4 +1,4 @@
-// Visibility of the landing places past fixed bodies, for the default camera: bodies that fall into a bowl or a bin
+// Visibility of the rest positions past fixed bodies, for the default camera: bodies that fall into a bowl or a bin
 // should be visible.
 #pragma once
 
@@ -10,7 +10,7 @@ class CameraVisibility {
 public:
     explicit CameraVisibility(const SceneDescription& scene);
 
-    /// Share of the places that are visible from the eye; 1 if the test is skipped.
+    /// Share of the rest positions that are visible from the eye; 1 if the test is skipped.
     double visible_share(const Vec3& eye) const;
 
 private:
@@ -22,12 +22,12 @@ private:
         const Shape* shape;  // a box, ball or mesh
     };
     void add(const Shape& shape, const Vec3& position, const Quat& rotation);
-    /// Distance to the first fixed body along `way`, as a multiple of it; infinity without one.
-    double first_hit(const Vec3& from, const Vec3& way) const;
-    void find_places(const SceneDescription& scene);
+    /// Distance to the first fixed body along `direction`, as a multiple of it; infinity without one.
+    double first_hit(const Vec3& from, const Vec3& direction) const;
+    void find_rest_positions(const SceneDescription& scene);
 
     std::vector<Piece> pieces_;
-    std::vector<Vec3> places_;  // of some moving bodies, vertically below their initial positions
+    std::vector<Vec3> rest_positions_;  // of some moving bodies, vertically below their initial positions
 };
 
 }  // namespace tumble

@@ -18,12 +18,12 @@ namespace {
 constexpr double azimuth = 28.0;    // degrees to the right of the front
 constexpr double elevation = 17.0;  // degrees above the horizon: the ground fills the lower two thirds
 constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};  // degrees; tried where fixed bodies hide the bodies in them
-constexpr double enough = 0.6;                           // share of the landing places that must be visible
-constexpr double used_part = 0.86;                       // of the image's half width and height; the rest is a margin
+constexpr double enough = 0.6;                           // share of the rest positions that must be visible
+constexpr double used_fraction = 0.86;                   // of the image's half width and height; the rest is a margin
 constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all moving bodies is ground
 
 constexpr double least_distance = 0.2;  // of the scene's diagonal, between the eye and the nearest point
-constexpr int centring_passes =
+constexpr int centering_passes =
     4;  // each leaves a small part of the error, because near points move more than far ones
 
 constexpr double degrees = pi / 180.0;
@@ -155,7 +155,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
                          const Axes& axes) {
     CameraDescription camera = lens;
     const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
-    const double tangent_y = used_part * half.sin / half.cos;
+    const double tangent_y = used_fraction * half.sin / half.cos;
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
 
     // A point p is in view of the eye e if |(p - e).right| <= tangent_x (p - e).forward, and likewise for up: four
@@ -176,7 +176,7 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
     const double middle = 0.5 * (nearest + farthest) - depth;
     camera.eye = axes.right * (0.5 * (right - left)) + axes.up * (0.5 * (top - bottom)) + axes.forward * depth;
     // In the direction that is not tight, move until both margins are equal.
-    for (int pass = 0; pass < centring_passes; ++pass) {
+    for (int pass = 0; pass < centering_passes; ++pass) {
         const Vec3 shift = off_center(points, camera.eye, axes) * middle;
         camera.eye += shift.x() * axes.right + shift.y() * axes.up;
     }
@@ -191,14 +191,14 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
     if (points.empty()) {  // default extent, at the origin
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }
-    const CameraVisibility sight(scene);
+    const CameraVisibility visibility(scene);
     const Vec3 up = lens.up.normalized();
     CameraDescription best = fitted(scene, lens, points, view_axes(up, elevation));
-    double share = sight.visible_share(best.eye);
+    double share = visibility.visible_share(best.eye);
     for (const double above : higher) {
         if (share >= enough) break;
         const CameraDescription camera = fitted(scene, lens, points, view_axes(up, above));
-        const double now = sight.visible_share(camera.eye);
+        const double now = visibility.visible_share(camera.eye);
         if (now > share) best = camera, share = now;
     }
     return best;

@@ -7,7 +7,7 @@
 namespace tumble {
 
 std::int64_t FrameTiming::frame_count(double duration) const {
-    return std::int64_t(std::floor(whole_where_meant(duration * fps))) + 1;
+    return std::int64_t(std::floor(rounded_if_nearly_whole(duration * fps))) + 1;
 }
 
 }  // namespace tumble

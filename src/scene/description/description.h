@@ -102,8 +102,8 @@ enum class BodyType { dynamic, fixed, kinematic };
 
 /// Content of a mesh file, in the file's frame times the body's scale. Shared by the bodies that use it.
 struct MeshAsset {
-    std::string file;      // resolved path
-    TriangleMesh surface;  // welded: for masses, hulls and contact
+    std::string file;   // resolved path
+    TriangleMesh mesh;  // welded: for masses, hulls and contact
     struct Vertex {
         float position[3];
         float normal[3];  // unit; computed if the file has none
@@ -143,7 +143,7 @@ struct CompoundPart {
 enum class Pattern { plain, grid, checker };
 
 /// Appearance of a body.
-struct Surface {
+struct Appearance {
     Color color{200, 200, 200};
     double roughness = 0.6;            // 0 mirror .. 1 chalk
     double metallic = 0.0;             // 0 or 1, or between
@@ -162,7 +162,7 @@ struct BodyDescription {
     std::string name;  // given, or the index in the expanded list
     BodyType type = BodyType::dynamic;
     Shape shape;
-    Surface surface;
+    Appearance appearance;
     double density = 1000.0;  // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
     std::optional<double> mass;    // kg
     double restitution = 0.5;      // 0..1; a pair uses the larger

@@ -2,7 +2,7 @@
 
 #include "core/deterministic_math.h"
 #include "scene/description/shape_bounds.h"
-#include "scene/keys/scatter_places.h"
+#include "scene/keys/random.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -73,7 +73,8 @@ double draw_scale(const CopiesRequest& request, bool shares, Random& random) {
     return request.min_scale + (request.max_scale - request.min_scale) * part;
 }
 
-void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::vector<BodyDescription>& copies) {
+void place_in_grid(const GridRequest& grid, Random& position_random, Random& rotation_random,
+                   std::vector<BodyDescription>& copies) {
     const Vec3 position = copies[0].position;
     const double most = grid.tilt * pi / 180.0;
     std::size_t n = 0;
@@ -81,9 +82,9 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
         for (int z = 0; z < grid.count[2]; ++z)
             for (int x = 0; x < grid.count[0]; ++x, ++n) {
                 const Vec3 node(x - 0.5 * (grid.count[0] - 1), y, z - 0.5 * (grid.count[2] - 1));
-                copies[n].position = position + node.cwiseProduct(grid.spacing) + place.in_box(grid.jitter);
-                const Vec3 axis = turn.direction();
-                const SinCos half = sincos(0.5 * most * turn.unit());
+                copies[n].position = position + node.cwiseProduct(grid.spacing) + position_random.in_box(grid.jitter);
+                const Vec3 axis = rotation_random.direction();
+                const SinCos half = sincos(0.5 * most * rotation_random.unit());
                 const Vec3 v = half.sin * axis;
                 if (most > 0.0) {
                     copies[n].rotation = (Quat(half.cos, v.x(), v.y(), v.z()) * copies[n].rotation).normalized();
@@ -91,12 +92,94 @@ void place_in_grid(const GridRequest& grid, Random& place, Random& turn, std::ve
             }
 }
 
-void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& place, Random& turn,
-                     std::vector<BodyDescription>& copies) {
+/// The placed spheres in a grid with cells as wide as the largest diameter, so that only the 27 cells around a place
+/// can contain neighbors. Only for lookups, never iterated over.
+class NeighborBoxes {
+public:
+    NeighborBoxes(const std::vector<BoundingSphere>& spheres, double clearance)
+        : spheres_(spheres), clearance_(clearance) {
+        double largest = 0.0;
+        for (const BoundingSphere& sphere : spheres) largest = std::max(largest, sphere.radius);
+        cell_ = 2.0 * largest + clearance;
+    }
+
+    bool is_free(std::size_t sphere, const Vec3& center) const {
+        const auto [x, y, z] = cell_of(center);
+        for (std::int64_t i = x - 1; i <= x + 1; ++i)
+            for (std::int64_t j = y - 1; j <= y + 1; ++j)
+                for (std::int64_t k = z - 1; k <= z + 1; ++k)
+                    if (touches(key(i, j, k), sphere, center)) return false;
+        return true;
+    }
+
+    void add(std::size_t sphere, const Vec3& center) {
+        const auto [x, y, z] = cell_of(center);
+        cells_[key(x, y, z)].push_back({sphere, center});
+    }
+
+private:
+    struct Placed {
+        std::size_t sphere;
+        Vec3 center;
+    };
+
+    std::array<std::int64_t, 3> cell_of(const Vec3& p) const {
+        const Vec3 c = p / cell_;
+        return {std::int64_t(std::floor(c.x())), std::int64_t(std::floor(c.y())), std::int64_t(std::floor(c.z()))};
+    }
+
+    /// Two cells with one key are harmless, because distances are tested.
+    static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
+        return std::uint64_t(x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(y) * 0xc2b2ae3d27d4eb4fu ^
+               std::uint64_t(z) * 0x165667b19e3779f9u;
+    }
+
+    bool touches(std::uint64_t cell, std::size_t sphere, const Vec3& center) const {
+        const auto found = cells_.find(cell);
+        if (found == cells_.end()) return false;
+        return std::any_of(found->second.begin(), found->second.end(), [&](const Placed& other) {
+            const double reach = spheres_[sphere].radius + spheres_[other.sphere].radius + clearance_;
+            return (center - other.center).squaredNorm() <= reach * reach;
+        });
+    }
+
+    const std::vector<BoundingSphere>& spheres_;
+    double clearance_;
+    double cell_;  // m
+    std::unordered_map<std::uint64_t, std::vector<Placed>> cells_;
+};
+
+// Random sequential addition (Renyi 1958).
+struct ScatterPlaces {
+    std::vector<Vec3> offsets;  // from the center of the box, in the order of the spheres; fewer if they do not fit
+};
+
+/// An offset for each sphere, uniform in the box of that full size. It is redrawn (up to `attempts` times per sphere)
+/// while the sphere, whose center is relative to its offset, is nearer than `clearance` to an earlier one.
+ScatterPlaces scatter_places(const std::vector<BoundingSphere>& spheres, const Vec3& size, double clearance,
+                             std::int64_t attempts, Random& random) {
+    NeighborBoxes neighbors(spheres, clearance);
+    ScatterPlaces places;
+    for (std::size_t sphere = 0; sphere < spheres.size(); ++sphere) {
+        for (std::int64_t attempt = 0; attempt < attempts; ++attempt) {
+            const Vec3 offset = random.in_box(0.5 * size);
+            const Vec3 center = offset + spheres[sphere].center;
+            if (!neighbors.is_free(sphere, center)) continue;
+            neighbors.add(sphere, center);
+            places.offsets.push_back(offset);
+            break;
+        }
+        if (places.offsets.size() <= sphere) break;
+    }
+    return places;
+}
+
+void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& position_random,
+                     Random& rotation_random, std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
     std::map<const void*, BoundingSphere> known;  // computed once for each mesh or compound; only for lookups
     for (BodyDescription& copy : copies) {
-        if (scatter.random_rotation) copy.rotation = turn.rotation();
+        if (scatter.random_rotation) copy.rotation = rotation_random.rotation();
         BoundingSphere sphere;
         if (const void* shared = shared_data(copy.shape)) {
             const auto [entry, is_new] = known.try_emplace(shared);
@@ -109,7 +192,7 @@ void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin
         spheres.push_back(sphere);
     }
     const ScatterPlaces places =
-        scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, place);
+        scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, position_random);
     if (places.offsets.size() < copies.size()) {
         origin.fail(
             fmt::format("is too crowded: only {} of {} copies found a place without touching another (given a box "
@@ -160,18 +243,20 @@ std::int64_t number_of(const CopiesRequest& request) {
 std::vector<BodyDescription> make_copies(const CopiesRequest& request, const BodyDescription& model,
                                          const ShapeRequest& shape, MeshCache& meshes, std::uint64_t seed,
                                          std::uint64_t table) {
-    Random place(seed, table, Random::Purpose::place), turn(seed, table, Random::Purpose::turn);
-    Random look(seed, table, Random::Purpose::look), size(seed, table, Random::Purpose::size);
+    Random position_random(seed, table, Random::Purpose::position),
+        rotation_random(seed, table, Random::Purpose::rotation);
+    Random color_random(seed, table, Random::Purpose::color), size_random(seed, table, Random::Purpose::size);
     std::vector<BodyDescription> copies(static_cast<std::size_t>(number_of(request)), model);
     const bool shares = shared_data(shape.shape) != nullptr;
     for (BodyDescription& copy : copies) {
-        copy.shape = scaled(shape, draw_scale(request, shares, size), meshes);
-        if (!request.colors.empty()) copy.surface.color = request.colors[look.index(request.colors.size())];
+        copy.shape = scaled(shape, draw_scale(request, shares, size_random), meshes);
+        if (!request.colors.empty()) copy.appearance.color = request.colors[color_random.index(request.colors.size())];
     }
     if (const auto* grid = std::get_if<GridRequest>(&request.arrangement))
-        place_in_grid(*grid, place, turn, copies);
+        place_in_grid(*grid, position_random, rotation_random, copies);
     else
-        place_scattered(std::get<ScatterRequest>(request.arrangement), request.origin, place, turn, copies);
+        place_scattered(std::get<ScatterRequest>(request.arrangement), request.origin, position_random, rotation_random,
+                        copies);
     return copies;
 }
 

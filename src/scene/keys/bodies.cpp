@@ -3,7 +3,7 @@
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/motion.h"
-#include "scene/keys/run_settings.h"
+#include "scene/keys/settings.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ constexpr Choice<BodyType> body_types[] = {
     {"kinematic", BodyType::kinematic},
 };
 
-Material read_matter(const TomlTable& table, const Materials& materials) {
+Material read_material(const TomlTable& table, const Materials& materials) {
     Material material;
     if (const auto name = table.find("material")) material = find_material(materials, *name);
     return material.overridden_by(read_material_keys(table));
@@ -42,8 +42,8 @@ BodyDescription read_model(const TomlTable& table, const Materials& materials, B
     body.shape = shape;
     table.read("name", body.name);
     if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
-    apply_material(read_matter(table, materials), body);
-    table.read("visible", body.surface.visible);
+    apply_material(read_material(table, materials), body);
+    table.read("visible", body.appearance.visible);
     read_mass(table, body);
     read_motion(table, body);
     if (const auto name = table.find("integrator")) body.integrator = name->choice(integrator_choices(method));

@@ -61,10 +61,10 @@ const Material& find_material(const Materials& materials, const TomlValue& value
 
 void apply_material(const Material& material, BodyDescription& body) {
     const bool is_plane = std::holds_alternative<PlaneShape>(body.shape);
-    body.surface.color = material.color.value_or(is_plane ? default_plane_color : default_color);
-    body.surface.pattern = material.pattern.value_or(is_plane ? Pattern::grid : Pattern::plain);
-    body.surface.roughness = material.roughness.value_or(body.surface.roughness);
-    body.surface.metallic = material.metallic.value_or(body.surface.metallic);
+    body.appearance.color = material.color.value_or(is_plane ? default_plane_color : default_color);
+    body.appearance.pattern = material.pattern.value_or(is_plane ? Pattern::grid : Pattern::plain);
+    body.appearance.roughness = material.roughness.value_or(body.appearance.roughness);
+    body.appearance.metallic = material.metallic.value_or(body.appearance.metallic);
     body.density = material.density.value_or(body.density);
     body.restitution = material.restitution.value_or(body.restitution);
     body.friction = material.friction.value_or(body.friction);

@@ -1,13 +1,14 @@
 #include "scene/keys/shapes.h"
 
 #include "core/safe_text.h"
-#include "scene/keys/compound.h"
+#include "scene/keys/motion.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -49,14 +50,14 @@ void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::str
                         "on which side is out; repair it, or use it with type = \"fixed\"",
                         which, c.crowded_edges));
     }
-    const double extent = mesh.asset->surface.bounds().extent().norm();
+    const double extent = mesh.asset->mesh.bounds().extent().norm();
     // of the bounds' diagonal cubed; a closed surface without volume has less, a hair has more
     constexpr double rounding = 1e-12;
     if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
 }
 
 void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
-    const Bounds bounds = mesh.asset->surface.bounds();
+    const Bounds bounds = mesh.asset->mesh.bounds();
     const double extent = bounds.extent().maxCoeff();
     const double reach = std::max(bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff());
     if (!limits::size.contains(extent) || !limits::coordinate.contains(reach)) {
@@ -70,7 +71,7 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
 /// Each object of the file as a part.
 CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request,
                            MeshCache& meshes) {
-    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh_file, request.mesh_scale);
+    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh.file, request.mesh_scale);
     auto made = std::make_shared<std::vector<CompoundPart>>();
     const auto scale = table.find("scale");
     for (const LoadedMesh& object : objects) {
@@ -83,6 +84,16 @@ CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValu
     return {std::move(made)};
 }
 
+/// Fills in the shape of the request. `origin`: the value that names the mesh, for errors.
+void load_whole(const TomlTable& table, BodyType type, const TomlValue& origin, ShapeRequest& request,
+                MeshCache& meshes) {
+    const LoadedMesh& mesh = meshes.load(request.mesh, request.mesh_scale);
+    if (type == BodyType::dynamic) require_solid(mesh, origin);
+    const auto scale = table.find("scale");
+    check_mesh_size(mesh, scale ? *scale : origin);
+    request.shape = MeshShape{mesh.asset};
+}
+
 ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
     ShapeRequest request;
     table.read("scale", request.mesh_scale, limits::mesh_scale);
@@ -90,7 +101,7 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
     const std::string name = file.text();
     if (name.empty()) file.fail("must not be empty");
     if (name.find('\0') != std::string::npos) file.fail("must not hold a zero byte");
-    request.mesh_file = (folder / std::filesystem::path(name)).lexically_normal();
+    request.mesh = (folder / std::filesystem::path(name)).lexically_normal();
     MeshParts parts = MeshParts::whole;
     table.read<MeshParts>("parts", parts, mesh_parts);
     try {
@@ -98,17 +109,71 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
             request.shape = read_objects(table, type, file, request, meshes);
             return request;
         }
-        const LoadedMesh& mesh = meshes.load(request.mesh_file, request.mesh_scale);
-        if (type == BodyType::dynamic) require_solid(mesh, file);
-        const auto scale = table.find("scale");
-        check_mesh_size(mesh, scale ? *scale : file);
-        request.shape = MeshShape{mesh.asset};
+        load_whole(table, type, file, request, meshes);
     } catch (const MeshError& error) {
         throw InputError(file.origin().where,
                          fmt::format("mesh \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
-                                     safe_path(request.mesh_file)));
+                                     safe_path(request.mesh.file)));
     }
     return request;
+}
+
+/// A mesh of a scene that is built in code. No file has the key "memory".
+ShapeRequest read_supplied_mesh(const TomlTable& table, BodyType type, const TomlValue& memory, MeshCache& meshes) {
+    table.expect_keys({"type", "memory", "scale"});
+    ShapeRequest request;
+    table.read("scale", request.mesh_scale, limits::mesh_scale);
+    request.mesh = MeshSource(std::size_t(memory.integer(0, std::numeric_limits<std::int64_t>::max())));
+    try {
+        load_whole(table, type, memory, request, meshes);
+    } catch (const MeshError& error) {
+        throw InputError(memory.origin().where, fmt::format("the mesh {}", error.what()));
+    }
+    return request;
+}
+
+CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
+    table.set_title("a part");
+    table.expect_keys({"shape", "position", "rotation", "density", "color"});
+    const TomlValue shape = table.require("shape");
+    if (const auto kind = shape.table().find("type"); kind && kind->text() == "plane")
+        kind->fail("\"plane\" is endless and cannot be part of a body");
+    CompoundPart part;
+    part.shape = read_shape(shape, type, folder, meshes).shape;
+    table.read("position", part.position, limits::coordinate);
+    if (const auto rotation = table.find("rotation")) part.rotation = read_rotation(*rotation);
+    table.read("density", part.density, limits::density);
+    if (const auto color = table.find("color")) part.color = color->color();
+    return part;
+}
+
+/// A part of a part as a part of the whole.
+CompoundPart within(const CompoundPart& outer, const CompoundPart& inner) {
+    CompoundPart part = inner;
+    part.position = outer.position + outer.rotation * inner.position;
+    part.rotation = (outer.rotation * inner.rotation).normalized();
+    if (!inner.density) part.density = outer.density;
+    if (!inner.color) part.color = outer.color;
+    return part;
+}
+
+/// Nested compounds are flattened.
+CompoundShape read_compound(const TomlTable& table, BodyType type, const std::filesystem::path& folder,
+                            MeshCache& meshes) {
+    table.expect_keys({"type", "parts"});
+    const TomlValue list = table.require("parts");
+    auto parts = std::make_shared<std::vector<CompoundPart>>();
+    for (TomlTable& item : list.tables(" { shape, position, rotation, density, color }")) {
+        CompoundPart part = read_part(item, type, folder, meshes);
+        if (const auto* inner = std::get_if<CompoundShape>(&part.shape))
+            for (const CompoundPart& p : *inner->parts) parts->push_back(within(part, p));
+        else
+            parts->push_back(std::move(part));
+        if (parts->size() > std::size_t(limits::parts))
+            list.origin().fail(fmt::format("holds too many parts: the limit of a body is {}", limits::parts));
+    }
+    if (parts->empty()) list.fail("must hold at least one part");
+    return {std::move(parts)};
 }
 
 }  // namespace
@@ -142,6 +207,8 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
             break;
     }
     table.set_title("a mesh");
+    if (meshes.has_supplier())
+        if (const auto memory = table.find("memory")) return read_supplied_mesh(table, type, *memory, meshes);
     table.expect_keys({"type", "file", "scale", "parts"});
     return read_mesh(table, type, folder, meshes);
 }
@@ -151,7 +218,7 @@ Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
     if (const auto* box = std::get_if<BoxShape>(&request.shape)) return BoxShape{box->size * factor};
     if (const auto* ball = std::get_if<SphereShape>(&request.shape)) return SphereShape{ball->radius * factor};
     if (std::holds_alternative<MeshShape>(request.shape)) {
-        return MeshShape{meshes.load(request.mesh_file, request.mesh_scale * factor).asset};
+        return MeshShape{meshes.load(request.mesh, request.mesh_scale * factor).asset};
     }
     if (const auto* compound = std::get_if<CompoundShape>(&request.shape)) return meshes.enlarged(*compound, factor);
     return request.shape;

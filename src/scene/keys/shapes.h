@@ -11,8 +11,8 @@ namespace tumble {
 
 /// A shape as given by the file, from which scaled copies can be made.
 struct ShapeRequest {
-    Shape shape;                      // at scale 1
-    std::filesystem::path mesh_file;  // of a mesh
+    Shape shape;      // at scale 1
+    MeshSource mesh;  // of a mesh
     double mesh_scale = 1.0;
 };
 

@@ -30,7 +30,7 @@ namespace {
 constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
 constexpr unsigned import_seconds = 60;   // the largest allowed mesh takes about ten
 constexpr unsigned deepest_node = 1000;   // nested transforms: a file with more is made to exhaust the stack
-constexpr std::size_t words_shown = 120;  // characters of assimp's own message
+constexpr std::size_t shown_bytes = 120;  // characters of assimp's own message
 
 /// Hides all other files, so that a mesh consists of one file only.
 class NoOtherFiles : public Assimp::IOSystem {
@@ -90,7 +90,7 @@ MeshFile import(std::string_view bytes, const std::string& extension) {
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, extension.c_str() + 1);
     if (!scene || !scene->mRootNode)
-        throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), words_shown)));
+        throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), shown_bytes)));
     MeshFile result;
     add_node(*scene->mRootNode, *scene, {}, 0, result);
     return result;
@@ -235,7 +235,7 @@ MeshFile import_with_assimp(std::string_view bytes, const std::string& extension
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
-    if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * words_shown));
+    if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * shown_bytes));
     return checked_mesh(std::string_view(answer).substr(1));
 }
 

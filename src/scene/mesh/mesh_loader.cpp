@@ -64,7 +64,7 @@ TriangleMesh compact(const std::vector<Vec3>& positions, const std::vector<std::
 
 /// Drawn vertices: one for every different (position, normal) among the corners of the surface.
 void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
-    const TriangleMesh& mesh = asset.surface;
+    const TriangleMesh& mesh = asset.mesh;
     const auto made = crease_normals(mesh);
     std::map<std::pair<std::uint32_t, std::array<float, 3>>, std::uint32_t> drawn;  // (vertex, normal) -> drawn vertex
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -87,7 +87,7 @@ void fill_drawing(const std::vector<Corners>& corners, MeshAsset& asset) {
 
 LoadedMesh scaled(const LoadedMesh& mesh, double scale) {
     auto asset = std::make_shared<MeshAsset>(*mesh.asset);
-    for (Vec3& v : asset->surface.vertices) v *= scale;
+    for (Vec3& v : asset->mesh.vertices) v *= scale;
     for (MeshAsset::Vertex& v : asset->vertices)
         for (float& x : v.position) x = float(x * scale);
     Closedness closedness = mesh.closedness;
@@ -134,20 +134,20 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     TriangleMesh whole = compact(read.positions, triangles);
     LoadedMesh result{nullptr, closedness(whole)};
 
-    const auto turn = [&](std::size_t t) {
+    const auto flip = [&](std::size_t t) {
         std::swap(whole.triangles[t][1], whole.triangles[t][2]);
         std::swap(corners[t][1], corners[t][2]);
     };
     if (result.closedness.crowded_edges > 0) {
         // Normals are not changed: those with the wrong direction are detected when drawn vertices are made.
-        const std::vector<char> to_turn = triangles_to_turn(whole);
+        const std::vector<char> to_flip = triangles_to_flip(whole);
         for (std::size_t t = 0; t < corners.size(); ++t)
-            if (to_turn[t]) turn(t);
+            if (to_flip[t]) flip(t);
         result.closedness = closedness(whole);
     }
     if (result.closedness.closed() && result.closedness.signed_volume < 0.0) {
         for (std::size_t t = 0; t < corners.size(); ++t) {
-            turn(t);
+            flip(t);
             for (auto& corner : corners[t]) corner.normal = -corner.normal;
         }
         result.closedness.signed_volume = -result.closedness.signed_volume;
@@ -166,7 +166,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
 
     auto asset = std::make_shared<MeshAsset>();
     asset->file = file.string();
-    asset->surface = compact(whole.vertices, kept);
+    asset->mesh = compact(whole.vertices, kept);
     fill_drawing(kept_corners, *asset);
     result.asset = std::move(asset);
     return result;
@@ -218,11 +218,15 @@ std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std
     return result;
 }
 
-const LoadedMesh& MeshCache::load(const std::filesystem::path& file, double scale) {
-    auto found = files_.find(file);
-    if (found == files_.end()) found = files_.emplace(file, load_mesh(file, &read_, imports_)).first;
+const LoadedMesh& MeshCache::load(const MeshSource& source, double scale) {
+    auto found = loaded_.find(source);
+    if (found == loaded_.end()) {
+        LoadedMesh made = source.file.empty() ? loaded(supplier_(source.index), "a mesh in memory")
+                                              : load_mesh(source.file, &read_, imports_);
+        found = loaded_.emplace(source, std::move(made)).first;
+    }
     if (scale == 1.0) return found->second;
-    const auto key = std::pair(file, scale);
+    const auto key = std::pair(source, scale);
     auto made = scaled_.find(key);
     if (made == scaled_.end()) made = scaled_.emplace(key, scaled(found->second, scale)).first;
     return made->second;

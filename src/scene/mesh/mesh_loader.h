@@ -5,7 +5,9 @@
 #include "scene/description/description.h"
 #include "scene/mesh/mesh_file.h"
 
+#include <compare>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <utility>
@@ -19,13 +21,31 @@ struct LoadedMesh {
     Closedness closedness;  // of the surface before triangles without area were dropped; its volume is in m^3
 };
 
-/// Loads each file once, and makes each (file, scale) once, so that bodies share data.
+/// The mesh in memory of that index, as from a file. May throw MeshError.
+using MeshSupplier = std::function<MeshFile(std::size_t index)>;
+
+/// The origin of a mesh: a file (a resolved path), or an index for the supplier.
+struct MeshSource {
+    MeshSource() = default;
+    MeshSource(std::filesystem::path path) : file(std::move(path)) {}
+    explicit MeshSource(std::size_t supplied) : index(supplied) {}
+
+    std::filesystem::path file;  // empty: from the supplier
+    std::size_t index = 0;       // for the supplier
+
+    friend auto operator<=>(const MeshSource&, const MeshSource&) = default;
+};
+
+/// Loads each mesh once, and makes each (mesh, scale) once, so that bodies share data.
 class MeshCache {
 public:
-    explicit MeshCache(MeshImports imports = MeshImports::in_child_process) : imports_(imports) {}
+    /// Without a supplier there are no meshes in memory.
+    explicit MeshCache(MeshImports imports = MeshImports::in_child_process, MeshSupplier supplier = {})
+        : imports_(imports), supplier_(std::move(supplier)) {}
 
-    /// Throws MeshError. `file` is a resolved path.
-    const LoadedMesh& load(const std::filesystem::path& file, double scale);
+    bool has_supplier() const { return supplier_ != nullptr; }
+    /// Throws MeshError.
+    const LoadedMesh& load(const MeshSource& source, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
     const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
     /// The files that were read, in the order of first use.
@@ -35,9 +55,10 @@ public:
 
 private:
     MeshImports imports_;
+    MeshSupplier supplier_;
     std::vector<std::filesystem::path> read_;
-    std::map<std::filesystem::path, LoadedMesh> files_;  // at scale 1
-    std::map<std::pair<std::filesystem::path, double>, LoadedMesh> scaled_;
+    std::map<MeshSource, LoadedMesh> loaded_;  // at scale 1
+    std::map<std::pair<MeshSource, double>, LoadedMesh> scaled_;
     std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
     // The keys are addresses of the data that the values keep alive; only for lookups.
     template <class T>

@@ -41,13 +41,13 @@ std::vector<std::array<Vec3, 3>> crease_normals(const TriangleMesh& mesh) {
     std::vector<std::array<Vec3, 3>> result(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (int i = 0; i < 3; ++i) {
-            const std::vector<Incidence>& neighbours = around[mesh.triangles[t][i]];
-            if (neighbours.size() > most_faces_at_a_vertex) {
+            const std::vector<Incidence>& neighbors = around[mesh.triangles[t][i]];
+            if (neighbors.size() > most_faces_at_a_vertex) {
                 result[t][i] = normals[t];
                 continue;
             }
             Vec3 sum = Vec3::Zero();
-            for (const Incidence& other : neighbours) {
+            for (const Incidence& other : neighbors) {
                 if (normals[other.triangle].dot(normals[t]) > crease) sum += other.angle * normals[other.triangle];
             }
             // The faces of a crease group differ from this one by less than the crease angle, so the sum cannot vanish.

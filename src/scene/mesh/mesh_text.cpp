@@ -50,7 +50,7 @@ struct Cursor {
     }
 };
 
-bool starts_with_word(std::string_view text, std::string_view lower) {
+bool starts_with_token(std::string_view text, std::string_view lower) {
     if (text.size() < lower.size()) return false;
     for (std::size_t i = 0; i < lower.size(); ++i)
         if ((text[i] | 0x20) != lower[i]) return false;
@@ -59,9 +59,9 @@ bool starts_with_word(std::string_view text, std::string_view lower) {
 
 }  // namespace
 
-bool TextWords::at_line_end() const { return at_ == text_.size() || is_line_end(text_[at_]) || text_[at_] == '#'; }
+bool TextTokens::at_line_end() const { return at_ == text_.size() || is_line_end(text_[at_]) || text_[at_] == '#'; }
 
-bool TextWords::skip_continuation() {
+bool TextTokens::skip_continuation() {
     if (at_ + 1 >= text_.size() || text_[at_] != '\\') return false;
     const std::size_t end = text_[at_ + 1] == '\r' ? at_ + 2 : at_ + 1;
     if (end >= text_.size() || text_[end] != '\n') return false;
@@ -70,7 +70,7 @@ bool TextWords::skip_continuation() {
     return true;
 }
 
-std::string_view TextWords::word() {
+std::string_view TextTokens::token() {
     while (at_ < text_.size() && (is_blank(text_[at_]) ? (++at_, true) : skip_continuation())) {
     }
     if (at_line_end()) return {};
@@ -85,7 +85,7 @@ std::string_view TextWords::word() {
     return text_.substr(first, at_ - first);
 }
 
-bool TextWords::next_line() {
+bool TextTokens::next_line() {
     while (at_ < text_.size() && text_[at_] != '\n') {
         if (text_[at_] == '\r' || text_[at_] == '\f' || text_[at_] == '\0') break;
         if (!skip_continuation()) ++at_;
@@ -96,13 +96,13 @@ bool TextWords::next_line() {
     return true;
 }
 
-float mesh_number(std::string_view word, std::size_t line) {
-    Cursor c{word};
+float mesh_number(std::string_view token, std::size_t line) {
+    Cursor c{token};
     const bool negative = c.peek() == '-';
     if (negative || c.peek() == '+') c.skip(1);
     float value = 0.0f;
-    if (starts_with_word(c.rest, "nan")) return std::numeric_limits<float>::quiet_NaN();
-    if (starts_with_word(c.rest, "inf")) {
+    if (starts_with_token(c.rest, "nan")) return std::numeric_limits<float>::quiet_NaN();
+    if (starts_with_token(c.rest, "inf")) {
         value = std::numeric_limits<float>::infinity();
     } else {
         const auto is_point = [](char p) { return p == '.' || p == ','; };

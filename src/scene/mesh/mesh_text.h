@@ -1,4 +1,4 @@
-// Words and numbers of text mesh files (OBJ, STL).
+// Tokens and numbers of text mesh files (OBJ, STL).
 #pragma once
 
 #include <cstddef>
@@ -6,14 +6,14 @@
 
 namespace tumble {
 
-/// Reads a text line by line and word by word. A backslash at the end continues a line in the next one, and # begins a
-/// comment.
-class TextWords {
+/// Reads a text line by line and token by token. A backslash at the end continues a line in the next one, and # begins
+/// a comment.
+class TextTokens {
 public:
-    explicit TextWords(std::string_view text) : text_(text) {}
+    explicit TextTokens(std::string_view text) : text_(text) {}
 
-    /// The next word of the line; empty at the end of the line.
-    std::string_view word();
+    /// The next token of the line; empty at the end of the line.
+    std::string_view token();
     /// Goes to the next line; false at the end of the text.
     bool next_line();
     /// The number of the line, from 1.
@@ -29,7 +29,7 @@ private:
 
 /// A decimal number with a point or a comma, `nan` or `inf`. Integer part, fraction and power of ten are each rounded
 /// to a float, as in assimp, so that coordinates equal those of assimp. Throws MeshError, which names the line, if the
-/// word is not a number.
-float mesh_number(std::string_view word, std::size_t line);
+/// token is not a number.
+float mesh_number(std::string_view token, std::size_t line);
 
 }  // namespace tumble

@@ -7,15 +7,15 @@ namespace {
 
 /// One component, wound like its first triangle.
 struct Piece {
-    double volume = 0.0;       // m^3
-    double turned_area = 0.0;  // of triangles that are turned, less that of the others, m^2
+    double volume = 0.0;        // m^3
+    double flipped_area = 0.0;  // of triangles that are flipped, less that of the others, m^2
     bool disagrees = false, closed = true;
-    bool to_turn() const { return closed ? volume < 0.0 : turned_area > 0.0; }
+    bool to_flip() const { return closed ? volume < 0.0 : flipped_area > 0.0; }
 };
 
 }  // namespace
 
-std::vector<char> triangles_to_turn(const TriangleMesh& mesh) {
+std::vector<char> triangles_to_flip(const TriangleMesh& mesh) {
     const MeshComponents sheets = find_sheets(mesh.triangles);
     std::vector<Piece> pieces(mesh.triangles.size());  // at the first triangle of each
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -25,17 +25,17 @@ std::vector<char> triangles_to_turn(const TriangleMesh& mesh) {
         const Vec3& o = mesh.vertices[mesh.triangles[sheets.sheet[t]][0]];
         const Vec3 a = mesh.vertices[v[0]] - o, b = mesh.vertices[v[1]] - o, c = mesh.vertices[v[2]] - o;
         const double area = 0.5 * (b - a).cross(c - a).norm(), volume = a.dot(b.cross(c)) / 6.0;
-        const bool turned = sheets.turned[t] != 0;
-        piece.volume += turned ? -volume : volume;
-        piece.turned_area += turned ? area : -area;
-        piece.disagrees = piece.disagrees || turned;
+        const bool flipped = sheets.flipped[t] != 0;
+        piece.volume += flipped ? -volume : volume;
+        piece.flipped_area += flipped ? area : -area;
+        piece.disagrees = piece.disagrees || flipped;
         piece.closed = piece.closed && !sheets.rim[t];
     }
     std::vector<char> result(mesh.triangles.size(), 0);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         if (sheets.sheet[t] == MeshComponents::none) continue;
         const Piece& piece = pieces[sheets.sheet[t]];
-        if (piece.disagrees) result[t] = char(sheets.turned[t] ^ char(piece.to_turn()));
+        if (piece.disagrees) result[t] = char(sheets.flipped[t] ^ char(piece.to_flip()));
     }
     return result;
 }

@@ -13,21 +13,21 @@
 namespace tumble {
 namespace {
 
-/// Calls visit(keyword, words) for every line that is not part of a curve or surface.
+/// Calls visit(keyword, tokens) for every line that is not part of a curve or surface.
 template <class Visit>
 void visit_lines(std::string_view bytes, const Visit& visit) {
-    TextWords words(bytes);
+    TextTokens tokens(bytes);
     bool in_curve = false;
     do {
-        const std::string_view keyword = words.word();
+        const std::string_view keyword = tokens.token();
         if (keyword.empty()) continue;
         if (in_curve)
             in_curve = keyword != "end";
         else if (keyword == "cstype")
             in_curve = true;
         else
-            visit(keyword, words);
-    } while (words.next_line());
+            visit(keyword, tokens);
+    } while (tokens.next_line());
 }
 
 struct Points {
@@ -36,17 +36,17 @@ struct Points {
 
 Points read_points(std::string_view bytes) {
     Points points;
-    visit_lines(bytes, [&](std::string_view keyword, TextWords& words) {
+    visit_lines(bytes, [&](std::string_view keyword, TextTokens& tokens) {
         if (keyword != "v" && keyword != "vn") return;
-        const std::size_t line = words.line();
+        const std::size_t line = tokens.line();
         std::array<float, 3> point{};
-        for (float& coordinate : point) coordinate = mesh_number(words.word(), line);
+        for (float& coordinate : point) coordinate = mesh_number(tokens.token(), line);
         if (keyword == "vn") {
             points.normals.push_back(point);
             return;
         }
-        const std::string_view fourth = words.word();
-        if (!fourth.empty() && words.word().empty()) {  // x y z w; more are a color
+        const std::string_view fourth = tokens.token();
+        if (!fourth.empty() && tokens.token().empty()) {  // x y z w; more are a color
             const float w = mesh_number(fourth, line);
             for (float& coordinate : point) coordinate /= w;
         }
@@ -59,17 +59,17 @@ class FaceReader {
 public:
     explicit FaceReader(const Points& points) : points_(points), number_(points.positions.size(), none) {}
 
-    void read_line(std::string_view keyword, TextWords& words) {
+    void read_line(std::string_view keyword, TextTokens& tokens) {
         if (keyword == "v")
             ++positions_seen_;
         else if (keyword == "vn")
             ++normals_seen_;
         else if (keyword == "f")
-            read_face(words);
+            read_face(tokens);
         else if (keyword == "l" || keyword == "p")
-            read_points_or_line(words);
+            read_points_or_line(tokens);
         else if (keyword == "o" || keyword == "g")
-            read_name(keyword, words.word());
+            read_name(keyword, tokens.token());
     }
     MeshFile take() { return std::move(mesh_); }
 
@@ -83,32 +83,32 @@ private:
         mesh_.begin_object();
     }
 
-    void read_face(TextWords& words) {
+    void read_face(TextTokens& tokens) {
         polygon_.clear();
-        for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
+        for (std::string_view token = tokens.token(); !token.empty(); token = tokens.token()) {
             MeshFile::check_corners(polygon_.size() + 1);
-            polygon_.push_back(corner(word));
+            polygon_.push_back(corner(token));
         }
         mesh_.add_polygon(polygon_);
     }
 
     /// Points and lines count for the size of the mesh only.
-    void read_points_or_line(TextWords& words) {
-        for (std::string_view word = words.word(); !word.empty(); word = words.word()) corner(word);
+    void read_points_or_line(TextTokens& tokens) {
+        for (std::string_view token = tokens.token(); !token.empty(); token = tokens.token()) corner(token);
     }
 
     /// POSITION, POSITION/TEXTURE, POSITION//NORMAL or POSITION/TEXTURE/NORMAL.
-    MeshFile::Corner corner(std::string_view word) {
-        const std::size_t first = word.find('/'), second = word.find('/', first == word.npos ? first : first + 1);
-        const std::size_t v = index(word.substr(0, first), positions_seen_, points_.positions.size(), "vertex");
+    MeshFile::Corner corner(std::string_view token) {
+        const std::size_t first = token.find('/'), second = token.find('/', first == token.npos ? first : first + 1);
+        const std::size_t v = index(token.substr(0, first), positions_seen_, points_.positions.size(), "vertex");
         MeshFile::Corner result;
         if (number_[v] == none) {  // numbered by their first use
             number_[v] = static_cast<std::uint32_t>(mesh_.positions.size());
             mesh_.add_position(transform_.point(points_.positions[v]));
         }
         result.position = number_[v];
-        if (second != word.npos && second + 1 < word.size()) {
-            const std::size_t n = index(word.substr(second + 1), normals_seen_, points_.normals.size(), "normal");
+        if (second != token.npos && second + 1 < token.size()) {
+            const std::size_t n = index(token.substr(second + 1), normals_seen_, points_.normals.size(), "normal");
             result.normal = transform_.normal(points_.normals[n]);
         }
         return result;
@@ -140,7 +140,7 @@ private:
 MeshFile read_obj(std::string_view bytes) {
     const Points points = read_points(bytes);  // first, because a face may name a point that comes after it
     FaceReader reader(points);
-    visit_lines(bytes, [&](std::string_view keyword, TextWords& words) { reader.read_line(keyword, words); });
+    visit_lines(bytes, [&](std::string_view keyword, TextTokens& tokens) { reader.read_line(keyword, tokens); });
     return reader.take();
 }
 

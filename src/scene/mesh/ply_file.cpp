@@ -63,32 +63,32 @@ std::string_view take_until(char separator, std::string_view& text) {
     return taken;
 }
 
-std::string_view take_word(std::string_view& line) {
+std::string_view take_token(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
-    line.remove_prefix(word.size());
-    return word;
+    const std::string_view token = line.substr(0, line.find_first_of(" \t"));
+    line.remove_prefix(token.size());
+    return token;
 }
 
-Element read_element(std::string_view words) {
+Element read_element(std::string_view tokens) {
     Element element{};
-    element.name = take_word(words);
-    const std::string_view count = take_word(words);
+    element.name = take_token(tokens);
+    const std::string_view count = take_token(tokens);
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc() || end != count.data() + count.size())
         throw MeshError("has a header with an element without a count");
     return element;
 }
 
-Property read_property(std::string_view words) {
+Property read_property(std::string_view tokens) {
     Property property{};
-    std::string_view type = take_word(words);
+    std::string_view type = take_token(tokens);
     if (type == "list") {
-        property.list_count = named<Type>(take_word(words), types, "type");
-        type = take_word(words);
+        property.list_count = named<Type>(take_token(tokens), types, "type");
+        type = take_token(tokens);
     }
     property.type = named<Type>(type, types, "type");
-    property.name = take_word(words);
+    property.name = take_token(tokens);
     return property;
 }
 
@@ -106,12 +106,12 @@ Header read_header(std::string_view& bytes) {
     if (next_line() != "ply") throw MeshError("does not begin with \"ply\"");
     Header header;
     for (std::string_view line = next_line(); line != "end_header"; line = next_line()) {
-        const std::string_view word = take_word(line);
-        if (word == "format") {
-            header.encoding = named<Encoding>(take_word(line), encodings, "format");
-        } else if (word == "element") {
+        const std::string_view token = take_token(line);
+        if (token == "format") {
+            header.encoding = named<Encoding>(take_token(line), encodings, "format");
+        } else if (token == "element") {
             header.elements.push_back(read_element(line));
-        } else if (word == "property") {
+        } else if (token == "property") {
             const Property property = read_property(line);
             if (property.name.empty() || header.elements.empty())
                 throw MeshError("has a header with a misplaced property");
@@ -128,10 +128,10 @@ public:
 
     std::size_t bytes_left() const { return data_.size() - at_; }
 
-    double next(Type type) { return encoding_ == Encoding::text ? next_word() : next_binary(type); }
+    double next(Type type) { return encoding_ == Encoding::text ? next_token() : next_binary(type); }
 
 private:
-    double next_word() {
+    double next_token() {
         while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
         if (at_ < data_.size() && data_[at_] == '+') ++at_;  // from_chars accepts no plus
         if (at_ == data_.size()) throw MeshError("ends early");

@@ -12,7 +12,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 /// Twice the signed area of a triangle, positive if it turns counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c) {
+double orientation(const Point& a, const Point& b, const Point& c) {
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
@@ -34,11 +34,11 @@ std::vector<Point> flattened(const std::vector<Vec3>& corners) {
 /// Convex with a true corner everywhere, so that every triangle of a fan has area.
 bool is_strictly_convex(const std::vector<Point>& p) {
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (turn(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) <= 0.0) return false;
+        if (orientation(p[i], p[(i + 1) % p.size()], p[(i + 2) % p.size()]) <= 0.0) return false;
     }
     // Left turns everywhere are not sufficient for a star that winds twice: a fan would fold over.
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
-        if (turn(p[0], p[i], p[i + 1]) <= 0.0) return false;
+        if (orientation(p[0], p[i], p[i + 1]) <= 0.0) return false;
     }
     return true;
 }
@@ -46,7 +46,7 @@ bool is_strictly_convex(const std::vector<Point>& p) {
 /// Points of the plane in square cells, to find those within a triangle without visiting all.
 class PointGrid {
 public:
-    explicit PointGrid(const std::vector<Point>& points) : points_(points), place_(points.size()) {
+    explicit PointGrid(const std::vector<Point>& points) : points_(points), position_(points.size()) {
         Point max = points[0];
         min_ = points[0];
         for (const Point& p : points) min_ = min_.cwiseMin(p), max = max.cwiseMax(p);
@@ -59,15 +59,15 @@ public:
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             auto& cell =
                 cells_[row_or_column(points[i].y() - min_.y()) * side_ + row_or_column(points[i].x() - min_.x())];
-            place_[i] = {std::uint32_t(&cell - cells_.data()), std::uint32_t(cell.size())};
+            position_[i] = {std::uint32_t(&cell - cells_.data()), std::uint32_t(cell.size())};
             cell.push_back(i);
         }
     }
 
     void remove(std::uint32_t point) {
-        auto& cell = cells_[place_[point].cell];
-        cell[place_[point].at] = cell.back();
-        place_[cell.back()].at = place_[point].at;
+        auto& cell = cells_[position_[point].cell];
+        cell[position_[point].at] = cell.back();
+        position_[cell.back()].at = position_[point].at;
         cell.pop_back();
     }
 
@@ -80,8 +80,8 @@ public:
             for (std::size_t column = from; column <= to; ++column) {
                 for (const std::uint32_t i : cells_[row * side_ + column]) {
                     const Point& q = points_[i];
-                    if (turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 && turn(c, a, q) >= 0.0 && i != corners[0] &&
-                        i != corners[1] && i != corners[2])
+                    if (orientation(a, b, q) >= 0.0 && orientation(b, c, q) >= 0.0 && orientation(c, a, q) >= 0.0 &&
+                        i != corners[0] && i != corners[1] && i != corners[2])
                         return i;
                 }
             }
@@ -115,11 +115,11 @@ private:
         return {first > 0 ? first - 1 : 0, std::min(last + 1, side_ - 1)};
     }
 
-    struct Place {
+    struct Position {
         std::uint32_t cell, at;
     };
     const std::vector<Point>& points_;
-    std::vector<Place> place_;  // of each point
+    std::vector<Position> position_;  // of each point
     std::vector<std::vector<std::uint32_t>> cells_;
     Point min_;
     double cell_size_ = 0.0;
@@ -136,9 +136,9 @@ public:
           before_(points.size()),
           after_(points.size()),
           asked_(points.size(), true),
-          gone_(points.size(), false),
+          removed_(points.size(), false),
           waiting_(points.size()),
-          left_(points.size()) {
+          remaining_(points.size()) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             before_[i] = i > 0 ? i - 1 : std::uint32_t(points.size()) - 1;
             after_[i] = i + 1 < points.size() ? i + 1 : 0;
@@ -148,7 +148,7 @@ public:
     std::vector<std::array<std::uint32_t, 3>> cut() {
         std::vector<std::array<std::uint32_t, 3>> triangles;
         std::uint32_t at = 1;
-        while (left_ > 3) {
+        while (remaining_ > 3) {
             // If no corner is an ear, the polygon is not simple: cut one off regardless.
             const std::uint32_t ear = next_ear(at).value_or(before_[at]);
             triangles.push_back(triangle(ear));
@@ -183,7 +183,7 @@ private:
 
     bool is_ear(std::uint32_t corner) {
         const auto t = triangle(corner);
-        if (turn(points_[t[0]], points_[t[1]], points_[t[2]]) <= 0.0) return false;
+        if (orientation(points_[t[0]], points_[t[1]], points_[t[2]]) <= 0.0) return false;
         const auto inside = grid_.find_within(t);
         if (inside) waiting_[*inside].push_back(corner);
         return !inside;
@@ -193,20 +193,20 @@ private:
         after_[before_[corner]] = after_[corner];
         before_[after_[corner]] = before_[corner];
         grid_.remove(corner);
-        left_ -= 1;
-        for (const std::uint32_t other : waiting_[corner]) asked_[other] = !gone_[other];
+        remaining_ -= 1;
+        for (const std::uint32_t other : waiting_[corner]) asked_[other] = !removed_[other];
         asked_[before_[corner]] = asked_[after_[corner]] = true;
         asked_[corner] = false;
-        gone_[corner] = true;
+        removed_[corner] = true;
     }
 
     const std::vector<Point>& points_;
     PointGrid grid_;
     std::vector<std::uint32_t> before_, after_;
     std::vector<bool> asked_;  // corners that may be ears
-    std::vector<bool> gone_;
+    std::vector<bool> removed_;
     std::vector<std::vector<std::uint32_t>> waiting_;  // for each point, corners with it in their triangle
-    std::size_t left_;
+    std::size_t remaining_;
 };
 
 }  // namespace

@@ -14,22 +14,22 @@ namespace {
 
 constexpr std::size_t binary_header_bytes = 80, count_bytes = 4, facet_bytes = 50, normal_bytes = 12;
 
-/// The file's words, across line ends.
-class Words {
+/// The file's tokens, across line ends.
+class Tokens {
 public:
-    explicit Words(std::string_view text) : words_(text) {}
+    explicit Tokens(std::string_view text) : tokens_(text) {}
     std::string_view next() {
         while (true) {
-            const std::string_view word = words_.word();
-            if (!word.empty() || !words_.next_line()) return word;
+            const std::string_view token = tokens_.token();
+            if (!token.empty() || !tokens_.next_line()) return token;
         }
     }
-    /// The word after the begin or end of a solid, which may be any word.
-    void skip_name() { words_.word(); }
-    std::size_t line() const { return words_.line(); }
+    /// The token after the begin or end of a solid, which may be any token.
+    void skip_name() { tokens_.token(); }
+    std::size_t line() const { return tokens_.line(); }
 
 private:
-    TextWords words_;
+    TextTokens tokens_;
 };
 
 void add_last_three(MeshFile& mesh) {
@@ -40,28 +40,28 @@ void add_last_three(MeshFile& mesh) {
 MeshFile read_text(std::string_view bytes) {
     MeshFile mesh;
     const MeshTransform in_place;
-    Words words(bytes);
+    Tokens tokens(bytes);
     int corners = 3;  // of the facet; outside a facet no vertex is expected
     const auto end_facet = [&] {
         if (corners != 3)
-            throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, words.line()));
+            throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, tokens.line()));
     };
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-        if (word == "solid") {
+    for (std::string_view token = tokens.next(); !token.empty(); token = tokens.next()) {
+        if (token == "solid") {
             end_facet();
             mesh.begin_object();
-            words.skip_name();
-        } else if (word == "facet") {
+            tokens.skip_name();
+        } else if (token == "facet") {
             end_facet();
             corners = 0;
-        } else if (word == "vertex" && corners < 3) {
+        } else if (token == "vertex" && corners < 3) {
             std::array<float, 3> point{};
-            for (float& coordinate : point) coordinate = mesh_number(words.next(), words.line());
+            for (float& coordinate : point) coordinate = mesh_number(tokens.next(), tokens.line());
             mesh.add_position(in_place.point(point));
             if (++corners == 3) add_last_three(mesh);
-        } else if (word == "endsolid") {
+        } else if (token == "endsolid") {
             end_facet();
-            words.skip_name();
+            tokens.skip_name();
         }
     }
     end_facet();
@@ -91,7 +91,7 @@ MeshFile read_stl(std::string_view bytes) {
     if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);
     if (long_enough && bytes.size() == binary_header_bytes + count_bytes + facets * facet_bytes)
         return read_binary(bytes);
-    if (Words(bytes).next() == "solid") return read_text(bytes);
+    if (Tokens(bytes).next() == "solid") return read_text(bytes);
     if (!long_enough)
         throw MeshError("is no STL file: it does not begin with \"solid\" and is too short for a binary one");
     throw MeshError(

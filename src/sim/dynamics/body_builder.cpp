@@ -26,7 +26,7 @@ MassProperties mass_of_shape(const Shape& shape, double density) {
     if (const auto* box = std::get_if<BoxShape>(&shape)) return box_mass(box->size, density);
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) return sphere_mass(sphere->radius, density);
     if (const auto* mesh = std::get_if<MeshShape>(&shape))
-        return closedness(mesh->asset->surface).closed() ? mesh_mass(mesh->asset->surface, density) : MassProperties{};
+        return closedness(mesh->asset->mesh).closed() ? mesh_mass(mesh->asset->mesh, density) : MassProperties{};
     std::vector<MassProperties> parts;
     if (const auto* compound = std::get_if<CompoundShape>(&shape))
         for (const CompoundPart& part : *compound->parts)
@@ -59,10 +59,10 @@ CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surfac
     Mesh& made = meshes_[&asset];
     try {
         if (as_surface) {
-            if (!made.surface) made.surface = std::make_shared<CollisionMesh>(make_surface(asset.surface, origin));
+            if (!made.surface) made.surface = std::make_shared<CollisionMesh>(make_surface(asset.mesh, origin));
             return made.surface;
         }
-        if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.surface.vertices, origin));
+        if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.mesh.vertices, origin));
         return made.hull;
     } catch (const InputError& error) {
         const std::string what = error.what();

@@ -25,7 +25,7 @@ void turn_to_sheets(std::vector<CollisionMesh::Triangle>& triangles) {
         if (sheets.sheet[t] == MeshComponents::none) continue;
         CollisionMesh::Triangle& triangle = triangles[t];
         triangle.sheet = sheets.sheet[t];
-        if (!sheets.turned[t]) continue;
+        if (!sheets.flipped[t]) continue;
         std::swap(triangle.vertices[1], triangle.vertices[2]);
         triangle.normal = -triangle.normal;
     }

@@ -149,7 +149,7 @@ SceneDescription random_scene(unsigned seed) {
         else
             scene.bodies.push_back(mesh_body(at, torus, {}, turn()));
     }
-    scene.bodies[5].surface.visible = false;
+    scene.bodies[5].appearance.visible = false;
     return scene;
 }
 
@@ -208,8 +208,8 @@ TEST(AovSurface, AnOpenMeshIsSeenFromBothSidesAndAClosedShapeFromOutsideOnly) {
     auto sheet = std::make_shared<MeshAsset>();
     sheet->vertices = {{{-1, -1, 0}, {0, 0, 1}}, {{1, -1, 0}, {0, 0, 1}}, {{0, 2, 0}, {0, 0, 1}}};
     sheet->indices = {0, 1, 2};
-    sheet->surface.vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}};
-    sheet->surface.triangles = {{0, 1, 2}};
+    sheet->mesh.vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}};
+    sheet->mesh.triangles = {{0, 1, 2}};
     for (const double side : {1.0, -1.0}) {
         SceneDescription scene = empty_scene();
         scene.camera.eye = Vec3(0.0, 0.0, 4.0 * side);

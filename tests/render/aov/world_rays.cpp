@@ -67,7 +67,7 @@ double depth_of(const CompoundShape&, const WorldRay&) { return -1.0; }
 WorldHit nearest_in_world(const SceneDescription& scene, const Snapshot& snapshot, const WorldRay& ray) {
     WorldHit hit;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (!scene.bodies[i].surface.visible) continue;
+        if (!scene.bodies[i].appearance.visible) continue;
         const WorldRay local = in_body(ray, snapshot.bodies[i]);
         hit.add(std::visit([&](const auto& shape) { return depth_of(shape, local); }, scene.bodies[i].shape), i);
     }

@@ -1,6 +1,6 @@
 // Slow motion and speed-up compared with a run at normal speed.
-#include "app/timing/time_scaling.h"
-#include "app/timing/motion_blur.h"
+#include "sim/frames/clip_timing.h"
+
 #include "core/error.h"
 #include "sim/world.h"
 
@@ -65,9 +65,9 @@ TEST(TimeScaling, NeverMakesTheStepLonger) {
 }
 
 TEST(Shutter, OpensForTheNearestPartOfAFrame) {
-    const auto of = [](double degrees, int samples) {
-        const Shutter shutter = Shutter::of(degrees, samples);
-        return std::pair{shutter.parts, shutter.moments};
+    const auto of = [](double degrees, int blur_samples) {
+        const Shutter shutter = Shutter::of(degrees, blur_samples);
+        return std::pair{shutter.intervals, shutter.blur_samples};
     };
     EXPECT_EQ(of(0.0, 8), (std::pair{1, 1}));
     EXPECT_EQ(of(180.0, 8), (std::pair{16, 8}));

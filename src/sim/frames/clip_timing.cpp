@@ -1,4 +1,4 @@
-#include "app/timing/time_scaling.h"
+#include "sim/frames/clip_timing.h"
 
 #include "core/error.h"
 #include "core/rounding.h"
@@ -14,7 +14,7 @@ namespace {
 
 /// The number of steps, each at most as long as the timing's, in a frame as long as `frames` of its frames.
 double steps_in(const FrameTiming& timing, double frames) {
-    return std::max(1.0, std::ceil(whole_where_meant(timing.steps_per_frame * frames)));
+    return std::max(1.0, std::ceil(rounded_if_nearly_whole(timing.steps_per_frame * frames)));
 }
 
 }  // namespace
@@ -34,6 +34,11 @@ FrameTiming timing_at_speed(const SceneDescription& scene, double speed) {
         throw InputError(
             fmt::format("--speed: at {:g} a frame takes more than {} steps", speed, limits::steps_per_frame));
     return {fps, int(steps)};
+}
+
+Shutter Shutter::of(double degrees, int blur_samples) {
+    if (degrees <= 0.0 || blur_samples <= 1) return {};
+    return {std::max(blur_samples, int(std::lround(360.0 / degrees * blur_samples))), blur_samples};
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "scene/keys/run_settings.h"
+#include "scene/keys/settings.h"
 
 #include "scene/toml/limits.h"
 
@@ -222,6 +222,27 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
     if (time.steps_per_frame) simulation.steps_per_frame = static_cast<int>(time.steps_per_frame->value);
     if (time.step) simulation.steps_per_frame = steps_in_a_frame(time, output.fps);
     check_frame_count(time, simulation.duration, output.fps);
+}
+
+LightDescription read_light(const TomlTable& root) {
+    LightDescription light;
+    if (const auto table = root.find_table("light")) {
+        table->expect_keys({"direction", "shadows"});
+        if (const auto value = table->find("direction")) light.direction = value->direction();
+        table->read("shadows", light.shadows);
+    }
+    return light;
+}
+
+std::optional<WindDescription> read_wind(const TomlTable& root) {
+    const auto table = root.find_table("wind");
+    if (!table) return std::nullopt;
+    WindDescription wind;
+    table->expect_keys({"velocity", "density", "drag"});
+    table->read("velocity", wind.velocity, limits::velocity);
+    table->read("density", wind.density, limits::air_density);
+    table->read("drag", wind.drag, limits::drag);
+    return wind;
 }
 
 }  // namespace tumble

@@ -1,12 +1,12 @@
-// [simulation] and [output]: duration, step, methods, and the frames. The file and the command line are merged first,
-// each value with its source, and checked together after that: a step that fits the file's fps may not fit that of
-// --fps.
+// [simulation], [output], [light] and [wind]. For the first two, the file and the command line are merged first, each
+// value with its source, and checked together after that: a step that fits the file's fps may not fit that of --fps.
 #pragma once
 
 #include "scene/description/description.h"
 #include "scene/keys/overrides.h"
 #include "scene/toml/toml_reader.h"
 
+#include <optional>
 #include <span>
 
 namespace tumble {
@@ -14,6 +14,9 @@ namespace tumble {
 /// Reads both tables (either may be missing) with the overrides.
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output);
+
+LightDescription read_light(const TomlTable& root);
+std::optional<WindDescription> read_wind(const TomlTable& root);
 
 /// The integrators that a method has, by their names in a file.
 std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method);

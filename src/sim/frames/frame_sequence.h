@@ -1,0 +1,29 @@
+// The simulation as a sequence of frames, each with its samples while the shutter is open.
+#pragma once
+
+#include "sim/frames/clip_timing.h"
+#include "sim/world.h"
+
+#include <vector>
+
+namespace tumble {
+
+class FrameSequence {
+public:
+    /// Precondition: the world is at time 0, and its frames are the intervals of the shutter (see divided()).
+    FrameSequence(World& world, Shutter shutter) : world_(world), shutter_(shutter) {}
+
+    /// The samples of the next frame in order; the first call: of frame 0. The frame is simulated only as far as its
+    /// shutter is open.
+    std::vector<Snapshot> next();
+
+    /// The first moment of the next frame.
+    Snapshot next_start();
+
+private:
+    World& world_;
+    Shutter shutter_;
+    int intervals_to_start_ = 0;  // from the world's time to the start of the next frame
+};
+
+}  // namespace tumble
