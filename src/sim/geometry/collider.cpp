@@ -11,18 +11,19 @@ struct Overloaded : F... {
 };
 
 // The bounding box of a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
-Bounds turned(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
+Bounds around(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
     const Vec3 half = pose.rotation.cwiseAbs() * half_extent;
     return {center - half, center + half};
 }
-Bounds turned(const Bounds& local, const Pose& pose) {
-    return turned(pose.to_world(local.center()), 0.5 * local.extent(), pose);
-}
-Bounds turned(const Polyhedron& p, const Pose& pose) {
-    return p.is_box ? turned(pose.position, p.half_extent, pose) : turned(p.bounds, pose);
+Bounds of_polyhedron(const Polyhedron& p, const Pose& pose) {
+    return p.is_box ? around(pose.position, p.half_extent, pose) : posed_bounds(p.bounds, pose);
 }
 
 }  // namespace
+
+Bounds posed_bounds(const Bounds& local, const Pose& pose) {
+    return around(pose.to_world(local.center()), 0.5 * local.extent(), pose);
+}
 
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
     return std::visit(
@@ -32,9 +33,9 @@ Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
                    [&](const Ball& ball) {
                        return Bounds{pose.position, pose.position}.grown(ball.radius);
                    },
-                   [&](const std::shared_ptr<const Polyhedron>& p) { return turned(*p, pose); },
-                   [&](const std::shared_ptr<const CollisionMesh>& s) { return turned(s->tree.bounds(), pose); },
-                   [&](const std::shared_ptr<const Compound>& c) { return turned(c->tree.bounds(), pose); }},
+                   [&](const std::shared_ptr<const Polyhedron>& p) { return of_polyhedron(*p, pose); },
+                   [&](const std::shared_ptr<const CollisionMesh>& s) { return posed_bounds(s->tree.bounds(), pose); },
+                   [&](const std::shared_ptr<const Compound>& c) { return posed_bounds(c->tree.bounds(), pose); }},
         collider);
 }
 

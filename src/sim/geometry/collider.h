@@ -40,6 +40,8 @@ struct Compound;  // sim/geometry/compound.h
 using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>,
                                     std::shared_ptr<const CollisionMesh>, std::shared_ptr<const Compound>>;
 
+/// Bounding box (world) of a posed box.
+Bounds posed_bounds(const Bounds& local, const Pose& pose);
 /// World bounds of a posed shape; infinite for a half-space.
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose);
 

@@ -49,12 +49,6 @@ FaceAxis best_face(const Polyhedron& shape, const Polyhedron& other, const Pose&
     return best;
 }
 
-// Bounding box of a box in another frame.
-Bounds turned(const Bounds& b, const Pose& pose) {
-    const Vec3 center = pose.to_world(b.center()), half = pose.rotation.cwiseAbs() * (0.5 * b.extent());
-    return {center - half, center + half};
-}
-
 Pose inverse(const Pose& p) { return {-(p.rotation.transpose() * p.position), p.rotation.transpose()}; }
 
 // Region of possible edge contacts: in the other shape's bounds, and where both best faces leave room (normal . p >=
@@ -83,7 +77,7 @@ Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedr
                       const Pose& other_pose, double way) {
     const Polyhedron::Face &own = shape.faces[f.face], &theirs = other.faces[g.face];
     const Vec3 into = -(other_pose.rotation * theirs.normal);
-    return {turned(other.bounds, other_pose).grown(way),
+    return {posed_bounds(other.bounds, other_pose).grown(way),
             {own.normal, into},
             {own.offset + std::min(0.0, f.separation) - way, into.dot(other_pose.position) - theirs.offset - way}};
 }
