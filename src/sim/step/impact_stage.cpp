@@ -1,5 +1,6 @@
 #include "sim/step/impact_stage.h"
 
+#include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
