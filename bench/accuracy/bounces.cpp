@@ -7,8 +7,6 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double g = 9.81;
-
 // Clearance (m) of a ball released at height h over the ground that keeps the fraction e of its speed at each bounce: a
 // fall of t0 = sqrt(2 h / g), then hops of 2 t0 e, 2 t0 e^2, ... that end at t0 (1 + e) / (1 - e).
 double bouncing_clearance(double h, double e, double t) {

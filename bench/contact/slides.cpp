@@ -7,8 +7,6 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double g = 9.81;
-
 // Displacement down an incline from 1 s on, compared with Coulomb's law, and the gap to the slope at the end.
 class Slide : public Witness {
 public:

@@ -22,6 +22,8 @@ inline Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+constexpr double g = 9.81;  // m/s^2, standard gravity, rounded
+
 /// A unit quaternion, body to world.
 struct Orientation {
     double w = 1.0, x = 0.0, y = 0.0, z = 0.0;
@@ -80,7 +82,7 @@ struct PointForce {
 };
 
 struct Scene {
-    double gravity = 9.81;  // m/s^2, downwards
+    double gravity = g;  // m/s^2, downwards
     std::vector<Body> bodies;
     std::optional<Air> air;          // acts on all moving bodies
     std::optional<PointForce> push;  // acts on body 0

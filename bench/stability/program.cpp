@@ -79,10 +79,10 @@ Outcome run_apart(const Trial& trial, const StabilityWay& way, double rate) {
         const bool written = write(ends[1], &outcome, sizeof outcome) == ssize_t(sizeof outcome);
         _exit(written ? 0 : 1);
     }
-    close(ends[1]);
+    ::close(ends[1]);
     Outcome outcome;
     if (child < 0 || read(ends[0], &outcome, sizeof outcome) != ssize_t(sizeof outcome)) outcome = blown_up;
-    close(ends[0]);
+    ::close(ends[0]);
     if (child > 0) waitpid(child, nullptr, 0);
     return outcome;
 }

@@ -13,7 +13,7 @@ namespace {
 
 // Mirror images are compared until rounding becomes visible: some two to five impacts.
 constexpr double mirror_seconds = 0.75, mirror_tolerance = 1e-3;  // s, m
-constexpr double seconds = 1.5, half_width = 3.0, height = 14.0;
+constexpr double scene_seconds = 1.5, half_width = 3.0, pit_height = 14.0;
 
 Body any_body(Random& random, const Vector& place, double speed) {
     const double density = random.between(1.0, 10.0);
@@ -67,7 +67,7 @@ Scene random_scene(Kin kin, Random& random) {
         scene.gravity = 0.0;
         return scene;
     }
-    add_pit(scene, half_width, height);
+    add_pit(scene, half_width, pit_height);
     for (Body& body : scene.bodies)
         if (!body.moves()) {
             body.friction = 0.5;
@@ -127,7 +127,7 @@ std::vector<bool> broken(Kin kin, long seed, const StabilityWay& way, double rat
     const double start = energy(scene, now);
     const Momentum first = momentum(scene, now);
     double least = start;
-    for (long step = 0; step < std::lround(seconds * rate); ++step) {
+    for (long step = 0; step < std::lround(scene_seconds * rate); ++step) {
         before = now;
         world->step();
         look(*world);

@@ -10,8 +10,6 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double g = 9.81;
-
 // Ten spheres and ten cubes of 0.1 m, from different distances, at a wall of 1 cm.
 Trial thin_wall(double speed, double rate) {
     Trial trial;

@@ -37,7 +37,7 @@ enum Element : std::uint32_t {
 };
 
 // ns: the error of a time stamp is below half a nanosecond and does not accumulate
-constexpr std::int64_t second = 1'000'000'000;
+constexpr std::int64_t one_second = 1'000'000'000;
 constexpr std::uint64_t unknown_size = (std::uint64_t(1) << 56) - 1;
 constexpr std::byte only_track{0x81};  // track 1, as a number of variable length
 constexpr std::byte key_frame{0x80};
@@ -70,7 +70,8 @@ void append_number(Bytes& to, Element element, std::uint64_t number) {
 /// n / rate in ns, rounded. In two parts: n * denominator * 1e9 would not fit into 64 bits.
 std::int64_t nanoseconds(std::int64_t n, const FrameRate& rate) {
     const std::int64_t ticks = n * rate.denominator;
-    return ticks / rate.numerator * second + (ticks % rate.numerator * second + rate.numerator / 2) / rate.numerator;
+    return ticks / rate.numerator * one_second +
+           (ticks % rate.numerator * one_second + rate.numerator / 2) / rate.numerator;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::frame_memory_test {
 namespace {
 
 constexpr std::uint64_t gibi = std::uint64_t(1) << 30;
@@ -63,4 +63,4 @@ TEST(FrameMemory, ARunThatDoesNotFitIsRefused) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::frame_memory_test

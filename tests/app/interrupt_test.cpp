@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-namespace tumble {
+namespace tumble::interrupt_test {
 namespace {
 
 /// The signal's disposition is the default one in every test; otherwise an unblocked signal would have no effect.
@@ -47,4 +47,4 @@ TEST(Interrupt, AfterTheFirstSignalTheNextEndsTheProgram) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::interrupt_test

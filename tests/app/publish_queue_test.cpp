@@ -35,7 +35,7 @@ extern "C" int fsync(int) {
     return -1;
 }
 
-namespace tumble {
+namespace tumble::publish_queue_test {
 namespace {
 
 std::filesystem::path name_of(const TestFolder& folder, int number) { return folder / fmt::format("{:03}", number); }
@@ -110,4 +110,4 @@ TEST(PublishQueue, ACanceledOneLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::publish_queue_test

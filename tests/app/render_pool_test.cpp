@@ -17,7 +17,7 @@
 #include <string_view>
 #include <thread>
 
-namespace tumble {
+namespace tumble::render_pool_test {
 namespace {
 
 constexpr FrameOutputs both{PixelFormat::yuv420, true, {}};
@@ -374,4 +374,4 @@ TEST(RenderPool, LeavesNoProcessBehind) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::render_pool_test

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace tumble {
+namespace tumble::reorder_buffer_test {
 namespace {
 
 Frame numbered(std::int64_t number) {
@@ -120,4 +120,4 @@ TEST(ReorderBuffer, RepeatedFramesWaitForThoseBefore) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::reorder_buffer_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::thread_budget_test {
 namespace {
 
 TEST(ThreadBudget, LeaveTheCoresToDrawing) {
@@ -23,4 +23,4 @@ TEST(ThreadBudget, MoreBodiesNeverGetFewer) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::thread_budget_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tumble {
+namespace tumble::architecture_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ TEST(Architecture, ACycleIsFound) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::architecture_test

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace tumble {
+namespace tumble::available_memory_test {
 namespace {
 
 constexpr std::uint64_t mebi = 1 << 20, gibi = 1 << 30;
@@ -106,4 +106,4 @@ TEST(AvailableMemory, SmallRequestsPassAndLargeOnesAreRefusedWithNumbers) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::available_memory_test

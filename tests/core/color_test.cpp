@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::color_test {
 namespace {
 
 TEST(Color, EveryLevelSurvivesTheWayToLinearLightAndBack) {
@@ -47,4 +47,4 @@ TEST(Color, OtherTextIsNone) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::color_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace tumble {
+namespace tumble::deterministic_math_test {
 namespace {
 
 // The accuracy stated in the header.
@@ -149,4 +149,4 @@ TEST(DeterministicMath, HyperbolicTangentAndSecant) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::deterministic_math_test

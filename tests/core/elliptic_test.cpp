@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace tumble {
+namespace tumble::elliptic_test {
 namespace {
 
 __extension__ using Wide = __float128;
@@ -113,4 +113,4 @@ TEST(Elliptic, EndsOnBadArguments) {
     EXPECT_TRUE(std::isfinite(carlson_rj(1e-300, 1e-200, 1.0, 1e100)));
 }
 
-}  // namespace tumble
+}  // namespace tumble::elliptic_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::error_test {
 namespace {
 
 TEST(Errors, NameThePlaceAsFarAsItIsKnown) {
@@ -19,4 +19,4 @@ TEST(ChecksDeathTest, ShowBothValues) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::error_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::image_mean_test {
 namespace {
 
 Image of_values(const std::vector<int>& values) {
@@ -44,4 +44,4 @@ TEST(ImageMean, AddsLightNotNumbers) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::image_mean_test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace tumble {
+namespace tumble::safe_text_test {
 namespace {
 
 using namespace std::string_literals;
@@ -88,4 +88,4 @@ TEST(SafeText, EveryErrorIsSafe) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::safe_text_test

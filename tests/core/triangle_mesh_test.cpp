@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::triangle_mesh_test {
 namespace {
 
 /// A box with these edges and one corner at `origin`, faces outward.
@@ -65,4 +65,4 @@ TEST(TriangleMesh, BoundsHoldEveryVertex) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::triangle_mesh_test

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace tumble {
+namespace tumble::deflater_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -88,4 +88,4 @@ TEST(Deflater, PiecesThatEndAtAWholeByteCanBeJoined) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::deflater_test

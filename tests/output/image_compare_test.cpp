@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace tumble {
+namespace tumble::image_compare_test {
 namespace {
 
 constexpr int width = 640, height = 480;  // 307,200 pixels, as in the measurement of the noise
@@ -214,4 +214,4 @@ TEST(Compare, TheDifferenceIsVisible) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::image_compare_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::matroska_stream_test {
 namespace {
 
 /// Big-endian.
@@ -36,4 +36,4 @@ TEST(MatroskaStream, AClusterIsAsLongAsItSays) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::matroska_stream_test

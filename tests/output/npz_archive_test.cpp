@@ -10,7 +10,7 @@
 #include <cstring>
 #include <map>
 
-namespace tumble {
+namespace tumble::npz_archive_test {
 namespace {
 
 std::uint32_t number(std::span<const std::byte> bytes, std::size_t at, int size) {
@@ -120,4 +120,4 @@ TEST(NpzArchive, TheBoundHoldsForIncompressibleData) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::npz_archive_test

@@ -46,7 +46,7 @@ extern "C" int rename(const char* from, const char* to) noexcept {
     return int(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 
-namespace tumble {
+namespace tumble::part_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST(PartFile, ManyAtOnce) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::part_file_test

@@ -16,7 +16,7 @@
 #include <tuple>
 #include <vector>
 
-namespace tumble {
+namespace tumble::png_test {
 namespace {
 
 std::vector<std::byte> encoded(const Image& image) {
@@ -291,4 +291,4 @@ TEST(Png, AHostileSizeIsRefusedBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::png_test

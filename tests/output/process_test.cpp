@@ -15,7 +15,7 @@
 #include <memory>
 #include <thread>
 
-namespace tumble {
+namespace tumble::process_test {
 namespace {
 
 const std::filesystem::path shell = "/bin/sh";
@@ -243,4 +243,4 @@ TEST(Process, ProgramsAreFoundByPath) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::process_test

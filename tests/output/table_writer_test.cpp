@@ -14,7 +14,7 @@
 #include <random>
 #include <sstream>
 
-namespace tumble {
+namespace tumble::table_writer_test {
 namespace {
 
 TEST(TableWriter, WritesRows) {
@@ -87,4 +87,4 @@ TEST(TableWriter, UnfinishedLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::table_writer_test

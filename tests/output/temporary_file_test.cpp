@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-namespace tumble {
+namespace tumble::temporary_file_test {
 namespace {
 
 void put(TemporaryFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
@@ -141,4 +141,4 @@ TEST(TemporaryFile, AFullDiskLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::temporary_file_test

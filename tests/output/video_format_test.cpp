@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-namespace tumble {
+namespace tumble::video_format_test {
 namespace {
 
 TEST(FrameRate, IsTheFractionMeant) {
@@ -86,4 +86,4 @@ TEST(VideoFormat, AGifLeavesFramesOutEvenly) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::video_format_test

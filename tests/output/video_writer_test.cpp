@@ -17,7 +17,7 @@
 #include <sstream>
 #include <thread>
 
-namespace tumble {
+namespace tumble::video_writer_test {
 namespace {
 
 constexpr Pixel crate{200, 133, 60};
@@ -449,4 +449,4 @@ TEST(VideoWriter, AFolderThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::video_writer_test

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace tumble {
+namespace tumble::yuv420_test {
 namespace {
 
 struct Ycc {
@@ -122,4 +122,4 @@ TEST(Yuv420, PartsMakeTheWhole) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::yuv420_test

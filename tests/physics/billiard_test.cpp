@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-using namespace tumble;
+namespace tumble::billiard_test {
 using namespace tumble::testing;
 
 namespace {
@@ -92,3 +92,5 @@ TEST(Galperin, ANearlyFlatBoxReboundsFlat) {
         EXPECT_LE(world.snapshot().bodies[1].angular_velocity.norm(), 100.0 * tilt) << tilt;
     }
 }
+
+}  // namespace tumble::billiard_test

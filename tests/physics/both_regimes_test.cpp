@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::both_regimes_test {
 using namespace tumble::testing;
 
 namespace {
@@ -271,3 +271,5 @@ TEST(BothRegimes, StruckPlankStopsAtTheFloor) {
             }
         }
 }
+
+}  // namespace tumble::both_regimes_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::compound_test {
 using namespace tumble::testing;
 
 namespace {
@@ -284,3 +284,5 @@ TEST(Compound, FurnitureIsTheSameForAnyThreads) {
         EXPECT_EQ(a[i].orientation.coeffs(), b[i].orientation.coeffs()) << i;
     }
 }
+
+}  // namespace tumble::compound_test

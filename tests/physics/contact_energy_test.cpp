@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_energy_test {
 using namespace tumble::testing;
 
 namespace {
@@ -335,3 +335,5 @@ TEST(ContactEnergy, NeedlesFallOverAndLie) {
         }
     }
 }
+
+}  // namespace tumble::contact_energy_test

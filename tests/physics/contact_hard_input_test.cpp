@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_hard_input_test {
 using namespace tumble::testing;
 
 namespace {
@@ -399,3 +399,5 @@ TEST(ContactHardInput, SmallBodiesDoNotSinkIntoEachOther) {
         EXPECT_NEAR(world.snapshot().bodies[1].center_of_mass.y(), 1e-3, 1e-4) << steps;
     }
 }
+
+}  // namespace tumble::contact_hard_input_test

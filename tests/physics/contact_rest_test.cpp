@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-using namespace tumble;
+namespace tumble::contact_rest_test {
 using namespace tumble::testing;
 
 namespace {
@@ -248,3 +248,5 @@ TEST(ContactRest, AStackOnASlopeDoesNotCreep) {
     for (std::size_t i = 1; i <= 3; ++i)
         EXPECT_LE((world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm(), 1e-5) << i;
 }
+
+}  // namespace tumble::contact_rest_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_sleep_test {
 using namespace tumble::testing;
 
 namespace {
@@ -269,3 +269,5 @@ TEST(Sleep, SleepersAreNotVisited) {
         for (const auto& pair : pairs) EXPECT_TRUE(pair.a == 1 || pair.b == 1);
     }
 }
+
+}  // namespace tumble::contact_sleep_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_towers_test {
 using namespace tumble::testing;
 
 namespace {
@@ -194,3 +194,5 @@ TEST(Towers, BallsRollOnADraggedPlate) {
         EXPECT_LE(squared / steps, 1e-12) << angle;
     }
 }
+
+}  // namespace tumble::contact_towers_test

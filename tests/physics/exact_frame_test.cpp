@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-using namespace tumble;
+namespace tumble::exact_frame_test {
 using namespace tumble::testing;
 
 namespace {
@@ -180,3 +180,5 @@ TEST(ExactFrame, MeasuresAreInTheWorldFrame) {
                   .norm(),
               1e-12);
 }
+
+}  // namespace tumble::exact_frame_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::exact_impact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -253,3 +253,5 @@ TEST(BernoullisThreeBalls, AreSymmetricUnderBothLaws) {
             expect_outcome(nearer, speed, law, outcome);
         }
 }
+
+}  // namespace tumble::exact_impact_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::exact_invariants_test {
 using namespace tumble::testing;
 
 namespace {
@@ -259,3 +259,5 @@ TEST(Threads, DoNotChangeAByte) {
         }
     }
 }
+
+}  // namespace tumble::exact_invariants_test

@@ -5,7 +5,7 @@
 
 #include <array>
 
-using namespace tumble;
+namespace tumble::force_span_test {
 using namespace tumble::testing;
 
 namespace {
@@ -258,3 +258,5 @@ TEST(ForceSpan, ActsOnceOnABodyThatIsReleasedInTheStep) {
                 << text(mode) << " " << start;
         }
 }
+
+}  // namespace tumble::force_span_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::free_flight_test {
 using namespace tumble::testing;
 
 namespace {
@@ -187,3 +187,5 @@ TEST(Wind, CarriesAFloatingBodyUpToItsOwnSpeed) {
     const double k = 1.2 * 1.5 / (2.0 * 0.5);
     EXPECT_NEAR(world.snapshot().bodies[0].velocity.x(), 3.0 - 3.0 / (1.0 + k * 3.0 * 2.0), 5e-3);
 }
+
+}  // namespace tumble::free_flight_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::friction_test {
 using namespace tumble::testing;
 
 namespace {
@@ -145,3 +145,5 @@ TEST(Friction, SlidingAndSpinningShareIt) {
             }
     }
 }
+
+}  // namespace tumble::friction_test

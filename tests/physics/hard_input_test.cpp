@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::hard_input_test {
 using namespace tumble::testing;
 
 namespace {
@@ -269,3 +269,5 @@ TEST(HardInput, ScenesOfAnyScale) {
                 << scales[k] << " " << i;
         }
 }
+
+}  // namespace tumble::hard_input_test

@@ -6,7 +6,7 @@
 
 #include <random>
 
-using namespace tumble;
+namespace tumble::impact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -254,3 +254,5 @@ TEST(TiltedBox, WhirlingElasticBouncesGainNothing) {
         EXPECT_NEAR(mean, energy, 1e-3 * energy) << trial;
     }
 }
+
+}  // namespace tumble::impact_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::inertia_test {
 using namespace tumble::testing;
 
 TEST(Inertia, BoxAndSphere) {
@@ -120,3 +120,5 @@ TEST(PrincipalInertia, EqualForSymmetricShapes) {
     const Vec3 icosahedral = principal_inertia(mesh_mass(icosahedron(0.7)->mesh, 700.0).inertia).moments;
     EXPECT_TRUE(icosahedral.x() == icosahedral.y() && icosahedral.y() == icosahedral.z());
 }
+
+}  // namespace tumble::inertia_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::integrators_test {
 using namespace tumble::testing;
 
 namespace {
@@ -127,3 +127,5 @@ TEST(BetterIntegrators, BounceAndComeToRest) {
         EXPECT_GE(m.contacts, 3);
     }
 }
+
+}  // namespace tumble::integrators_test

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-using namespace tumble;
+namespace tumble::kinematic_test {
 using namespace tumble::testing;
 
 namespace {
@@ -192,3 +192,5 @@ TEST(Kinematic, ARotatingPaddleHitsTheBodiesItMeets) {
             EXPECT_LT((ball.velocity - speed * normal).norm(), 0.13 * speed / steps) << restitution << ' ' << steps;
         }
 }
+
+}  // namespace tumble::kinematic_test

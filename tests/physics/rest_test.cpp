@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::rest_test {
 using namespace tumble::testing;
 
 namespace {
@@ -163,3 +163,5 @@ TEST(MeshShape, HoldsFallingBodies) {
         EXPECT_NEAR(s.bodies[3].center_of_mass.y(), 0.4 * 0.7946544723, 1e-3) << closed;  // inradius of the icosahedron
     }
 }
+
+}  // namespace tumble::rest_test

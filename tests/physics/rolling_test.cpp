@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-using namespace tumble;
+namespace tumble::rolling_test {
 using namespace tumble::testing;
 
 namespace {
@@ -184,3 +184,5 @@ TEST(Rocking, LosesNoMoreThanItsLandingsTake) {
         EXPECT_LT(energy, kept * kept + 0.01) << c.steps;
     }
 }
+
+}  // namespace tumble::rolling_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::seam_test {
 using namespace tumble::testing;
 
 namespace {
@@ -125,3 +125,5 @@ TEST(PredictedGap, ANearMissChangesNothing) {
                 << k << ' ' << steps;
     }
 }
+
+}  // namespace tumble::seam_test

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-using namespace tumble;
+namespace tumble::spin_friction_test {
 using namespace tumble::testing;
 
 namespace {
@@ -252,3 +252,5 @@ TEST(SpinFriction, AHeavyEndSlidesStraight) {
             << name(way);
     }
 }
+
+}  // namespace tumble::spin_friction_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::textbook_test {
 using namespace tumble::testing;
 
 namespace {
@@ -170,3 +170,5 @@ TEST(Textbook, ABallRollsOffABall) {
         EXPECT_NEAR(b.angular_velocity.z(), -v / small, 5e-4 * v / small) << exact;
     }
 }
+
+}  // namespace tumble::textbook_test

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::top_test {
 using namespace tumble::testing;
 
 namespace {
@@ -108,3 +108,5 @@ TEST(Top, RollsInACircle) {
         EXPECT_LT(course.lean, 1e-6) << steps;
     }
 }
+
+}  // namespace tumble::top_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::tunnelling_test {
 using namespace tumble::testing;
 
 namespace {
@@ -378,3 +378,5 @@ TEST(WavyGround, NoBodySinksThrough) {
                 }
             }
 }
+
+}  // namespace tumble::tunnelling_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::zeno_test {
 using namespace tumble::testing;
 
 namespace {
@@ -174,3 +174,5 @@ TEST(ManyContacts, BlockOfTouchingBallsThrownAtAWall) {
             }
         }
 }
+
+}  // namespace tumble::zeno_test

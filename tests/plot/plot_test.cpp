@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tumble {
+namespace tumble::plot_test {
 namespace {
 
 std::vector<std::string> labels(const Axis& axis) {
@@ -140,4 +140,4 @@ TEST(Figure, CursorMarksTheValueAtItsTime) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::plot_test

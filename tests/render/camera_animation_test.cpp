@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::camera_animation_test {
 namespace {
 
 constexpr double rounding = 1e-12;  // m, at the distances of these scenes
@@ -330,4 +330,4 @@ TEST(FogDistance, ATowerBehindMarblesIsVisible) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::camera_animation_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::caster_culling_test {
 namespace {
 
 // True if the ray from `point` to the sun passes through the box.
@@ -94,4 +94,4 @@ TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::caster_culling_test

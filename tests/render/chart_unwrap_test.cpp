@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-namespace tumble {
+namespace tumble::chart_unwrap_test {
 namespace {
 
 // A spiral ramp: each turn is 1 m above the one below, and all are connected.
@@ -126,4 +126,4 @@ TEST(OcclusionLightmap, BlocksHoldTheirTexels) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::chart_unwrap_test

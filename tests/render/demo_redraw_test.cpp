@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace tumble {
+namespace tumble::demo_redraw_test {
 namespace {
 
 class DemoRedraw : public testing::TestWithParam<const char*> {};
@@ -43,4 +43,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DemoRedraw,
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::demo_redraw_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::edge_test {
 namespace {
 
 constexpr std::uint8_t inner = 7, outer = 9;
@@ -319,4 +319,4 @@ TEST(AnalyticAntialiasing, ThinBoxesLookAsInALargerPicture) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::edge_test

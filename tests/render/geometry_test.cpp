@@ -21,7 +21,7 @@
 #include <cmath>
 #include <random>
 
-namespace tumble {
+namespace tumble::geometry_test {
 namespace {
 
 Vec3 position(const DrawMesh& mesh, std::uint32_t i) {
@@ -324,4 +324,4 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::geometry_test

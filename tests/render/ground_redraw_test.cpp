@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tumble {
+namespace tumble::ground_redraw_test {
 namespace {
 
 constexpr Color stone{176, 180, 184};
@@ -212,4 +212,4 @@ TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::ground_redraw_test

@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::many_bodies_test {
 namespace {
 
 /// Boxes of a pixel to some tens, in a cloud that hides most of its inside; balls and rings among them; a wall made of
@@ -204,4 +204,4 @@ TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::many_bodies_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::occlusion_culling_test {
 namespace {
 
 // True if the segment from the eye to `point` passes through the box well before its end.
@@ -135,4 +135,4 @@ TEST(OcclusionCulling, ABoxAroundTheEyeHidesNothing) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::occlusion_culling_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::partial_redraw_test {
 namespace {
 
 // Boxes, balls, a mesh, perhaps a wall, a cord, a low sun, a mirror.
@@ -253,4 +253,4 @@ TEST(DirtyTiles, MarksTheTilesOfAHull) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::partial_redraw_test

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <set>
 
-namespace tumble {
+namespace tumble::pictures_test {
 namespace {
 
 void write_if_wanted(const Image& image, const std::string& name) {
@@ -143,4 +143,4 @@ TEST(Pictures, Planes) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::pictures_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::pose_filter_test {
 namespace {
 
 // A box of 1 m, 8 m away from the eye.
@@ -100,4 +100,4 @@ TEST(PoseFilter, AnInvisibleBodyMovesItsCord) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::pose_filter_test

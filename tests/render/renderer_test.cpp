@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace tumble {
+namespace tumble::renderer_test {
 namespace {
 
 SceneDescription mixed_scene() {
@@ -230,4 +230,4 @@ TEST(Renderer, RefusesAPictureThatTheDriverCannotHold) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::renderer_test

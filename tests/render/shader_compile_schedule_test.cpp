@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-namespace tumble {
+namespace tumble::shader_compile_schedule_test {
 namespace {
 
 constexpr std::size_t parts = 12;
@@ -105,4 +105,4 @@ TEST_F(Turns, ThePictureIsTheSame) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::shader_compile_schedule_test

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string>
 
-namespace tumble {
+namespace tumble::shader_test {
 namespace {
 
 std::string failure(const RenderOptions& options) {
@@ -102,4 +102,4 @@ TEST(Shaders, FragmentsReadNoUniforms) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::shader_test

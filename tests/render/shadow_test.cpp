@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::shadow_test {
 namespace {
 
 SceneDescription shadow_scene(int width, int height, bool on_box) {
@@ -92,4 +92,4 @@ TEST(Shadows, EdgesInSmallImagesHaveExactCoverage) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::shadow_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::thin_geometry_test {
 namespace {
 
 constexpr double distance = 10.0;
@@ -122,4 +122,4 @@ TEST(ThinGeometry, PartialRedrawHasTheBytesOfAFullRedraw) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::thin_geometry_test

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace tumble {
+namespace tumble::arrays_test {
 namespace {
 
 std::vector<BodyDescription> bodies(const std::string& lines, int seed = 1,
@@ -200,4 +200,4 @@ TEST(Random, RotationsAreUniform) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::arrays_test

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-namespace tumble {
+namespace tumble::assimp_import_test {
 namespace {
 
 class AssimpImport : public MeshFiles {
@@ -82,4 +82,4 @@ TEST_F(AssimpImport, ACrashIsAnError) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::assimp_import_test

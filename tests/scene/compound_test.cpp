@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace tumble {
+namespace tumble::compound_test {
 namespace {
 
 class Compounds : public MeshFiles {
@@ -144,4 +144,4 @@ TEST_F(Compounds, MistakesAreErrorsAtTheirPlace) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::compound_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::default_camera_test {
 namespace {
 
 BodyDescription box_at(const Vec3& position, const Vec3& size, BodyType type = BodyType::dynamic) {
@@ -259,4 +259,4 @@ TEST(DefaultCamera, FillsInMissingKeys) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::default_camera_test

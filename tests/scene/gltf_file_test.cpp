@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-namespace tumble {
+namespace tumble::gltf_file_test {
 namespace {
 
 template <class Number>
@@ -326,4 +326,4 @@ TEST_F(Gltf, ChunksOfAGlbLieWithinTheFile) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::gltf_file_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace tumble {
+namespace tumble::hostile_mesh_test {
 namespace {
 
 class HostileMesh : public MeshFiles {
@@ -201,4 +201,4 @@ TEST_F(HostileMesh, FilesThatEndAnywhereOrHaveBytesChanged) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::hostile_mesh_test

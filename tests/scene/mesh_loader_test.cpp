@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tumble {
+namespace tumble::mesh_loader_test {
 namespace {
 
 class MeshLoader : public MeshFiles {};
@@ -307,4 +307,4 @@ TEST_F(MeshLoader, TheCacheSharesEqualScales) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::mesh_loader_test

@@ -3,7 +3,7 @@
 #include "mesh_files.h"
 #include "scene/load.h"
 
-namespace tumble {
+namespace tumble::mesh_use_test {
 namespace {
 
 class MeshUse : public MeshFiles {
@@ -84,4 +84,4 @@ TEST_F(MeshUse, ScaleIsLimited) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::mesh_use_test

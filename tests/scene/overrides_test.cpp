@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tumble {
+namespace tumble::overrides_test {
 namespace {
 
 SceneDescription parse(const std::string& text, const SceneOverrides& overrides) {
@@ -126,4 +126,4 @@ TEST(Overrides, TheFilesOwnMistakesStayMistakes) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::overrides_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace tumble {
+namespace tumble::polygon_test {
 namespace {
 
 /// The vector areas of the triangles, summed, and the sum of their sizes: equal if no triangle folds over.
@@ -121,4 +121,4 @@ TEST(Polygon, APolygonThatIsNotSimpleIsCutAsWell) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::polygon_test

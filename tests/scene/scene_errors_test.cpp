@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tumble {
+namespace tumble::scene_errors_test {
 namespace {
 
 using namespace std::string_literals;
@@ -348,4 +348,4 @@ TEST(SceneErrors, OfTheFile) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::scene_errors_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tumble {
+namespace tumble::scene_values_test {
 namespace {
 
 SceneDescription parse(const std::string& text) { return parse_scene(text, "scene.toml"); }
@@ -319,4 +319,4 @@ TEST(SceneValues, WholeTurnsAreNoRotation) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::scene_values_test

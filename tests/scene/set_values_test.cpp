@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tumble {
+namespace tumble::set_values_test {
 namespace {
 
 const std::string scene_text = R"(format = 1
@@ -84,4 +84,4 @@ TEST(SetValues, ErrorsNameTheOptionAndSuggest) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::set_values_test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::active_set_test {
 using namespace tumble::testing;
 
 namespace {
@@ -198,3 +198,5 @@ TEST(ActiveSet, ComponentsAreSolvedSeparately) {
     }
     expect_optimal(all, lambda, 1e-11);
 }
+
+}  // namespace tumble::active_set_test

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::advance_test {
 using namespace tumble::testing;
 
 namespace {
@@ -218,3 +218,5 @@ TEST(ForceField, KnowsWhenOnlyGravityActs) {
     scene.wind = WindDescription{};
     EXPECT_FALSE(ForceField(scene).constant(1, 0.0, 1.0));
 }
+
+}  // namespace tumble::advance_test

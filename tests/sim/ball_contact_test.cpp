@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-using namespace tumble;
+namespace tumble::ball_contact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -159,3 +159,5 @@ TEST(BallOnHalfSpace, RotatedAndMovedPlane) {
         EXPECT_LT((found[0].points[0].position - on - 0.5 * gap * normal).norm(), 1e-12);
     }
 }
+
+}  // namespace tumble::ball_contact_test

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-using namespace tumble;
+namespace tumble::block_cholesky_test {
 using namespace tumble::testing;
 
 namespace {
@@ -134,3 +134,5 @@ TEST(BlockCholesky, ReportsAMatrixThatIsNotPositive) {
     fill(blocks, h, 3, pairs);
     EXPECT_FALSE(blocks.factor());
 }
+
+}  // namespace tumble::block_cholesky_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-using namespace tumble;
+namespace tumble::body_blocks_test {
 using tumble::testing::Random;
 
 namespace {
@@ -81,3 +81,5 @@ TEST(BodyBlocks, NeighborsShareABlock) {
         EXPECT_EQ(high - low, double(block.size() - 1));
     }
 }
+
+}  // namespace tumble::body_blocks_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-using namespace tumble;
+namespace tumble::bounds_tree_test {
 using namespace tumble::testing;
 
 namespace {
@@ -87,3 +87,5 @@ TEST(BoundsTree, SameInputSameOrder) {
     BoundsTree(items).query(items[0], [&](std::uint32_t i) { second.push_back(i); });
     EXPECT_EQ(first, second);
 }
+
+}  // namespace tumble::bounds_tree_test

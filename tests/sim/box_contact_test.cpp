@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-using namespace tumble;
+namespace tumble::box_contact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -283,3 +283,5 @@ TEST(BoxOnBox, SameAsAnyPolyhedron) {
     EXPECT_GT(edges, trials(250));
     EXPECT_LE(others, touching / 1000);
 }
+
+}  // namespace tumble::box_contact_test

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-using namespace tumble;
+namespace tumble::broad_phase_test {
 using namespace tumble::testing;
 
 namespace {
@@ -177,3 +177,5 @@ TEST(NarrowPhase, ThreadsChangeNothing) {
         }
     }
 }
+
+}  // namespace tumble::broad_phase_test

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-using namespace tumble;
+namespace tumble::collide_pairs_test {
 using namespace tumble::testing;
 
 namespace {
@@ -167,3 +167,5 @@ TEST(Pairs, ImmovablePairsNeverTouch) {
             EXPECT_TRUE(collide_all(a.collider, {}, b.collider, {}, 1.0).empty());
         }
 }
+
+}  // namespace tumble::collide_pairs_test

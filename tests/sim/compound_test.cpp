@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace tumble;
+namespace tumble::compound_test {
 using namespace tumble::testing;
 
 namespace {
@@ -269,3 +269,5 @@ TEST(CompoundImpact, ABallFliesThroughALink) {
     // The inner edges at 0.3 from the axis, 0.1 towards the ball: where 0.31^2 = 0.3^2 + depth^2.
     EXPECT_NEAR(hit.time, (2.0 - 0.1 - std::sqrt(0.31 * 0.31 - 0.3 * 0.3)) / 4.0, 1e-12);
 }
+
+}  // namespace tumble::compound_test

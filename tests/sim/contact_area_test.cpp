@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::contact_area_test {
 using namespace tumble::testing;
 
 namespace {
@@ -121,3 +121,5 @@ TEST(ContactArea, SharesOfRandomPolygons) {
     }
     EXPECT_GT(exact, 450);
 }
+
+}  // namespace tumble::contact_area_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_islands_test {
 using namespace tumble::testing;
 
 namespace {
@@ -109,3 +109,5 @@ TEST(ContactIslands, NoContactsNoIslands) {
     islands.find({}, bodies, std::vector<std::uint32_t>{0, 1, 2});
     EXPECT_EQ(islands.size(), 0u);
 }
+
+}  // namespace tumble::contact_islands_test

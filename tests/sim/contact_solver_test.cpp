@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::contact_solver_test {
 using namespace tumble::testing;
 
 namespace {
@@ -209,3 +209,5 @@ TEST(ContactSolver, KeptDataEqualsDataFoundAnew) {
         EXPECT_EQ(found.island_changes(), 120u);
     }
 }
+
+}  // namespace tumble::contact_solver_test

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-using namespace tumble;
+namespace tumble::contact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -148,3 +148,5 @@ TEST(CarryOver, MatchesLikeBruteForce) {
         EXPECT_NEAR(carried, built, 1e-12);
     }
 }
+
+}  // namespace tumble::contact_test

@@ -10,7 +10,7 @@
 
 #include <functional>
 
-using namespace tumble;
+namespace tumble::convergence_test {
 using namespace tumble::testing;
 
 namespace {
@@ -238,3 +238,5 @@ TEST(Convergence, PrincipalAxesRotatedInTheBody) {
         EXPECT_LT((a.orientation.coeffs() - (b.orientation * axes).coeffs()).norm(), 1e-13);
     }
 }
+
+}  // namespace tumble::convergence_test

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-using namespace tumble;
+namespace tumble::dynamic_tree_test {
 using namespace tumble::testing;
 
 namespace {
@@ -79,3 +79,5 @@ TEST(EventTime, KeepsItsDigitsFarFromTheStart) {
     EXPECT_NEAR(clock.between(a, b), 1.0 / 960.0 + 2e-4, 1e-18);
     EXPECT_LT(a, b);
 }
+
+}  // namespace tumble::dynamic_tree_test

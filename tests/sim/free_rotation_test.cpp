@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::free_rotation_test {
 using namespace tumble::testing;
 
 namespace {
@@ -337,3 +337,5 @@ TEST(FreeRotation, QuaternionsDoNotJump) {
         }
     }
 }
+
+}  // namespace tumble::free_rotation_test

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::gyroscopic_correction_test {
 using namespace tumble::testing;
 
 namespace {
@@ -134,3 +134,5 @@ TEST(MeanAngularVelocity, BricksThatPassKeepTheirSpin) {
     EXPECT_NEAR(now.kinetic / start.kinetic, 1.0, 1e-6);
     EXPECT_LT((now.angular_momentum - start.angular_momentum).norm(), 1e-11 * start.angular_momentum.norm());
 }
+
+}  // namespace tumble::gyroscopic_correction_test

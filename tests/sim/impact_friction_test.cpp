@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::impact_friction_test {
 using namespace tumble::testing;
 
 namespace {
@@ -151,3 +151,5 @@ TEST(Kinematic, BeltCarriesTheBallAlong) {
     EXPECT_NEAR(s.bodies[1].velocity.x(), 2.0 * 2.0 / 7.0, 1e-14);
     EXPECT_NEAR(s.bodies[1].point_velocity(Vec3(0, -0.5, 0)).x(), 2.0, 1e-14);
 }
+
+}  // namespace tumble::impact_friction_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::impact_laws_test {
 using namespace tumble::testing;
 
 namespace {
@@ -391,3 +391,5 @@ TEST(Extremes, SpeedsAndTouching) {
     EXPECT_EQ(still.resolve(ImpactLaw::propagating), 0);
     EXPECT_EQ(still.kinetic(), 0.0);
 }
+
+}  // namespace tumble::impact_laws_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-using namespace tumble;
+namespace tumble::impacts_test {
 using namespace tumble::testing;
 
 namespace {
@@ -198,3 +198,5 @@ TEST(Impacts, BetweenClosingWallsNothingExplodes) {
         EXPECT_LT(c.bodies[1].velocity.norm(), 40.0) << e;
     }
 }
+
+}  // namespace tumble::impacts_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::integrator_test {
 using namespace tumble::testing;
 
 namespace {
@@ -102,3 +102,5 @@ TEST(AdvanceMomenta, AreForceAndTorqueTimesStep) {
     EXPECT_EQ(body.momentum, Vec3(3.5, 2, 3));
     EXPECT_EQ(body.angular_momentum, Vec3(-1, 5, 1));
 }
+
+}  // namespace tumble::integrator_test

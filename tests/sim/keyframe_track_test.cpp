@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-using namespace tumble;
+namespace tumble::keyframe_track_test {
 using namespace tumble::testing;
 
 namespace {
@@ -194,3 +194,5 @@ TEST(RotationVector, ThereAndBack) {
     EXPECT_TRUE(rotation_vector(Quat::Identity()).isZero(0.0));
     EXPECT_NEAR(rotation_vector(Quat(0.0, 0.0, 1.0, 0.0)).norm(), pi, 1e-15);
 }
+
+}  // namespace tumble::keyframe_track_test

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <optional>
 
-using namespace tumble;
+namespace tumble::landing_test {
 using namespace tumble::testing;
 
 namespace {
@@ -215,3 +215,5 @@ TEST(ShortHop, IsNoHigherThanTheRoundingOfGaps) {
         EXPECT_FALSE(hop_is_shorter(c, floor, box, 0.0, 1.0));
     }
 }
+
+}  // namespace tumble::landing_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::load_estimate_test {
 using namespace tumble::testing;
 
 namespace {
@@ -74,3 +74,5 @@ TEST(LoadEstimate, FreeBodiesCarryNothing) {
     EXPECT_EQ(load.ratio, 1.0);
     EXPECT_EQ(load.levels, 1);
 }
+
+}  // namespace tumble::load_estimate_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace tumble;
+namespace tumble::manifold_growth_test {
 
 namespace {
 
@@ -164,3 +164,5 @@ TEST(Growth, OtherFacesStartAnew) {
     for (int i = 0; i < 4; ++i)
         EXPECT_EQ(now.first.points[std::size_t(i)].feature, before.points[std::size_t(i)].feature);
 }
+
+}  // namespace tumble::manifold_growth_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::manifold_test {
 using namespace tumble::testing;
 
 namespace {
@@ -112,3 +112,5 @@ TEST(Manifold, RemovedPointsAreNoCurve) {
     m.geometry = CurvedGap{1.0, Vec3::Zero(), a.position, b.position};
     EXPECT_GT(predicted_gap(m, 0, {a, b, still, passes}, h).gap, gap);
 }
+
+}  // namespace tumble::manifold_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-using namespace tumble;
+namespace tumble::mesh_ball_test {
 using namespace tumble::testing;
 
 namespace {
@@ -191,3 +191,5 @@ TEST(BallOnSurface, LargeMeshStaysQuick) {
         EXPECT_NEAR(deepest(found), -0.001, 1e-9);
     }
 }
+
+}  // namespace tumble::mesh_ball_test

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-using namespace tumble;
+namespace tumble::mesh_polyhedron_test {
 using namespace tumble::testing;
 
 namespace {
@@ -265,3 +265,5 @@ TEST(PolyhedronOnSurface, WavyGroundPushesOffOneSide) {
         }
     }
 }
+
+}  // namespace tumble::mesh_polyhedron_test

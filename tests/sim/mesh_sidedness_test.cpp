@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
-using namespace tumble;
+namespace tumble::mesh_sidedness_test {
 using namespace tumble::testing;
 
 namespace {
@@ -131,3 +131,5 @@ TEST(MeshSidedness, BeyondTheBorderEachPlaneDecides) {
     const Vec3 point(1.3, 1.2, 0.0);
     for (const auto& [t, behind] : sides(*s, point, 3.0)) EXPECT_EQ(behind, behind_plane(*s, t, point));
 }
+
+}  // namespace tumble::mesh_sidedness_test

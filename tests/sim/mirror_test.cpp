@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::mirror_test {
 using namespace tumble::testing;
 
 namespace {
@@ -114,3 +114,5 @@ TEST(Mirror, BoxesThrownAtTheFloor) {
         EXPECT_LT(asymmetry(scene, 15), 1e-4) << trial;
     }
 }
+
+}  // namespace tumble::mirror_test

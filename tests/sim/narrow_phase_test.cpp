@@ -12,7 +12,7 @@
 #include <numbers>
 #include <tuple>
 
-using namespace tumble;
+namespace tumble::narrow_phase_test {
 using namespace tumble::testing;
 
 namespace {
@@ -342,3 +342,5 @@ TEST(BroadPhase, SleepersAreInNoList) {
     bodies[7].asleep = true;
     EXPECT_TRUE(broad_phase.update(bodies, h).empty());
 }
+
+}  // namespace tumble::narrow_phase_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::penetration_test {
 using namespace tumble::testing;
 
 namespace {
@@ -192,3 +192,5 @@ TEST(Penetration, GapsInsideTheMarginAreFound) {
         }
     }
 }
+
+}  // namespace tumble::penetration_test

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-using namespace tumble;
+namespace tumble::polyhedron_test {
 using namespace tumble::testing;
 
 namespace {
@@ -211,3 +211,5 @@ TEST(Hull, SlenderShapes) {
         expect_sound(p, size.maxCoeff());
     }
 }
+
+}  // namespace tumble::polyhedron_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::sleep_test {
 using namespace tumble::testing;
 
 namespace {
@@ -192,3 +192,5 @@ TEST(SleepMonitor, WakingPropagates) {
     yard.observe();
     EXPECT_EQ(yard.asleep(), 3);
 }
+
+}  // namespace tumble::sleep_test

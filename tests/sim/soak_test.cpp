@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace tumble;
+namespace tumble::soak_test {
 using namespace tumble::testing;
 
 namespace {
@@ -159,3 +159,5 @@ TEST(Soak, OverlapsAtTheStartDissolve) {
         EXPECT_LT(world.measure().max_penetration, 2e-3) << trial;
     }
 }
+
+}  // namespace tumble::soak_test

@@ -3,13 +3,15 @@
 #include "sim/contact/model/settings.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/random_shapes.h"
+#include "sim/soft_kernels.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::soft_kernel_test {
 using namespace tumble::soft;
+using tumble::testing::kernels;
 using tumble::testing::Random;
 using tumble::testing::trials;
 
@@ -114,15 +116,6 @@ private:
     std::vector<std::uint16_t> moved_;
     std::vector<std::uint8_t> points_;
 };
-
-std::vector<const Kernel*> kernels() {
-    std::vector<const Kernel*> all = {&sse2_kernel};
-    if (__builtin_cpu_supports("avx2")) all.push_back(&avx2_kernel);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512bw"))
-        all.push_back(&avx512_kernel);
-    return all;
-}
 
 void random_mass(Random& random, float& inverse, float* inertia) {
     inverse = float(random(0.1, 2.0));
@@ -496,3 +489,5 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
             }
         }
 }
+
+}  // namespace tumble::soft_kernel_test

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-using namespace tumble;
+namespace tumble::spatial_sort_test {
 using namespace tumble::testing;
 
 namespace {
@@ -71,3 +71,5 @@ TEST(SpatialSort, SnapshotsReportsAndForcesUseTheSceneOrder) {
 }
 
 }  // namespace
+
+}  // namespace tumble::spatial_sort_test

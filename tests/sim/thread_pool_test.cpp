@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-using namespace tumble;
+namespace tumble::thread_pool_test {
 
 TEST(ThreadPool, EveryItemExactlyOnce) {
     for (const int threads : {1, 2, 3, 4, 8}) {
@@ -97,3 +97,5 @@ TEST(ThreadPool, BodiesStayWithTheirThreads) {
         }
     }
 }
+
+}  // namespace tumble::thread_pool_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-using namespace tumble;
+namespace tumble::time_of_impact_test {
 using namespace tumble::testing;
 
 namespace {
@@ -313,3 +313,5 @@ TEST(TimeOfImpact, OneSearchDoesNotAffectTheNext) {
         search.find(box.traveller(), fast.traveller(), 1.0);
     }
 }
+
+}  // namespace tumble::time_of_impact_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble {
+namespace tumble::aov_motion_test {
 namespace {
 
 constexpr double tolerance = 2e-5;  // pixels: depth and the result have single precision
@@ -160,4 +160,4 @@ TEST(AovChanges, TellsFramesThatAreTheSame) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::aov_motion_test

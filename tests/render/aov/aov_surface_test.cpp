@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace tumble {
+namespace tumble::aov_surface_test {
 namespace {
 
 constexpr double float_rounding = 6e-8;  // relative, of one rounding to float
@@ -283,4 +283,4 @@ TEST(AovSurface, ArraysThatAreNotRequestedStayEmpty) {
 }
 
 }  // namespace
-}  // namespace tumble
+}  // namespace tumble::aov_surface_test
