@@ -38,6 +38,6 @@ inline constexpr double fast_overlap = 0.05;
 inline constexpr double fast_deeper = 0.01;
 
 /// Rounds in which bodies that stop each other are checked again.
-inline constexpr int motion_limit_rounds = 8;
+inline constexpr int ccd_rounds = 8;
 
 }  // namespace tumble::tuning

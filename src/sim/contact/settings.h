@@ -18,7 +18,7 @@ inline constexpr int soft_load_age = 8;
 
 /// Manifolds of small islands that are solved together through all substeps: their rows (360 bytes each) stay in the second-level cache of a
 /// core.
-inline constexpr std::size_t soft_part_manifolds = 256;
+inline constexpr std::size_t soft_batch_manifolds = 256;
 
 /// Islands with a body that turns by more than this in a step, rad, are solved softly, in substeps. Free islands are excluded: the direct solver
 /// keeps their angular momentum.

@@ -11,7 +11,7 @@ inline constexpr double speculative = 0.02;
 
 /// A contact point without a partner of the same features takes the impulse of an old point up to this distance away (share of the smaller
 /// radius): corners that change places on a rocking box carry the same load.
-inline constexpr double carry_reach = 0.1;
+inline constexpr double matching_distance = 0.1;
 
 /// Two bodies whose relative motion is below this share of the smaller radius keep their manifold. Its points may lie this far from those
 /// of a new search; their separations are exact in each step.

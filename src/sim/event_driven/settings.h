@@ -13,13 +13,13 @@ inline constexpr double impact_harmless = 1e-7;
 /// closed-form time; its remaining speed is below g times this.
 inline constexpr double shortest_hop = 1e-7;
 
-/// Impacts at intervals below this, s, are in a row. After `impacts_before_landing` of them a body is coming to rest: the shortest hop that is
+/// Impacts at intervals below this, s, are in a row. After `impacts_before_zeno_growth` of them a body is coming to rest: the shortest hop that is
 /// followed doubles with every eight impacts. e = 0.9 needs about 90 from a millisecond down.
-inline constexpr double in_a_row = 1e-3;
-inline constexpr int impacts_before_landing = 128;
+inline constexpr double impact_row_interval = 1e-3;
+inline constexpr int impacts_before_zeno_growth = 128;
 
 /// Impacts in a row from which on hops of invisible size count as contact.
-inline constexpr int impacts_before_stutter = 16;
+inline constexpr int impacts_before_zeno_check = 16;
 
 /// Impacts of a resting body with others within a step at their own times, once it was hit. A body that turns about a contact closes it
 /// repeatedly, by less each time.
@@ -32,11 +32,11 @@ inline constexpr std::int64_t impacts_in_frame = 20000;
 inline constexpr double pressing_rounding = 1e-12;
 
 /// The box of a ballistic body in the neighbor search covers a displacement between these bounds, radii,
-inline constexpr double shortest_box_way = 0.75;
-inline constexpr double longest_box_way = 40.0;
+inline constexpr double shortest_box_displacement = 0.75;
+inline constexpr double longest_box_displacement = 40.0;
 
 /// according to the number of neighbors that it then has,
-inline constexpr std::size_t few_neighbours = 6;
+inline constexpr std::size_t few_neighbors = 6;
 
 /// and this margin, radii. Measured on 216 balls, crowded and scattered (bench_accuracy "crowds").
 inline constexpr double box_margin = 0.3;

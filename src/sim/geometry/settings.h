@@ -10,7 +10,7 @@ inline constexpr double touch = 1e-6;
 inline constexpr double parallel_edges = 1e-8;
 
 /// Turn of a body in a step, rad, above which several corners of a cylinder of 200 corners may reach the other surface in the step.
-inline constexpr double swing_turn = 0.03;
+inline constexpr double fast_rotation_turn = 0.03;
 
 /// The same for a cylinder of 64 corners. Above it, the points of a body on a plane are those that it rolls on.
 inline constexpr double rolling_turn = 0.1;

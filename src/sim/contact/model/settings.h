@@ -28,7 +28,7 @@ inline constexpr double push_limit = 5.0;
 
 /// A curve that passes an edge may overlap it by this share of the smaller radius: tiles may have sunk into their support by as much. A larger
 /// overlap is a hit.
-inline constexpr double passing_overlap = 2e-3;
+inline constexpr double predicted_gap_overlap = 2e-3;
 
 /// A body is at rest if its surface moved, in one of these spans (s), by less than constant acceleration from rest at `sleep_acceleration`
 /// (radii/s^2) gives: 3e-6 radii in the shortest span, 2e-4 in the longest. A block on a slope that is a thousandth steeper than the angle of
@@ -38,12 +38,12 @@ inline constexpr double sleep_acceleration = 2.5e-5;
 inline constexpr double sleep_drift(double span) { return 0.5 * sleep_acceleration * span * span; }  // radii
 
 /// Bodies with smaller accelerations are told by their velocity, which is sampled at this interval (s; at least one step).
-inline constexpr double sleep_look = sleep_times.front() / 16.0;
+inline constexpr double sleep_sample_interval = sleep_times.front() / 16.0;
 
 /// A body accelerates steadily if in this number of samples in a row its velocity grew, or changed in the same direction by at least the share
 /// `sleep_steady` of the change before. A body that settles within a second changes by less each time. Two samples would do for heaps: the
 /// velocity of a trembling body turns around sooner.
-inline constexpr int sleep_looks = 4;
+inline constexpr int sleep_samples = 4;
 inline constexpr double sleep_steady = 0.97;
 
 /// Changes of velocity between two samples below this share of g h are rounding of the contact solver.
